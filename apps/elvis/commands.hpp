@@ -1,0 +1,12 @@
+/**
+ * @file commands.hpp
+ * The subcommands of `elvis`. Each function adds its command with options and the callback that runs it. Callbacks report failure by
+ * throwing elvis::Error; main turns it into one line on stderr and the exit status.
+ */
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace elvis::commands {
+
+} // namespace elvis::commands

@@ -1,0 +1,81 @@
+/**
+ * @file plugin.hpp
+ * A loaded plugin library, and the registry of all that were found.
+ */
+#pragma once
+
+#include <elvis/converter.h>
+#include <elvis/plugin.h>
+#include <elvis/runtime.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+/** A loaded library with a valid descriptor. Unloaded when the last shared_ptr (registry, volumes, sources) goes. */
+class Plugin {
+public:
+    /** Loads and checks. Throws Error with the reason for refusal. */
+    static std::shared_ptr<const Plugin> load(const std::filesystem::path& library);
+    ~Plugin();
+    Plugin(const Plugin&) = delete;
+    Plugin& operator=(const Plugin&) = delete;
+
+    const std::filesystem::path& library() const;
+    const std::string& id() const;
+    const std::string& name() const;
+    const std::string& version() const;
+    const std::string& vendor() const;
+    const std::string& description() const;
+    std::uint32_t abi_version() const;
+
+    /**
+     * The interface tables, or null. They are copies of the size this host knows, with members beyond the plugin's own
+     * struct_size set to null; required functions are known to be there.
+     */
+    const elvis_runtime* runtime() const;
+    const elvis_converter* converter() const;
+
+private:
+    Plugin();
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+/** A library that was found and not accepted. */
+struct RefusedPlugin {
+    std::filesystem::path library;
+    std::string reason;
+};
+
+/**
+ * Finds plugins on the search path: the folders of $ELVIS_PLUGIN_PATH (separated by ':'), the user's folder
+ * ($XDG_DATA_HOME or ~/.local/share)/elvis/plugins, then lib/elvis/plugins of the installation (or build) that the program
+ * runs from. The first plugin with an id wins; later ones are refused as duplicates.
+ */
+class PluginRegistry {
+public:
+    /** Searches and loads. Never throws because of a plugin. */
+    PluginRegistry();
+
+    const std::vector<std::shared_ptr<const Plugin>>& plugins() const { return m_plugins; }
+    const std::vector<RefusedPlugin>& refused() const { return m_refused; }
+    static std::vector<std::filesystem::path> search_path();
+
+    /** The plugin with this id; Error that lists the ids if there is none. */
+    std::shared_ptr<const Plugin> find(const std::string& id) const;
+
+    /** The runtime plugin most sure of the file, or an Error that says what each one answered. Missing file: Error. */
+    std::shared_ptr<const Plugin> runtime_for(const std::string& path) const;
+    /** The conversion plugin most sure of the file. */
+    std::shared_ptr<const Plugin> converter_for(const std::string& path) const;
+
+private:
+    std::vector<std::shared_ptr<const Plugin>> m_plugins;
+    std::vector<RefusedPlugin> m_refused;
+};
+
+} // namespace elvis

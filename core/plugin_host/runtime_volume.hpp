@@ -1,0 +1,132 @@
+/**
+ * @file runtime_volume.hpp
+ * A volume opened by a runtime plugin, seen from the core: values and exceptions instead of tables and result codes.
+ *
+ * Everything a plugin returns is checked here once (sizes, names, finite bounds, sums of counts), so that no other part of the
+ * core needs to distrust it. A violation is an Error that names plugin and function.
+ */
+#pragma once
+
+#include <core/base/cancel.hpp>
+#include <elvis/runtime.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elvis {
+
+class Plugin;
+
+struct ClassInfo {
+    elvis_shape shape = ELVIS_SHAPE_HEXAHEDRON;
+    std::uint64_t n_elements = 0;
+    /** Number of the class's first element in the whole volume. */
+    std::uint64_t first_element = 0;
+    std::uint32_t geometry_order[3]{};
+    bool is_affine = false;
+};
+
+struct FieldInfo {
+    std::string name;
+    std::string unit;
+    std::uint32_t n_components = 1;
+    elvis_continuity continuity = ELVIS_CONTINUITY_UNKNOWN;
+    elvis_transform transform = ELVIS_TRANSFORM_NONE;
+    double max_jump = 0; ///< NaN if unknown
+};
+
+struct ClassFieldInfo {
+    /** -1 where the field is not polynomial. */
+    std::int32_t order[3]{};
+    std::vector<std::pair<std::string, std::int64_t>> constants;
+};
+
+struct BufferInfo {
+    std::string name;
+    elvis_buffer_kind kind = ELVIS_BUFFER_REAL;
+    std::uint32_t element_class = ELVIS_ALL_CLASSES;
+    std::uint32_t depends = 0;
+    std::uint64_t n_records = 0;
+    std::uint32_t record_size = 0;
+};
+
+struct SnippetText {
+    std::string name;
+    std::string text;
+};
+
+struct Snippet {
+    std::uint32_t capabilities = 0;
+    std::string prefix;
+    std::vector<SnippetText> sources;
+};
+
+struct FieldRange {
+    double lower = 0;
+    double upper = 0;
+};
+
+class RuntimeVolume {
+public:
+    /** Opens with a given plugin. `options`: JSON text, or empty. */
+    RuntimeVolume(std::shared_ptr<const Plugin> plugin, const std::string& path, const std::string& options = {},
+                  const TaskControl* control = nullptr);
+    ~RuntimeVolume();
+    RuntimeVolume(RuntimeVolume&&) noexcept;
+    RuntimeVolume& operator=(RuntimeVolume&&) noexcept;
+
+    const std::string& path() const;
+    const Plugin& plugin() const;
+
+    std::uint32_t dimension() const;
+    std::uint64_t n_elements() const;
+    std::uint64_t n_faces() const;
+    const std::vector<ClassInfo>& classes() const;
+    const std::vector<FieldInfo>& fields() const;
+    const std::vector<double>& times() const;
+    const std::vector<std::string>& boundary_groups() const;
+    const std::vector<std::pair<std::string, std::string>>& notes() const;
+    std::uint32_t n_buffers() const;
+
+    /** Index of a field by name; an Error that lists the fields if there is none. */
+    std::uint32_t field_index(const std::string& name) const;
+
+    ClassFieldInfo class_field(std::uint32_t element_class, std::uint32_t field) const;
+    BufferInfo buffer(std::uint32_t buffer, std::uint32_t field) const;
+    Snippet snippet(std::uint32_t element_class) const;
+
+    /** Six numbers an element; returns the certainty. Checked: finite, min <= max. */
+    elvis_certainty bounds(std::uint64_t first, std::uint64_t count, std::span<double> out) const;
+    /** Numbers under which people know the elements. */
+    void element_numbers(std::uint64_t first, std::uint64_t count, std::span<std::int64_t> out) const;
+    /** True if element_numbers is the identity because the plugin gives none. */
+    bool numbers_are_positions() const;
+    void faces(std::uint64_t first, std::uint64_t count, std::span<elvis_face> out) const;
+
+    bool has_field_ranges() const;
+    /** n_components ranges an element. Needs has_field_ranges(). */
+    elvis_certainty field_ranges(std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
+                                 std::span<FieldRange> out) const;
+
+    /** See elvis_runtime.fill_buffer; `destination` holds count * record_size doubles or uint32_t. */
+    void fill_buffer(const elvis_fill_request& request, void* destination) const;
+
+    /** Whether both CPU evaluations are there. */
+    bool has_evaluation() const;
+    /** Shapes as in elvis_runtime.evaluate_mapping; an empty span means "not wanted". */
+    void evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions,
+                          std::span<double> jacobians) const;
+    void evaluate_field(std::uint32_t field, std::uint32_t time_step, std::uint64_t element, std::span<const double> xi,
+                        std::span<double> values, std::span<double> gradients) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace elvis

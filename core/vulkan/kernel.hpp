@@ -1,0 +1,53 @@
+/**
+ * @file kernel.hpp
+ * A compute pipeline with its bindings.
+ */
+#pragma once
+
+#include <core/vulkan/buffer.hpp>
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace elvis {
+
+/** What stands at one binding of set 0: exactly one descriptor each. */
+enum class BindingType { storage_buffer, uniform_buffer, texel_buffer };
+
+struct BindingLayout {
+    std::uint32_t binding = 0;
+    BindingType type = BindingType::storage_buffer;
+};
+
+/** One descriptor: a whole buffer, or one part of a record buffer. */
+struct BoundBuffer {
+    std::uint32_t binding = 0;
+    const Buffer* buffer = nullptr;
+    const RecordBuffer* records = nullptr;
+    std::uint32_t part = 0;
+};
+
+class Kernel {
+public:
+    /** `spirv` from the compiler (core/shader/compiler.hpp). Uses the device's pipeline cache, which is kept on disk. */
+    Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::vector<BindingLayout> layout,
+           std::uint32_t push_constant_bytes, std::string name);
+    ~Kernel();
+    Kernel(Kernel&&) noexcept;
+    Kernel& operator=(Kernel&&) noexcept;
+
+    /**
+     * Runs with these bindings and push constants, and waits. Every binding of the layout must be given.
+     * Groups: number of work groups in x, y, z; zero in any is nothing to do.
+     */
+    void dispatch(std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
+                  std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace elvis

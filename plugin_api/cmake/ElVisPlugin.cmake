@@ -1,0 +1,41 @@
+# Functions for plugin projects.
+
+# elvis_embed_text(TARGET HEADER NAMESPACE FILE...)
+#
+# Generates a C++ header that holds text files as string literals and adds its folder to the target's include path:
+#   namespace NAMESPACE { inline constexpr struct { const char* name; const char* text; } files[] = {...}; }
+# `name` is the file's path relative to the current source folder.
+function(elvis_embed_text target header namespace)
+  set(output "${CMAKE_CURRENT_BINARY_DIR}/embedded/${header}")
+  set(inputs "")
+  foreach(file ${ARGN})
+    list(APPEND inputs "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+  endforeach()
+  string(REPLACE ";" "|" names "${ARGN}")
+  add_custom_command(
+    OUTPUT "${output}"
+    COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${output}" "-DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}" "-DNAMES=${names}"
+            "-DNAMESPACE=${namespace}" -P "${ELVIS_EMBED_SCRIPT}"
+    DEPENDS ${inputs} "${ELVIS_EMBED_SCRIPT}"
+    VERBATIM)
+  target_sources(${target} PRIVATE "${output}")
+  target_include_directories(${target} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/embedded")
+endfunction()
+set(ELVIS_EMBED_SCRIPT "${CMAKE_CURRENT_LIST_DIR}/embed_text.cmake" CACHE INTERNAL "Script behind elvis_embed_text")
+
+# elvis_add_plugin(NAME SOURCES ... LINK ...)
+#
+# A plugin: a shared module that exports one symbol. Inside ElVis it is built and installed where the program looks for it;
+# elsewhere set ELVIS_PLUGIN_OUTPUT_DIRECTORY or point $ELVIS_PLUGIN_PATH at its folder.
+function(elvis_add_plugin name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} MODULE ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES PREFIX "" C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden)
+  target_link_libraries(${name} PRIVATE ElVis::plugin_api ${ARG_LINK})
+  if(ELVIS_PLUGIN_OUTPUT_DIRECTORY)
+    set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${ELVIS_PLUGIN_OUTPUT_DIRECTORY}")
+  endif()
+  if(ELVIS_PLUGIN_INSTALL_DIRECTORY)
+    install(TARGETS ${name} LIBRARY DESTINATION "${ELVIS_PLUGIN_INSTALL_DIRECTORY}")
+  endif()
+endfunction()

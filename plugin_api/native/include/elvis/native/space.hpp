@@ -1,0 +1,95 @@
+/**
+ * @file space.hpp
+ * Polynomial spaces of the native volume: one-dimensional modal functions in collapsed coordinates, multiplied.
+ *
+ * Sources: G. E. Karniadakis, S. J. Sherwin, "Spectral/hp Element Methods for CFD", ch. 3; the mode tables of Nektar++.
+ * The specification with every formula is format.md beside this folder.
+ */
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace elvis::native {
+
+/** Same numbers as elvis_shape in elvis/element.h. */
+enum class Shape : std::uint32_t { hexahedron, prism, pyramid, tetrahedron, quadrilateral, triangle };
+
+/** Family of modes. */
+enum class Basis : std::uint32_t {
+    modified,       ///< Modified_A, _B, _C, ModifiedPyr_C: vertex, edge, face and interior modes
+    orthogonal,     ///< Ortho_A, _B, _C, OrthoPyr_C
+    gll_lagrange,   ///< Lagrange on Gauss-Lobatto-Legendre points; hexahedron and quadrilateral only
+    gauss_lagrange, ///< Lagrange on Gauss-Legendre points; hexahedron and quadrilateral only
+    tensor          ///< pyramid only: A_p(eta1) A_q(eta2) A_r(eta3), independent p, q, r, A = Modified_A
+};
+
+/** Point in reference or collapsed coordinates; the third is unused in two dimensions. */
+using Point = std::array<double, 3>;
+
+/** A space of functions on a reference shape. Order 0 in every direction (any basis) is the constant 1. */
+struct Space {
+    Shape shape = Shape::hexahedron;
+    Basis basis = Basis::modified;
+    /** Polynomial order in each direction, 0..max_order; order[2] is 0 in two dimensions. Modes a direction: order + 1. */
+    std::array<std::uint32_t, 3> order{};
+
+    friend bool operator==(const Space&, const Space&) = default;
+};
+
+inline constexpr std::uint32_t max_order = 30;
+
+int dimension(Shape shape);
+int n_corners(Shape shape);
+int n_faces(Shape shape);
+/** Corners of a local face in the order of elvis/element.h; 3 or 4 of them (2 in two dimensions). */
+std::span<const int> face_corners(Shape shape, int local_face);
+/** Reference coordinates of a corner. */
+Point corner(Shape shape, int index);
+std::string_view name(Shape shape);
+std::string_view name(Basis basis);
+
+/** Throws std::invalid_argument with the reason if the space does not exist (basis and shape, orders). */
+void check(const Space& space);
+
+/** Number of modes, hence of coefficients. */
+std::size_t n_modes(const Space& space);
+
+/** Collapsed coordinates eta of xi; at the singular point or edge, eta = -1 where undetermined. */
+Point collapse(Shape shape, const Point& xi);
+/** Inverse of collapse. */
+Point expand(Shape shape, const Point& eta);
+/** Whether xi lies in the closed reference shape, enlarged by `tolerance` in every face. */
+bool is_inside(Shape shape, const Point& xi, double tolerance = 0);
+
+/** Values of all modes at xi, in the order of coefficients. values.size() == n_modes(space). */
+void evaluate_modes(const Space& space, const Point& xi, std::span<double> values);
+
+/** Values and gradients with respect to xi: gradients[3*mode + direction]; finite at collapsed vertices for smooth modes. */
+void evaluate_modes(const Space& space, const Point& xi, std::span<double> values, std::span<double> gradients);
+
+/** Sum of coefficients times modes. */
+double evaluate(const Space& space, std::span<const double> coefficients, const Point& xi);
+
+/** The same with the gradient in xi. */
+double evaluate(const Space& space, std::span<const double> coefficients, const Point& xi, Point& gradient);
+
+struct Range {
+    double lower = 0;
+    double upper = 0;
+};
+
+/**
+ * Certified range over the closed reference shape: no value lies outside, rounding included. From Bernstein coefficients of the
+ * polynomial in collapsed coordinates, where every space of this page is a tensor product. NaN coefficients give [-inf, inf].
+ */
+Range range(const Space& space, std::span<const double> coefficients);
+
+/** Gauss-Legendre points and weights on [-1, 1], ascending; n >= 1. */
+void gauss_legendre(std::span<double> points, std::span<double> weights);
+/** Gauss-Lobatto-Legendre points, ascending, n >= 2. */
+void gauss_lobatto_legendre(std::span<double> points);
+
+} // namespace elvis::native
