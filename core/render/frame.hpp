@@ -1,0 +1,106 @@
+/**
+ * @file frame.hpp
+ * What the renderer is asked for, with everything decided (no optional left), and what it gives back.
+ */
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+using Vector3 = std::array<double, 3>;
+
+/** See the camera formulas in the scene file's documentation. Angles in degrees, lengths in world units. */
+struct Camera {
+    bool orthographic = false;
+    Vector3 eye{};
+    Vector3 look_at{};
+    /** Not parallel to look_at - eye. */
+    Vector3 up{};
+    /** Full vertical angle, perspective only; in (0, 180). */
+    double field_of_view = 60;
+    /** Height of the picture in world units, orthographic only; > 0. */
+    double height = 1;
+    /** In pixels: added to column and row. */
+    std::array<double, 2> image_shift{};
+};
+
+/** Display values in [0, 1]. */
+using Color = std::array<double, 4>;
+
+/** A colour map, piecewise linear in display RGB: what the device interpolates. */
+struct ColorTable {
+    struct Point {
+        double value = 0; ///< field value, ascending; two equal values make a step
+        std::array<double, 3> rgb{};
+    };
+    std::vector<Point> points; ///< at least one
+    Color below{};             ///< for values below the first point
+    Color above{};
+    Color nan{};
+};
+
+/** The plane a x + b y + c z + d = 0; (a, b, c) need not be of unit length but not zero. */
+struct CutPlane {
+    std::array<double, 4> plane{};
+};
+
+/** Which number of a field is drawn. */
+struct FieldChoice {
+    std::uint32_t field = 0;
+    /** Component, or -1 for the magnitude of a vector. A scalar has component 0. */
+    std::int32_t component = 0;
+};
+
+struct FrameRequest {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    Camera camera;
+    Color background{};
+    FieldChoice field;
+    std::uint32_t time_step = 0;
+    ColorTable colors;
+    /** The nearest hit wins. */
+    std::vector<CutPlane> cut_planes;
+};
+
+/** Bits of Frame::flags; the same numbers in `--buffers` files. */
+namespace pixel_flag {
+inline constexpr std::uint32_t newton_failure = 8;
+inline constexpr std::uint32_t nan = 16;
+inline constexpr std::uint32_t undecided = 256;
+inline constexpr std::uint32_t work_limit = 1024;
+inline constexpr std::uint32_t estimated = 2048;
+inline constexpr std::uint32_t range_too_fine = 4096;
+} // namespace pixel_flag
+
+struct FrameCounts {
+    std::uint64_t pixels = 0;
+    std::uint64_t hit_pixels = 0;
+    std::uint64_t field_evaluations = 0;
+    std::uint64_t newton_failures = 0;
+    std::uint64_t newton_iterations = 0;
+    std::uint64_t undecided_pixels = 0;
+    std::uint64_t nan_pixels = 0;
+    std::uint64_t work_limit_pixels = 0;
+};
+
+/** One picture, top row first; every vector has width * height entries (times components). */
+struct Frame {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<double> color;         ///< 4 a pixel, before quantisation
+    std::vector<double> value;         ///< field value in world units of the field; NaN where nothing was hit
+    std::vector<double> depth;         ///< distance from the ray's origin; NaN where nothing was hit
+    std::vector<std::int64_t> element; ///< element number as people know it; -1 where nothing was hit
+    std::vector<double> normal;        ///< 3 a pixel, unit, towards the viewer; NaN where nothing was hit
+    std::vector<std::uint32_t> flags;
+    FrameCounts counts;
+    /** Device time of this frame, without upload, hierarchy and compilation. */
+    double render_milliseconds = 0;
+};
+
+} // namespace elvis

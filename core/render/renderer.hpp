@@ -1,0 +1,55 @@
+/**
+ * @file renderer.hpp
+ * Draws frames of one volume on one device.
+ */
+#pragma once
+
+#include <core/base/cancel.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/render/frame.hpp>
+#include <core/vulkan/device.hpp>
+
+#include <memory>
+
+namespace elvis {
+
+struct RendererTimes {
+    double upload_milliseconds = 0;
+    double hierarchy_milliseconds = 0;
+    double compile_milliseconds = 0;
+};
+
+/** Bytes on the device, for `elvis bench` and statistics. */
+struct RendererMemory {
+    std::uint64_t field_bytes = 0;
+    std::uint64_t geometry_bytes = 0;
+    std::uint64_t hierarchy_bytes = 0;
+};
+
+/**
+ * Keeps the volume's buffers, hierarchies and kernels between frames: the first frame uploads and compiles what it needs, later
+ * ones only what changed (field, time step). Device and volume must outlive it. One thread at a time.
+ */
+class Renderer {
+public:
+    Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control = nullptr);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /** Bounds of the whole volume: min x y z, max x y z. */
+    std::array<double, 6> bounds() const;
+    /** Range of a field (component or magnitude) over the volume at a time step, and whether it is certified. */
+    FieldRange field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
+
+    Frame render(const FrameRequest& request);
+
+    const RendererTimes& times() const;
+    RendererMemory memory() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace elvis
