@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds ElVis into build/release, and then either draws a picture or runs the tests.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+# Debian 12 packages. Tools, then libraries, then what only the tests use.
+packages=(
+    cmake ninja-build g++ pkg-config
+    libvulkan-dev mesa-vulkan-drivers glslang-dev spirv-tools
+    libboost-filesystem-dev libeigen3-dev libhdf5-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libpng-dev
+)
+test_packages=(catch2 vulkan-validationlayers python3-h5py)
+
+usage() {
+    cat <<'END'
+usage: ./bootstrap.sh demo    install, build, draw a high-order field on curved elements to elvis-demo.png
+       ./bootstrap.sh test    install, build, run all tests
+       ./bootstrap.sh build   install, build
+END
+}
+
+install_missing() {
+    local wanted=("$@") missing=() package
+    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+        echo "This is not a Debian system. ElVis needs what these Debian 12 packages hold:" >&2
+        printf '  %s\n' "${wanted[@]}" >&2
+        echo "Install them, then run: cmake --preset release && cmake --build --preset release" >&2
+        exit 1
+    fi
+    for package in "${wanted[@]}"; do
+        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+    done
+    if [ ${#missing[@]} -eq 0 ]; then
+        return
+    fi
+    echo "Installing: ${missing[*]}"
+    local as_root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null || { echo "Installing needs root or sudo. Ask for: apt-get install ${missing[*]}" >&2; exit 1; }
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" apt-get update
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"
+}
+
+build() { # arguments: further cmake options
+    cmake --preset release "$@"
+    cmake --build --preset release
+}
+
+demo() {
+    local elvis=build/release/bin/elvis
+    "$elvis" convert tests/data/demo.json -o elvis-demo.h5
+    "$elvis" render tests/data/demo_scene.json -o elvis-demo.png
+    echo "The picture is in elvis-demo.png, its volume in elvis-demo.h5."
+}
+
+case "${1:-}" in
+demo)
+    install_missing "${packages[@]}"
+    build -DELVIS_BUILD_TESTS=OFF
+    demo
+    ;;
+test)
+    install_missing "${packages[@]}" "${test_packages[@]}"
+    build -DELVIS_BUILD_TESTS=ON
+    ctest --preset release
+    ;;
+build)
+    install_missing "${packages[@]}" "${test_packages[@]}"
+    build -DELVIS_BUILD_TESTS=ON
+    ;;
+*)
+    usage >&2
+    exit 2
+    ;;
+esac
