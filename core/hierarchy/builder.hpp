@@ -1,0 +1,26 @@
+/**
+ * @file builder.hpp
+ * Construction of the tree, apart from its use.
+ */
+#pragma once
+
+#include <core/hierarchy/hierarchy.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+/** An item on its way into the tree: its box, rounded outward, and which one it is. */
+struct HierarchyItem {
+    std::array<float, 3> lower{};
+    std::array<float, 3> upper{};
+    std::uint32_t index = 0;
+};
+
+/** Reorders `items`; 2 * items.size() - 1 nodes, or none for no item. */
+std::vector<HierarchyNode> build_hierarchy(std::vector<HierarchyItem>& items);
+
+} // namespace elvis

@@ -1,0 +1,107 @@
+#include <core/hierarchy/builder.hpp>
+#include <core/hierarchy/hierarchy.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace elvis {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/** Largest float not above x. */
+float round_down(double x) {
+    const auto rounded = static_cast<float>(x);
+    return static_cast<double>(rounded) > x ? std::nextafter(rounded, -infinity) : rounded;
+}
+
+/** Smallest float not below x. */
+float round_up(double x) {
+    const auto rounded = static_cast<float>(x);
+    return static_cast<double>(rounded) < x ? std::nextafter(rounded, infinity) : rounded;
+}
+
+} // namespace
+
+Hierarchy::Hierarchy(std::span<const double> boxes, const std::array<double, 3>& centre) : m_centre(centre) {
+    assert(boxes.size() % 6 == 0 && boxes.size() / 6 < (1ull << 31u));
+    m_n_items = static_cast<std::uint32_t>(boxes.size() / 6);
+    std::vector<HierarchyItem> items(m_n_items);
+    for (std::uint32_t item = 0; item < m_n_items; ++item) {
+        const auto box = boxes.subspan(6 * std::size_t{item}, 6);
+        for (std::size_t i = 0; i < 3; ++i) {
+            assert(box[i] <= box[i + 3]);
+            // The difference is rounded in double: one ulp of double outward makes it a bound again.
+            items[item].lower[i] = round_down(std::nextafter(box[i] - centre[i], -std::numeric_limits<double>::infinity()));
+            items[item].upper[i] = round_up(std::nextafter(box[i + 3] - centre[i], std::numeric_limits<double>::infinity()));
+        }
+        items[item].index = item;
+    }
+    m_nodes = build_hierarchy(items);
+}
+
+std::uint32_t Hierarchy::depth() const {
+    std::vector<std::uint32_t> depths(m_nodes.size(), 0);
+    std::uint32_t deepest = 0;
+    for (std::size_t node = 0; node < m_nodes.size(); ++node) {
+        deepest = std::max(deepest, depths[node]);
+        if (!m_nodes[node].is_leaf()) {
+            depths[m_nodes[node].child] = depths[m_nodes[node].child + 1] = depths[node] + 1;
+        }
+    }
+    return deepest;
+}
+
+void Hierarchy::find(const std::array<double, 3>& point, double tolerance, std::vector<std::uint32_t>& items) const {
+    if (m_nodes.empty()) {
+        return;
+    }
+    const auto contains = [&](const HierarchyNode& node) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double x = point[i] - m_centre[i];
+            if (!(x >= static_cast<double>(node.lower[i]) - tolerance && x <= static_cast<double>(node.upper[i]) + tolerance)) {
+                return false;
+            }
+        }
+        return true;
+    };
+    std::array<std::uint32_t, max_depth + 1> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+        const HierarchyNode& node = m_nodes[stack[--size]];
+        if (!contains(node)) {
+            continue;
+        }
+        if (node.is_leaf()) {
+            items.push_back(node.child);
+        } else {
+            stack[size++] = node.child + 1;
+            stack[size++] = node.child;
+        }
+    }
+}
+
+std::vector<NodeRange> Hierarchy::node_ranges(std::span<const double> item_ranges) const {
+    assert(item_ranges.size() == 2 * std::size_t{m_n_items});
+    std::vector<NodeRange> ranges(m_nodes.size());
+    // Children follow their parents, so that going backwards meets them first.
+    for (std::size_t i = m_nodes.size(); i-- > 0;) {
+        const HierarchyNode& node = m_nodes[i];
+        if (node.is_leaf()) {
+            const double lower = item_ranges[2 * std::size_t{node.child}];
+            const double upper = item_ranges[2 * std::size_t{node.child} + 1];
+            ranges[i] =
+                NodeRange{std::isnan(lower) ? -infinity : round_down(lower), std::isnan(upper) ? infinity : round_up(upper)};
+        } else {
+            const NodeRange& left = ranges[node.child];
+            const NodeRange& right = ranges[node.child + 1];
+            ranges[i] = NodeRange{std::min(left.lower, right.lower), std::max(left.upper, right.upper)};
+        }
+    }
+    return ranges;
+}
+
+} // namespace elvis
