@@ -49,13 +49,15 @@ private:
 enum class RecordKind { real, uint };
 
 /**
- * A read-only array of records for shaders, split over as many allocations and bindings as the device's limits demand; no record
- * crosses a binding. Records are padded to a multiple of four numbers. Read through fetch macros (core/shader/fetch.hpp), as
- * texel buffers or storage buffers as Device::uses_texel_buffers says; a double travels as half a uvec4 texel.
+ * A read-only array of records for shaders, split over as many allocations and bindings as the device's limits demand; no
+ * record crosses a binding. Records are padded to a multiple of four numbers. Read through fetch macros
+ * (core/shader/fetch.hpp), as texel buffers or storage buffers as Device::uses_texel_buffers says; a double travels as half a
+ * uvec4 texel.
  */
 class RecordBuffer {
 public:
-    RecordBuffer(const Device& device, RecordKind kind, Precision precision, std::uint64_t n_records, std::uint32_t record_size);
+    RecordBuffer(const Device& device, RecordKind kind, Precision precision, std::uint64_t n_records,
+                 std::uint32_t record_size);
     ~RecordBuffer();
     RecordBuffer(RecordBuffer&&) noexcept;
     RecordBuffer& operator=(RecordBuffer&&) noexcept;

@@ -29,17 +29,44 @@ struct DeviceSummary {
 std::vector<DeviceSummary> list_devices();
 
 /**
- * The device ElVis would take: `wanted` (index or part of a name, case-insensitive), else $ELVIS_DEVICE, else the best by type (discrete,
- * integrated, virtual, cpu). Error that lists the devices if the wanted one does not exist.
+ * The device ElVis would take: `wanted` (index or part of a name, case-insensitive), else $ELVIS_DEVICE, else the best by type
+ * (discrete, integrated, virtual, cpu). Error that lists the devices if the wanted one does not exist.
  */
 DeviceSummary choose_device(const std::string& wanted);
 
 enum class Precision { float32, float64 };
 
+/** What data buffers are for shaders. */
+enum class DataBuffers { automatic, texel, storage };
+
+struct DeviceOptions {
+    /** As for choose_device. */
+    std::string wanted;
+    /** Load VK_LAYER_KHRONOS_validation with synchronisation checks; every message is kept, and memory starts as NaN. */
+    bool validation = false;
+    /** automatic: texel buffers on CPU drivers, where they are fast, storage buffers elsewhere. */
+    DataBuffers data_buffers = DataBuffers::automatic;
+    /** Upper limit for max_binding_bytes(), to test what happens to large data; 0: only the device's own. */
+    std::uint64_t max_binding_bytes = 0;
+    /** Copy through a staging buffer even where the device's memory can be mapped. */
+    bool always_stage = false;
+
+    /**
+     * The options of $ELVIS_VALIDATION (1), $ELVIS_DATA_BUFFERS (texel, storage), $ELVIS_MAX_BINDING_BYTES (a number) and
+     * $ELVIS_STAGING (1). An Error if one has no meaning.
+     */
+    static DeviceOptions from_environment(std::string wanted = {});
+};
+
+/**
+ * A device with one compute queue. All functions may be called from several threads at once; submissions take turns. Buffers
+ * and kernels made with it must not outlive it.
+ */
 class Device {
 public:
-    /** `validation`: load VK_LAYER_KHRONOS_validation with synchronisation checks; every message is logged and kept. */
+    /** With the options of the environment; `validation` turns validation on. */
     explicit Device(const std::string& wanted = {}, bool validation = false);
+    explicit Device(const DeviceOptions& options);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -53,19 +80,20 @@ public:
     std::uint64_t max_binding_bytes() const;
     /** Data buffers are read as texel buffers (fast on CPU drivers) rather than storage buffers (fast on GPUs). */
     bool uses_texel_buffers() const;
+    /** The validation layer is loaded. */
+    bool is_validated() const;
     /** Text that changes with device and driver, for cache keys. */
     std::string cache_key() const;
     /** Messages of the validation layer so far. */
     std::vector<std::string> validation_messages() const;
 
-    /** Memory type index with these properties. */
-    std::uint32_t memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
     /** Bytes allocated on the device now, over all buffers. */
     std::uint64_t allocated_bytes() const;
 
     /** Records commands, submits them and waits. A lost device is an Error that says so. */
     void submit(const std::function<void(VkCommandBuffer)>& record) const;
 
+    /** For the other files of core/vulkan. */
     struct Impl;
     Impl& impl() const { return *m_impl; }
 

@@ -1,0 +1,151 @@
+#include <core/vulkan/allocation.hpp>
+
+#include <core/base/error.hpp>
+#include <core/vulkan/check.hpp>
+#include <core/vulkan/device_impl.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+namespace elvis {
+
+namespace {
+
+std::string mebibytes(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20u) - 1) >> 20u) + " MiB"; }
+
+Error too_large(const Device::Impl& device, std::uint64_t bytes, const char* place, const std::string& reason) {
+    return Error(device.place(), std::string("no memory for ") + place + " of " + mebibytes(bytes) + ": " + reason + " (" +
+                                     mebibytes(device.allocated_bytes) + " are in use)");
+}
+
+} // namespace
+
+Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageFlags usage, const char* place)
+    : m_device(&device), m_bytes(bytes) {
+    Device::Impl& impl = device.impl();
+    if (bytes > impl.max_allocation_bytes) {
+        throw too_large(impl, bytes, place,
+                        "the device allocates at most " + mebibytes(impl.max_allocation_bytes) + " at once");
+    }
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = std::max<std::uint64_t>(bytes, 16); // Vulkan knows no empty buffers.
+    info.usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    check_vulkan(vkCreateBuffer(impl.device, &info, nullptr, &m_buffer), impl.place(), "creating a buffer");
+    try {
+        VkMemoryRequirements needs{};
+        vkGetBufferMemoryRequirements(impl.device, m_buffer, &needs);
+        constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        constexpr VkMemoryPropertyFlags mappable =
+            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+        std::uint32_t type = impl.options.always_stage ? UINT32_MAX : impl.memory_type(needs.memoryTypeBits, local | mappable);
+        const bool map = type != UINT32_MAX;
+        if (!map) {
+            type = impl.memory_type(needs.memoryTypeBits, local);
+        }
+        if (type == UINT32_MAX) {
+            type = impl.memory_type(needs.memoryTypeBits, 0);
+        }
+        VkMemoryAllocateInfo allocate{};
+        allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+        allocate.allocationSize = needs.size;
+        allocate.memoryTypeIndex = type;
+        const VkResult result = vkAllocateMemory(impl.device, &allocate, nullptr, &m_memory);
+        if (result != VK_SUCCESS) {
+            m_memory = VK_NULL_HANDLE;
+            throw too_large(impl, bytes, place, vulkan_result_text(result));
+        }
+        m_allocated = needs.size;
+        impl.allocated_bytes += m_allocated;
+        check_vulkan(vkBindBufferMemory(impl.device, m_buffer, m_memory, 0), impl.place(), "binding a buffer");
+        if (map) {
+            void* mapped = nullptr;
+            check_vulkan(vkMapMemory(impl.device, m_memory, 0, VK_WHOLE_SIZE, 0, &mapped), impl.place(), "mapping a buffer");
+            m_mapped = static_cast<std::byte*>(mapped);
+        }
+        if (impl.options.validation) {
+            fill(0xffffffffu); // NaN: nobody shall rely on memory that was never written.
+        }
+    } catch (...) {
+        release();
+        throw;
+    }
+}
+
+void Allocation::release() noexcept {
+    if (m_buffer != VK_NULL_HANDLE) {
+        Device::Impl& impl = m_device->impl();
+        vkDestroyBuffer(impl.device, m_buffer, nullptr);
+        vkFreeMemory(impl.device, m_memory, nullptr); // Also unmaps.
+        impl.allocated_bytes -= m_allocated;
+    }
+    m_buffer = VK_NULL_HANDLE;
+    m_memory = VK_NULL_HANDLE;
+    m_mapped = nullptr;
+    m_allocated = 0;
+}
+
+Allocation::~Allocation() { release(); }
+
+Allocation::Allocation(Allocation&& other) noexcept { *this = std::move(other); }
+
+Allocation& Allocation::operator=(Allocation&& other) noexcept {
+    if (this != &other) {
+        release();
+        m_device = other.m_device;
+        m_bytes = other.m_bytes;
+        m_allocated = std::exchange(other.m_allocated, 0);
+        m_buffer = std::exchange(other.m_buffer, VK_NULL_HANDLE);
+        m_memory = std::exchange(other.m_memory, VK_NULL_HANDLE);
+        m_mapped = std::exchange(other.m_mapped, nullptr);
+    }
+    return *this;
+}
+
+void Allocation::write(std::uint64_t offset, std::uint64_t bytes, std::uint64_t granularity, const Producer& produce) const {
+    assert(offset + bytes <= m_bytes && granularity > 0);
+    if (bytes == 0) {
+        return;
+    }
+    if (m_mapped != nullptr) {
+        produce(0, {m_mapped + offset, static_cast<std::size_t>(bytes)});
+        return;
+    }
+    Device::Impl& impl = m_device->impl();
+    const std::uint64_t piece = Device::Impl::staging_bytes / granularity * granularity;
+    assert(piece > 0);
+    const std::lock_guard lock(impl.staging_mutex);
+    const Staging& staging = impl.use_staging();
+    for (std::uint64_t done = 0; done < bytes; done += piece) {
+        const VkBufferCopy region{0, offset + done, std::min(piece, bytes - done)};
+        produce(done, {staging.mapped, static_cast<std::size_t>(region.size)});
+        impl.submit([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, staging.buffer, m_buffer, 1, &region); });
+    }
+}
+
+void Allocation::read(std::uint64_t offset, std::span<std::byte> data) const {
+    assert(offset + data.size() <= m_bytes);
+    if (data.empty()) {
+        return;
+    }
+    if (m_mapped != nullptr) {
+        std::memcpy(data.data(), m_mapped + offset, data.size());
+        return;
+    }
+    Device::Impl& impl = m_device->impl();
+    const std::lock_guard lock(impl.staging_mutex);
+    const Staging& staging = impl.use_staging();
+    for (std::uint64_t done = 0; done < data.size(); done += Device::Impl::staging_bytes) {
+        const VkBufferCopy region{offset + done, 0, std::min<std::uint64_t>(Device::Impl::staging_bytes, data.size() - done)};
+        impl.submit([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, m_buffer, staging.buffer, 1, &region); });
+        std::memcpy(data.data() + done, staging.mapped, static_cast<std::size_t>(region.size));
+    }
+}
+
+void Allocation::fill(std::uint32_t word) const {
+    m_device->submit([&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, m_buffer, 0, VK_WHOLE_SIZE, word); });
+}
+
+} // namespace elvis

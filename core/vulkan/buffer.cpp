@@ -1,0 +1,39 @@
+#include <core/vulkan/buffer.hpp>
+
+#include <core/vulkan/allocation.hpp>
+
+#include <cassert>
+#include <cstring>
+
+namespace elvis {
+
+struct Buffer::Impl {
+    Use use;
+    Allocation allocation;
+};
+
+Buffer::Buffer(const Device& device, std::uint64_t bytes, Use use)
+    : m_impl(std::make_unique<Impl>(
+          Impl{use, Allocation(device, bytes,
+                               use == Use::uniform ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                               "a buffer")})) {}
+
+Buffer::~Buffer() = default;
+Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer& Buffer::operator=(Buffer&&) noexcept = default;
+
+VkBuffer Buffer::handle() const { return m_impl->allocation.handle(); }
+std::uint64_t Buffer::bytes() const { return m_impl->allocation.bytes(); }
+Buffer::Use Buffer::use() const { return m_impl->use; }
+
+void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) const {
+    m_impl->allocation.write(offset, data.size(), 1, [&](std::uint64_t from, std::span<std::byte> destination) {
+        std::memcpy(destination.data(), data.data() + from, destination.size());
+    });
+}
+
+void Buffer::read(std::uint64_t offset, std::span<std::byte> data) const { m_impl->allocation.read(offset, data); }
+
+void Buffer::fill(std::uint32_t word) const { m_impl->allocation.fill(word); }
+
+} // namespace elvis

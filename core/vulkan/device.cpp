@@ -1,0 +1,250 @@
+#include <core/base/error.hpp>
+#include <core/vulkan/check.hpp>
+#include <core/vulkan/device_impl.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+namespace elvis {
+
+namespace {
+
+std::string_view variable(const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+bool flag_variable(const char* name) {
+    const std::string_view value = variable(name);
+    if (value.empty() || value == "0") {
+        return false;
+    }
+    if (value == "1") {
+        return true;
+    }
+    throw Error("$" + std::string(name), "'" + std::string(value) + "' is neither 0 nor 1");
+}
+
+} // namespace
+
+DeviceOptions DeviceOptions::from_environment(std::string wanted) {
+    DeviceOptions options;
+    options.wanted = std::move(wanted);
+    options.validation = flag_variable("ELVIS_VALIDATION");
+    options.always_stage = flag_variable("ELVIS_STAGING");
+
+    const std::string_view buffers = variable("ELVIS_DATA_BUFFERS");
+    if (buffers == "texel") {
+        options.data_buffers = DataBuffers::texel;
+    } else if (buffers == "storage") {
+        options.data_buffers = DataBuffers::storage;
+    } else if (!buffers.empty()) {
+        throw Error("$ELVIS_DATA_BUFFERS", "'" + std::string(buffers) + "' is neither 'texel' nor 'storage'");
+    }
+
+    const std::string_view bytes = variable("ELVIS_MAX_BINDING_BYTES");
+    const auto [end, failure] = std::from_chars(bytes.data(), bytes.data() + bytes.size(), options.max_binding_bytes);
+    if (!bytes.empty() && (failure != std::errc() || end != bytes.data() + bytes.size())) {
+        throw Error("$ELVIS_MAX_BINDING_BYTES", "'" + std::string(bytes) + "' is not a number of bytes");
+    }
+    return options;
+}
+
+Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options), instance(options.validation) {
+    summary = choose_among(instance.summaries(), options.wanted);
+    physical = instance.physical_devices().at(summary.index);
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+
+    VkPhysicalDeviceVulkan13Properties v13{};
+    v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES;
+    VkPhysicalDeviceVulkan11Properties v11{};
+    v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
+    v11.pNext = &v13;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &v11;
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    limits = properties.properties.limits;
+    subgroup_size = v11.subgroupSize;
+    max_allocation_bytes = std::min(v11.maxMemoryAllocationSize, v13.maxBufferSize);
+
+    texel_buffers =
+        options.data_buffers == DataBuffers::automatic ? summary.type == "cpu" : options.data_buffers == DataBuffers::texel;
+    max_binding_bytes = texel_buffers ? std::uint64_t{limits.maxTexelBufferElements} * 16 : limits.maxStorageBufferRange;
+    // A part is also one allocation. Rounded down to whole texels: limits like 2^32 - 1 occur.
+    max_binding_bytes = std::min(max_binding_bytes, max_allocation_bytes) / 16 * 16;
+    if (options.max_binding_bytes != 0) {
+        max_binding_bytes = std::min(max_binding_bytes, options.max_binding_bytes);
+    }
+    cache_key = summary.name + "|" + summary.driver + "|" + std::to_string(properties.properties.vendorID) + "|" +
+                std::to_string(properties.properties.deviceID) + "|" + std::to_string(properties.properties.driverVersion);
+    try {
+        create_device();
+    } catch (...) {
+        release();
+        throw;
+    }
+}
+
+void Device::Impl::create_device() {
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue_info{};
+    queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue_info.queueFamilyIndex = compute_queue_family(physical);
+    queue_info.queueCount = 1;
+    queue_info.pQueuePriorities = &priority;
+
+    VkPhysicalDeviceFeatures present{};
+    vkGetPhysicalDeviceFeatures(physical, &present);
+    VkPhysicalDeviceVulkan13Features v13{};
+    v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    v13.maintenance4 = VK_TRUE; // Every 1.3 driver has it; glslang writes work group sizes its way for SPIR-V 1.6.
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &v13;
+    features.features.shaderFloat64 = present.shaderFloat64;
+    features.features.shaderInt64 = present.shaderInt64;
+    // A plugin's snippet that reads out of bounds must not take the device down.
+    features.features.robustBufferAccess = VK_TRUE;
+
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &features;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue_info;
+    check_vulkan(vkCreateDevice(physical, &info, nullptr, &device), place(), "creating the device");
+    vkGetDeviceQueue(device, queue_info.queueFamilyIndex, 0, &queue);
+
+    VkCommandPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool_info.queueFamilyIndex = queue_info.queueFamilyIndex;
+    check_vulkan(vkCreateCommandPool(device, &pool_info, nullptr, &pool), place(), "creating the command pool");
+    VkCommandBufferAllocateInfo commands_info{};
+    commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    commands_info.commandPool = pool;
+    commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    commands_info.commandBufferCount = 1;
+    check_vulkan(vkAllocateCommandBuffers(device, &commands_info, &commands), place(), "allocating commands");
+    VkFenceCreateInfo fence_info{};
+    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    check_vulkan(vkCreateFence(device, &fence_info, nullptr, &fence), place(), "creating a fence");
+    pipelines = std::make_unique<PipelineCache>(device, cache_key);
+}
+
+void Device::Impl::release() noexcept {
+    if (device == VK_NULL_HANDLE) {
+        return;
+    }
+    vkDeviceWaitIdle(device);
+    pipelines.reset();
+    vkDestroyBuffer(device, staging.buffer, nullptr);
+    vkFreeMemory(device, staging.memory, nullptr);
+    vkDestroyFence(device, fence, nullptr);
+    vkDestroyCommandPool(device, pool, nullptr);
+    vkDestroyDevice(device, nullptr);
+    device = VK_NULL_HANDLE;
+}
+
+Device::Impl::~Impl() { release(); }
+
+std::uint32_t Device::Impl::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const {
+    for (std::uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
+        if ((type_bits >> type & 1u) != 0 && (memory.memoryTypes[type].propertyFlags & properties) == properties) {
+            return type;
+        }
+    }
+    return UINT32_MAX;
+}
+
+Staging& Device::Impl::use_staging() {
+    if (staging.mapped != nullptr) {
+        return staging;
+    }
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = staging_bytes;
+    info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    if (staging.buffer == VK_NULL_HANDLE) {
+        check_vulkan(vkCreateBuffer(device, &info, nullptr, &staging.buffer), place(), "creating the staging buffer");
+    }
+    VkMemoryRequirements needs{};
+    vkGetBufferMemoryRequirements(device, staging.buffer, &needs);
+    constexpr VkMemoryPropertyFlags coherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    std::uint32_t type = memory_type(needs.memoryTypeBits, coherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+    if (type == UINT32_MAX) {
+        type = memory_type(needs.memoryTypeBits, coherent); // Vulkan promises one.
+    }
+    VkMemoryAllocateInfo allocate{};
+    allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    allocate.allocationSize = needs.size;
+    allocate.memoryTypeIndex = type;
+    if (staging.memory == VK_NULL_HANDLE) {
+        check_vulkan(vkAllocateMemory(device, &allocate, nullptr, &staging.memory), place(), "allocating the staging buffer");
+        check_vulkan(vkBindBufferMemory(device, staging.buffer, staging.memory, 0), place(), "binding the staging buffer");
+    }
+    void* mapped = nullptr;
+    check_vulkan(vkMapMemory(device, staging.memory, 0, VK_WHOLE_SIZE, 0, &mapped), place(), "mapping the staging buffer");
+    staging.mapped = static_cast<std::byte*>(mapped);
+    return staging;
+}
+
+void Device::Impl::submit(const std::function<void(VkCommandBuffer)>& record) {
+    const std::lock_guard lock(submit_mutex);
+    check_vulkan(vkResetCommandPool(device, pool, 0), place(), "resetting commands");
+    VkCommandBufferBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check_vulkan(vkBeginCommandBuffer(commands, &begin), place(), "recording commands");
+    record(commands);
+    // What was written becomes visible to everything that follows: later submissions and the host.
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
+                         nullptr);
+    check_vulkan(vkEndCommandBuffer(commands), place(), "recording commands");
+
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands;
+    check_vulkan(vkQueueSubmit(queue, 1, &info, fence), place(), "submitting work");
+    check_vulkan(vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX), place(), "waiting for the device");
+    check_vulkan(vkResetFences(device, 1, &fence), place(), "resetting a fence");
+}
+
+Device::Device(const DeviceOptions& options) : m_impl(std::make_unique<Impl>(options)) {}
+
+Device::Device(const std::string& wanted, bool validation) {
+    DeviceOptions options = DeviceOptions::from_environment(wanted);
+    options.validation = options.validation || validation;
+    m_impl = std::make_unique<Impl>(options);
+}
+
+Device::~Device() = default;
+
+const DeviceSummary& Device::summary() const { return m_impl->summary; }
+VkDevice Device::handle() const { return m_impl->device; }
+VkPhysicalDevice Device::physical() const { return m_impl->physical; }
+const VkPhysicalDeviceLimits& Device::limits() const { return m_impl->limits; }
+std::uint32_t Device::subgroup_size() const { return m_impl->subgroup_size; }
+std::uint64_t Device::max_binding_bytes() const { return m_impl->max_binding_bytes; }
+bool Device::uses_texel_buffers() const { return m_impl->texel_buffers; }
+bool Device::is_validated() const { return m_impl->options.validation; }
+std::string Device::cache_key() const { return m_impl->cache_key; }
+std::uint64_t Device::allocated_bytes() const { return m_impl->allocated_bytes; }
+
+std::vector<std::string> Device::validation_messages() const {
+    const ValidationLog& log = m_impl->instance.log();
+    const std::lock_guard lock(log.mutex);
+    return log.messages;
+}
+
+void Device::submit(const std::function<void(VkCommandBuffer)>& record) const { m_impl->submit(record); }
+
+} // namespace elvis

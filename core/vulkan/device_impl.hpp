@@ -1,0 +1,88 @@
+/**
+ * @file device_impl.hpp
+ * What the files of core/vulkan share about a device.
+ */
+#pragma once
+
+#include <core/vulkan/device.hpp>
+#include <core/vulkan/instance.hpp>
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+
+namespace elvis {
+
+/** The device's pipeline cache: read from disk when made, written back when it has grown. */
+class PipelineCache {
+public:
+    PipelineCache(VkDevice device, const std::string& device_key);
+    ~PipelineCache();
+    PipelineCache(const PipelineCache&) = delete;
+    PipelineCache& operator=(const PipelineCache&) = delete;
+
+    VkPipelineCache handle() const { return m_cache; }
+
+private:
+    VkDevice m_device;
+    std::string m_entry;
+    std::size_t m_bytes_on_disk = 0;
+    VkPipelineCache m_cache = VK_NULL_HANDLE;
+};
+
+/** A host-visible buffer through which data passes to and from memory that the host cannot map. */
+struct Staging {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    std::byte* mapped = nullptr;
+};
+
+struct Device::Impl {
+    /** Size of the staging buffer: large enough that submissions cost little, small against any data. */
+    static constexpr std::uint64_t staging_bytes = 32u << 20u;
+
+    explicit Impl(const DeviceOptions& options);
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    DeviceOptions options;
+    Instance instance;
+    DeviceSummary summary;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkPhysicalDeviceLimits limits{};
+    VkPhysicalDeviceMemoryProperties memory{};
+    std::uint32_t subgroup_size = 0;
+    std::uint64_t max_allocation_bytes = 0;
+    bool texel_buffers = false;
+    std::uint64_t max_binding_bytes = 0;
+    std::string cache_key;
+
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    std::unique_ptr<PipelineCache> pipelines;
+    std::atomic<std::uint64_t> allocated_bytes{0};
+
+    /** Guards queue, commands and fence. */
+    std::mutex submit_mutex;
+    /** Guards the staging buffer; taken before submit_mutex. */
+    std::mutex staging_mutex;
+    Staging staging;
+
+    /** "device 'NAME'", for errors. */
+    std::string place() const { return "device '" + summary.name + "'"; }
+    /** Index of the first type among `type_bits` with these properties; none: UINT32_MAX. */
+    std::uint32_t memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
+    /** Needs staging_mutex. Makes the staging buffer when it is first needed. */
+    Staging& use_staging();
+    void submit(const std::function<void(VkCommandBuffer)>& record);
+
+private:
+    void create_device();
+    void release() noexcept;
+};
+
+} // namespace elvis

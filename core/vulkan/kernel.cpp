@@ -1,0 +1,225 @@
+#include <core/vulkan/kernel.hpp>
+
+#include <core/base/error.hpp>
+#include <core/vulkan/check.hpp>
+#include <core/vulkan/device_impl.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <mutex>
+
+namespace elvis {
+
+namespace {
+
+VkDescriptorType descriptor_type(BindingType type) {
+    switch (type) {
+    case BindingType::uniform_buffer:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BindingType::texel_buffer:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    default:
+        return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+}
+
+void check_limit(std::size_t needed, std::uint32_t limit, const std::string& place, const char* what) {
+    if (needed > limit) {
+        throw Error(place, "it needs " + std::to_string(needed) + " " + what + ", the device allows " + std::to_string(limit));
+    }
+}
+
+} // namespace
+
+struct Kernel::Impl {
+    const Device& device;
+    std::vector<BindingLayout> layout;
+    std::uint32_t push_constant_bytes;
+    std::string place;
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    VkPipelineLayout pipeline_layout = VK_NULL_HANDLE;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    /** Guards the descriptor set until the dispatch that uses it is over. */
+    std::mutex mutex;
+
+    Impl(const Device& on, std::vector<BindingLayout> bindings, std::uint32_t push_bytes, const std::string& name)
+        : device(on), layout(std::move(bindings)), push_constant_bytes(push_bytes),
+          place("kernel '" + name + "' on " + on.impl().place()) {}
+
+    ~Impl() {
+        vkDestroyDescriptorPool(device.handle(), pool, nullptr);
+        vkDestroyPipeline(device.handle(), pipeline, nullptr);
+        vkDestroyPipelineLayout(device.handle(), pipeline_layout, nullptr);
+        vkDestroyDescriptorSetLayout(device.handle(), set_layout, nullptr);
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    std::uint32_t count(BindingType type) const {
+        return static_cast<std::uint32_t>(
+            std::count_if(layout.begin(), layout.end(), [type](const BindingLayout& binding) { return binding.type == type; }));
+    }
+
+    void check_limits() const;
+    void create_layouts();
+    void create_pipeline(std::span<const std::uint32_t> spirv);
+    void create_set();
+    void update_set(std::span<const BoundBuffer> bindings);
+};
+
+void Kernel::Impl::check_limits() const {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    check_limit(count(BindingType::storage_buffer), limits.maxPerStageDescriptorStorageBuffers, place, "storage buffers");
+    check_limit(count(BindingType::texel_buffer), limits.maxPerStageDescriptorSampledImages, place, "texel buffers");
+    check_limit(count(BindingType::uniform_buffer), limits.maxPerStageDescriptorUniformBuffers, place, "uniform buffers");
+    check_limit(layout.size(), limits.maxPerStageResources, place, "buffers");
+    check_limit(push_constant_bytes, limits.maxPushConstantsSize, place, "bytes of push constants");
+}
+
+void Kernel::Impl::create_layouts() {
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const auto& binding : layout) {
+        bindings.push_back({binding.binding, descriptor_type(binding.type), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
+    VkDescriptorSetLayoutCreateInfo set_info{};
+    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set_info.pBindings = bindings.data();
+    check_vulkan(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set_layout), place, "creating its layout");
+
+    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_constant_bytes};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set_layout;
+    info.pushConstantRangeCount = push_constant_bytes > 0 ? 1 : 0;
+    info.pPushConstantRanges = &range;
+    check_vulkan(vkCreatePipelineLayout(device.handle(), &info, nullptr, &pipeline_layout), place, "creating its layout");
+}
+
+void Kernel::Impl::create_pipeline(std::span<const std::uint32_t> spirv) {
+    VkShaderModuleCreateInfo module_info{};
+    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    module_info.codeSize = spirv.size_bytes();
+    module_info.pCode = spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    check_vulkan(vkCreateShaderModule(device.handle(), &module_info, nullptr, &module), place, "loading its code");
+
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.layout = pipeline_layout;
+    const VkResult result =
+        vkCreateComputePipelines(device.handle(), device.impl().pipelines->handle(), 1, &info, nullptr, &pipeline);
+    vkDestroyShaderModule(device.handle(), module, nullptr);
+    check_vulkan(result, place, "building it");
+}
+
+void Kernel::Impl::create_set() {
+    if (layout.empty()) {
+        return;
+    }
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const BindingType type : {BindingType::storage_buffer, BindingType::uniform_buffer, BindingType::texel_buffer}) {
+        if (const std::uint32_t n = count(type); n > 0) {
+            sizes.push_back({descriptor_type(type), n});
+        }
+    }
+    VkDescriptorPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool_info.maxSets = 1;
+    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
+    check_vulkan(vkCreateDescriptorPool(device.handle(), &pool_info, nullptr, &pool), place, "creating its descriptors");
+    VkDescriptorSetAllocateInfo set_info{};
+    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    set_info.descriptorPool = pool;
+    set_info.descriptorSetCount = 1;
+    set_info.pSetLayouts = &set_layout;
+    check_vulkan(vkAllocateDescriptorSets(device.handle(), &set_info, &set), place, "creating its descriptors");
+}
+
+// The set is written anew for each dispatch (about a microsecond): comparing handles would not tell a buffer from a later one
+// whose handle happens to be the same.
+void Kernel::Impl::update_set(std::span<const BoundBuffer> bindings) {
+    std::vector<VkDescriptorBufferInfo> buffers(layout.size());
+    std::vector<VkBufferView> views(layout.size(), VK_NULL_HANDLE);
+    std::vector<VkWriteDescriptorSet> writes(layout.size());
+    for (std::size_t i = 0; i < layout.size(); ++i) {
+        const BindingLayout& binding = layout[i];
+        const auto bound = std::find_if(bindings.begin(), bindings.end(),
+                                        [&](const BoundBuffer& candidate) { return candidate.binding == binding.binding; });
+        assert(bound != bindings.end() && (bound->buffer != nullptr) != (bound->records != nullptr));
+        if (bound->records != nullptr) {
+            buffers[i] = {bound->records->part(bound->part), 0, VK_WHOLE_SIZE};
+            views[i] = bound->records->part_view(bound->part);
+        } else {
+            buffers[i] = {bound->buffer->handle(), 0, VK_WHOLE_SIZE};
+            const VkPhysicalDeviceLimits& limits = device.limits();
+            const std::uint64_t limit =
+                binding.type == BindingType::uniform_buffer ? limits.maxUniformBufferRange : limits.maxStorageBufferRange;
+            if (bound->buffer->bytes() > limit) {
+                throw Error(place, "a buffer of " + std::to_string(bound->buffer->bytes()) + " bytes at binding " +
+                                       std::to_string(binding.binding) + ", the device binds at most " + std::to_string(limit));
+            }
+        }
+        writes[i] = {};
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = set;
+        writes[i].dstBinding = binding.binding;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = descriptor_type(binding.type);
+        writes[i].pBufferInfo = &buffers[i];
+        writes[i].pTexelBufferView = &views[i];
+    }
+    vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+}
+
+Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::vector<BindingLayout> layout,
+               std::uint32_t push_constant_bytes, std::string name)
+    : m_impl(std::make_unique<Impl>(device, std::move(layout), push_constant_bytes, name)) {
+    m_impl->check_limits();
+    m_impl->create_layouts();
+    m_impl->create_pipeline(spirv);
+    m_impl->create_set();
+}
+
+Kernel::~Kernel() = default;
+Kernel::Kernel(Kernel&&) noexcept = default;
+Kernel& Kernel::operator=(Kernel&&) noexcept = default;
+
+void Kernel::dispatch(std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
+                      std::uint32_t groups_y, std::uint32_t groups_z) const {
+    Impl& impl = *m_impl;
+    assert(push_constants.size() == impl.push_constant_bytes);
+    if (groups_x == 0 || groups_y == 0 || groups_z == 0) {
+        return;
+    }
+    const std::array<std::uint32_t, 3> groups{groups_x, groups_y, groups_z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        check_limit(groups[axis], impl.device.limits().maxComputeWorkGroupCount[axis], impl.place,
+                    "work groups in one direction");
+    }
+    const std::lock_guard lock(impl.mutex);
+    impl.update_set(bindings);
+    impl.device.submit([&](VkCommandBuffer commands) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, impl.pipeline);
+        if (impl.set != VK_NULL_HANDLE) {
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, impl.pipeline_layout, 0, 1, &impl.set, 0,
+                                    nullptr);
+        }
+        if (!push_constants.empty()) {
+            vkCmdPushConstants(commands, impl.pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                               static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
+        }
+        vkCmdDispatch(commands, groups_x, groups_y, groups_z);
+    });
+}
+
+} // namespace elvis
