@@ -1,0 +1,45 @@
+/**
+ * @file host_services.hpp
+ * The service table that the host passes to a plugin, and how a failed call becomes an Error.
+ */
+#pragma once
+
+#include <core/base/cancel.hpp>
+#include <elvis/host.h>
+
+#include <string>
+
+namespace elvis {
+
+/**
+ * One table for one opened volume (or one probe). The plugin keeps the address of `table()`: the object must not move and must
+ * outlive what was opened with it.
+ */
+class HostServices {
+public:
+    HostServices(std::string plugin_id, const TaskControl* control);
+    HostServices(const HostServices&) = delete;
+    HostServices& operator=(const HostServices&) = delete;
+
+    const elvis_host* table() const { return &m_table; }
+    const std::string& plugin_id() const { return m_plugin_id; }
+
+    /** Forgets an error text that this thread's earlier calls left. */
+    static void clear_error();
+
+    /**
+     * Throws for anything but ELVIS_OK: Cancelled, or an Error that names plugin, function and what the plugin said. `place` is
+     * the file that was asked for, used where the plugin names none.
+     */
+    void check(elvis_result result, const char* function, const std::string& place) const;
+
+    /** Throws an Error about something the plugin returned that cannot be. */
+    [[noreturn]] void refuse(const char* function, const std::string& place, const std::string& what) const;
+
+private:
+    elvis_host m_table{};
+    std::string m_plugin_id;
+    const TaskControl* m_control;
+};
+
+} // namespace elvis

@@ -1,0 +1,146 @@
+#include <core/base/error.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/table_copy.hpp>
+
+#include <boost/dll/shared_library.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+namespace elvis {
+
+struct Plugin::Impl {
+    std::filesystem::path path;
+    boost::dll::shared_library library;
+    std::string id, name, version, vendor, description;
+    std::uint32_t abi_version = 0;
+    std::optional<elvis_runtime> runtime;
+    std::optional<elvis_converter> converter;
+};
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& library, const std::string& reason) {
+    throw Error(library.string(), reason);
+}
+
+std::string required_text(const std::filesystem::path& library, const char* text, const char* member) {
+    if (!text || !*text) {
+        refuse(library, std::string("the descriptor has no ") + member);
+    }
+    return text;
+}
+
+bool is_reverse_domain(const std::string& id) {
+    const bool characters = std::all_of(id.begin(), id.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+    });
+    return characters && id.find('.') != std::string::npos && id.front() != '.' && id.back() != '.';
+}
+
+/** The functions that every runtime plugin gives. */
+const char* missing_function(const elvis_runtime& table) {
+    return !table.probe             ? "probe"
+           : !table.open            ? "open"
+           : !table.close           ? "close"
+           : !table.get_info        ? "get_info"
+           : !table.get_class       ? "get_class"
+           : !table.get_field       ? "get_field"
+           : !table.get_class_field ? "get_class_field"
+           : !table.get_time        ? "get_time"
+           : !table.get_buffer      ? "get_buffer"
+           : !table.get_snippet     ? "get_snippet"
+           : !table.get_bounds      ? "get_bounds"
+           : !table.fill_buffer     ? "fill_buffer"
+                                    : nullptr;
+}
+
+const char* missing_function(const elvis_converter& table) {
+    return !table.probe                           ? "probe"
+           : !table.open                          ? "open"
+           : !table.close                         ? "close"
+           : !table.get_info                      ? "get_info"
+           : !table.get_field                     ? "get_field"
+           : !table.get_elements                  ? "get_elements"
+           : !table.get_spaces                    ? "get_spaces"
+           : !table.evaluate_mapping              ? "evaluate_mapping"
+           : !table.sample && !table.sample_world ? "sample (or sample_world)"
+                                                  : nullptr;
+}
+
+template <class Table>
+std::optional<Table> read_interface(const std::filesystem::path& library, const elvis_plugin_descriptor& descriptor,
+                                    const char* id) {
+    const auto* theirs = static_cast<const Table*>(descriptor.get_interface(id));
+    if (!theirs) {
+        return std::nullopt;
+    }
+    Table table = copy_known_part(*theirs);
+    if (const char* missing = missing_function(table)) {
+        refuse(library, std::string("interface ") + id + " lacks the required function " + missing);
+    }
+    return table;
+}
+
+} // namespace
+
+Plugin::Plugin() : m_impl(std::make_unique<Impl>()) {}
+Plugin::~Plugin() = default;
+
+std::shared_ptr<const Plugin> Plugin::load(const std::filesystem::path& library) {
+    std::shared_ptr<Plugin> plugin(new Plugin);
+    Impl& impl = *plugin->m_impl;
+    impl.path = library;
+    try {
+        impl.library.load(library.string(), boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+    } catch (const std::exception& error) {
+        refuse(library, std::string("cannot be loaded: ") + error.what());
+    }
+    if (!impl.library.has(ELVIS_PLUGIN_ENTRY)) {
+        refuse(library, std::string("does not export ") + ELVIS_PLUGIN_ENTRY);
+    }
+    const elvis_plugin_descriptor* theirs = impl.library.get<const elvis_plugin_descriptor*()>(ELVIS_PLUGIN_ENTRY)();
+    if (!theirs) {
+        refuse(library, "gives no descriptor: it cannot work on this machine");
+    }
+    // Size and version stand first, and are all that may be read before they are known to be good.
+    if (theirs->struct_size < offsetof(elvis_plugin_descriptor, abi_version) + sizeof theirs->abi_version) {
+        refuse(library, "its descriptor states an impossible size");
+    }
+    impl.abi_version = theirs->abi_version;
+    if (impl.abi_version >> 16 != ELVIS_ABI_VERSION_MAJOR) {
+        refuse(library, "was made for major version " + std::to_string(impl.abi_version >> 16) +
+                            " of the plugin interface; this program has version " + std::to_string(ELVIS_ABI_VERSION_MAJOR));
+    }
+    const elvis_plugin_descriptor descriptor = copy_known_part(*theirs);
+    impl.id = required_text(library, descriptor.id, "id");
+    impl.name = required_text(library, descriptor.name, "name");
+    impl.version = required_text(library, descriptor.version, "version");
+    impl.vendor = descriptor.vendor ? descriptor.vendor : "";
+    impl.description = descriptor.description ? descriptor.description : "";
+    if (!is_reverse_domain(impl.id)) {
+        refuse(library, "its id '" + impl.id + "' is not in reverse-domain style (lower case, e.g. org.example.reader)");
+    }
+    if (!descriptor.get_interface) {
+        refuse(library, "its descriptor has no get_interface");
+    }
+    impl.runtime = read_interface<elvis_runtime>(library, descriptor, ELVIS_RUNTIME_INTERFACE);
+    impl.converter = read_interface<elvis_converter>(library, descriptor, ELVIS_CONVERTER_INTERFACE);
+    if (!impl.runtime && !impl.converter) {
+        refuse(library, "offers neither " ELVIS_RUNTIME_INTERFACE " nor " ELVIS_CONVERTER_INTERFACE);
+    }
+    return plugin;
+}
+
+const std::filesystem::path& Plugin::library() const { return m_impl->path; }
+const std::string& Plugin::id() const { return m_impl->id; }
+const std::string& Plugin::name() const { return m_impl->name; }
+const std::string& Plugin::version() const { return m_impl->version; }
+const std::string& Plugin::vendor() const { return m_impl->vendor; }
+const std::string& Plugin::description() const { return m_impl->description; }
+std::uint32_t Plugin::abi_version() const { return m_impl->abi_version; }
+const elvis_runtime* Plugin::runtime() const { return m_impl->runtime ? &*m_impl->runtime : nullptr; }
+const elvis_converter* Plugin::converter() const { return m_impl->converter ? &*m_impl->converter : nullptr; }
+
+} // namespace elvis
