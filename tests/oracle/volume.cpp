@@ -1,0 +1,65 @@
+#include "volume.hpp"
+
+#include <Eigen/LU>
+
+namespace elvis::oracle {
+
+Volume::Volume(VolumeData data) : m_data(std::move(data)) {
+    for (std::size_t c = 0; c < m_data.classes.size(); ++c)
+        for (std::size_t index = 0; index < m_data.classes[c].numbers.size(); ++index)
+            m_elements.push_back({static_cast<std::uint32_t>(c), index});
+}
+
+std::int64_t Volume::number(std::size_t element) const { return class_of(element).numbers[m_elements[element].index]; }
+
+std::span<const double> Volume::geometry_coefficients(std::size_t element) const {
+    const ClassData& c = class_of(element);
+    const std::size_t n = 3 * native::n_modes(c.geometry);
+    return std::span(c.geometry_coefficients).subspan(m_elements[element].index * n, n);
+}
+
+Vector Volume::position(std::size_t element, const Vector& xi, Matrix* jacobian) const {
+    const native::Space& space = class_of(element).geometry;
+    const std::span<const double> coefficients = geometry_coefficients(element);
+    const std::size_t n = native::n_modes(space);
+    thread_local std::vector<double> values;
+    thread_local std::vector<double> gradients;
+    values.resize(n);
+    Vector x = Vector::Zero();
+    if (jacobian == nullptr) {
+        native::evaluate_modes(space, {xi.x(), xi.y(), xi.z()}, values);
+    } else {
+        gradients.resize(3 * n);
+        native::evaluate_modes(space, {xi.x(), xi.y(), xi.z()}, values, gradients);
+        jacobian->setZero();
+    }
+    for (std::size_t mode = 0; mode < n; ++mode) {
+        const Vector c(coefficients[mode], coefficients[n + mode], coefficients[2 * n + mode]);
+        x += values[mode] * c;
+        if (jacobian != nullptr)
+            *jacobian += c * Eigen::RowVector3d(gradients[3 * mode], gradients[3 * mode + 1], gradients[3 * mode + 2]);
+    }
+    return x;
+}
+
+std::vector<double> Volume::field(std::size_t element, const Vector& xi) const {
+    const ClassData& c = class_of(element);
+    const std::size_t n = native::n_modes(c.field);
+    std::vector<double> components(m_data.n_components);
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        const std::size_t first = (m_elements[element].index * components.size() + i) * n;
+        components[i] = native::evaluate(c.field, std::span(c.field_coefficients).subspan(first, n), {xi.x(), xi.y(), xi.z()});
+    }
+    if (m_data.transform != native::Transform::none) {
+        Matrix jacobian;
+        position(element, xi, &jacobian);
+        const Vector reference(components[0], components[1], components[2]);
+        const Vector u = m_data.transform == native::Transform::covariant
+                             ? Vector(jacobian.transpose().inverse() * reference)
+                             : Vector(jacobian * reference / jacobian.determinant());
+        components.assign(u.data(), u.data() + 3);
+    }
+    return components;
+}
+
+} // namespace elvis::oracle
