@@ -1,6 +1,16 @@
 /**
  * @file composer.hpp
- * Composes kernels: interface + library + snippet + kernel.
+ * Composes kernels: interface + library + snippet + kernel, in this order:
+ *
+ *   types and mathematics       library/types.glsl, library/math.glsl
+ *   the host's record buffers   elvis_fetch_NAME, elvis_fetch4_NAME
+ *   each snippet instance       constants, fetch macros, library/reference_shape.glsl, elvis_origin, the snippet, defaults for
+ * what it lacks (elvis_mapping_jacobian, elvis_field_gradient) the kernel                  which includes what else it needs of
+ * the library
+ *
+ * All but the first instance have their names replaced by #defines ("native_row" becomes "native_row_1") that are undone after
+ * it, as are the macros they define: a snippet may occur several times, and lines keep their numbers. The first instance comes
+ * last and stays visible as it is, ELVIS_SHAPE and all, for the kernel and the parts of the library that depend on it.
  */
 #pragma once
 
@@ -62,8 +72,16 @@ public:
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;
 
 private:
+    struct Parts {
+        std::vector<std::uint32_t> spirv;
+        std::vector<BindingLayout> layout;
+        std::vector<BoundBuffer> records;
+    };
+    ComposedKernel(const Device& device, const KernelRequest& request, Parts parts);
+
     Kernel m_kernel;
     std::vector<BoundBuffer> m_records;
+    std::size_t m_n_own;
 };
 
 /** The complete GLSL text of a request, for messages and tests. */

@@ -1,20 +1,24 @@
 # Functions for plugin projects.
 
-# elvis_embed_text(TARGET HEADER NAMESPACE FILE...)
+# elvis_embed_text(TARGET HEADER NAMESPACE [FOLDER FOLDER] FILE...)
 #
 # Generates a C++ header that holds text files as string literals and adds its folder to the target's include path:
 #   namespace NAMESPACE { inline constexpr struct { const char* name; const char* text; } files[] = {...}; }
-# `name` is the file's path relative to the current source folder.
+# `name` is the file's path relative to FOLDER, by default the current source folder.
 function(elvis_embed_text target header namespace)
+  cmake_parse_arguments(ARG "" "FOLDER" "" ${ARGN})
+  if(NOT ARG_FOLDER)
+    set(ARG_FOLDER "${CMAKE_CURRENT_SOURCE_DIR}")
+  endif()
   set(output "${CMAKE_CURRENT_BINARY_DIR}/embedded/${header}")
   set(inputs "")
-  foreach(file ${ARGN})
-    list(APPEND inputs "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
+  foreach(file ${ARG_UNPARSED_ARGUMENTS})
+    list(APPEND inputs "${ARG_FOLDER}/${file}")
   endforeach()
-  string(REPLACE ";" "|" names "${ARGN}")
+  string(REPLACE ";" "|" names "${ARG_UNPARSED_ARGUMENTS}")
   add_custom_command(
     OUTPUT "${output}"
-    COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${output}" "-DFOLDER=${CMAKE_CURRENT_SOURCE_DIR}" "-DNAMES=${names}"
+    COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${output}" "-DFOLDER=${ARG_FOLDER}" "-DNAMES=${names}"
             "-DNAMESPACE=${namespace}" -P "${ELVIS_EMBED_SCRIPT}"
     DEPENDS ${inputs} "${ELVIS_EMBED_SCRIPT}"
     VERBATIM)

@@ -1,0 +1,20 @@
+// Names of the types that depend on the precision, and of the reference shapes (plugin_api/glsl_interface.md).
+
+#if ELVIS_REAL_IS_DOUBLE
+#define elvis_real double
+#define elvis_vec2 dvec2
+#define elvis_vec3 dvec3
+#define elvis_vec4 dvec4
+#define elvis_mat3 dmat3
+#else
+#define elvis_real float
+#define elvis_vec2 vec2
+#define elvis_vec3 vec3
+#define elvis_vec4 vec4
+#define elvis_mat3 mat3
+#endif
+
+#define ELVIS_SHAPE_HEXAHEDRON 0
+#define ELVIS_SHAPE_PRISM 1
+#define ELVIS_SHAPE_PYRAMID 2
+#define ELVIS_SHAPE_TETRAHEDRON 3
