@@ -1,0 +1,43 @@
+/**
+ * @file conversion.hpp
+ * From coefficients of a native space to coefficients of its device space: the same functions in another basis.
+ */
+#pragma once
+
+#include "device_space.hpp"
+
+#include <Eigen/Dense>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace elvis::native_plugin {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/**
+ * Both bases are products, so the conversion is a product of small matrices where the factors separate (hexahedra and tensor
+ * pyramids in three directions, prisms in direction 2 against the triangle of directions 1 and 3), and one dense matrix for
+ * tetrahedra and the other pyramids. Built once for a space, in double precision, from values of the native modes at Gauss
+ * points; `apply` may be called from several threads.
+ */
+class Conversion {
+public:
+    explicit Conversion(const native::Space& space);
+
+    const DeviceSpace& device_space() const { return m_device; }
+    std::size_t n_native() const { return m_gather.size(); }
+
+    /** Device coefficients in the order of the record: slab by slab. Sizes n_native() and device_space().n_modes(). */
+    void apply(std::span<const double> native_coefficients, std::span<double> device_coefficients) const;
+
+private:
+    DeviceSpace m_device;
+    /** Native index of each entry of the array [n_2][n_1][n_0] on which the matrices work. */
+    std::vector<std::size_t> m_gather;
+    /** Square matrices for the axes 0 (fastest), 1 and 2 of the array. */
+    std::array<Matrix, 3> m_axes;
+};
+
+} // namespace elvis::native_plugin

@@ -1,0 +1,135 @@
+#include "device_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace elvis::native_plugin {
+namespace {
+
+using native::Basis;
+using native::Shape;
+
+double chebyshev(int n, double z) { return std::cos(n * std::acos(std::clamp(z, -1.0, 1.0))); }
+
+/** P_n^{1,1}(z), Abramowitz & Stegun 22.7.1. */
+double jacobi_11(int n, double z) {
+    double before = 0;
+    double now = 1;
+    for (int i = 0; i < n; ++i) {
+        const double next = (i + 2) * ((2 * i + 3) * z * now - (i + 1) * before) / ((i + 1.0) * (i + 3.0));
+        before = now;
+        now = next;
+    }
+    return now;
+}
+
+double power(double base, int exponent) {
+    double result = 1;
+    for (int i = 0; i < exponent; ++i)
+        result *= base;
+    return result;
+}
+
+} // namespace
+
+double jacobi(int a, int n, double z) {
+    double before = 0;
+    double now = 1;
+    for (int i = 0; i < n; ++i) {
+        const double s = 2 * i + a;
+        const double divisor = 2 * (i + 1.0) * (i + a + 1.0) * s;
+        // a = 0, i = 0 would divide 0 by 0: P_1 = z.
+        const double next =
+            s == 0 ? z : ((s + 1) * (double(a) * a + s * (s + 2) * z) * now - 2.0 * (i + a) * i * (s + 2) * before) / divisor;
+        before = now;
+        now = next;
+    }
+    return now;
+}
+
+DeviceSpace::DeviceSpace(const native::Space& space)
+    : shape(space.shape), basis(space.basis), p_max(static_cast<int>(space.order[0])), q_max(static_cast<int>(space.order[1])),
+      r_max(static_cast<int>(space.order[2])) {}
+
+int DeviceSpace::n_q(int p) const { return shape == Shape::tetrahedron ? std::max(q_max - p + 1, 0) : q_max + 1; }
+
+int DeviceSpace::n_r(int p, int q) const {
+    switch (shape) {
+    case Shape::prism:
+        return std::max(r_max - p + 1, 0);
+    case Shape::tetrahedron:
+        return std::max(r_max - p - q + 1, 0);
+    case Shape::pyramid:
+        return basis == Basis::tensor ? r_max + 1 : r_max - std::max(p, q) + 1;
+    default:
+        return r_max + 1;
+    }
+}
+
+bool DeviceSpace::has_apex(int p, int q) const { return shape == Shape::pyramid && (basis == Basis::tensor || p + q == 0); }
+
+int DeviceSpace::exponent(int p, int q) const {
+    if (basis == Basis::tensor || p + q == 0)
+        return 1;
+    if (basis == Basis::orthogonal)
+        return p + q;
+    return std::min(p, q) >= 2 ? p + q - 2 : std::max(p, q);
+}
+
+double DeviceSpace::a(int p, double eta1) const {
+    if (shape == Shape::hexahedron)
+        return chebyshev(p, eta1);
+    if (shape == Shape::pyramid && basis != Basis::orthogonal && p >= 2)
+        return (1 - eta1) * (1 + eta1) / 4 * jacobi_11(p - 2, eta1);
+    return jacobi(0, p, eta1);
+}
+
+double DeviceSpace::b(int p, int q, double eta2) const {
+    if (shape == Shape::prism)
+        return chebyshev(q, eta2);
+    if (shape == Shape::tetrahedron)
+        return power((1 - eta2) / 2, p) * jacobi(2 * p + 1, q, eta2);
+    return a(q, eta2);
+}
+
+double DeviceSpace::c(int p, int q, int r, double eta3) const {
+    const double t = (1 - eta3) / 2;
+    switch (shape) {
+    case Shape::prism:
+        return power(t, p) * jacobi(2 * p + 1, r, eta3);
+    case Shape::tetrahedron:
+        return power(t, p + q) * jacobi(2 * (p + q) + 2, r, eta3);
+    case Shape::pyramid: {
+        const bool apex = has_apex(p, q);
+        if (apex && r == 0)
+            return 1;
+        const int e = exponent(p, q);
+        return power(t, e) * jacobi(2 * e + 2, apex ? r - 1 : r, eta3);
+    }
+    default:
+        return chebyshev(r, eta3);
+    }
+}
+
+std::size_t DeviceSpace::n_slabs() const {
+    switch (shape) {
+    case Shape::hexahedron:
+        return static_cast<std::size_t>(r_max) + 1;
+    case Shape::prism:
+        return static_cast<std::size_t>(q_max) + 1;
+    case Shape::pyramid:
+        return basis == Basis::tensor ? static_cast<std::size_t>(p_max) + 1 : 1;
+    default:
+        return 1;
+    }
+}
+
+std::size_t DeviceSpace::slab_size() const {
+    std::size_t count = 0;
+    for (int p = 0; p <= p_max; ++p)
+        for (int q = 0; q < n_q(p); ++q)
+            count += static_cast<std::size_t>(n_r(p, q));
+    return count / n_slabs();
+}
+
+} // namespace elvis::native_plugin

@@ -1,0 +1,181 @@
+#include "volume.hpp"
+
+#include "error.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+namespace elvis::native_plugin {
+namespace {
+
+using native::Basis;
+using native::Shape;
+using native::Space;
+using native::Transform;
+
+/** Elements in a block that evaluation reads at once: small enough for a single probe, large enough for a scan. */
+constexpr std::uint64_t elements_per_block = 64;
+/** 256 MB of doubles. */
+constexpr std::size_t cache_numbers = std::size_t{1} << 25;
+
+/** A missing file deserves a plainer word than HDF5's. */
+const std::string& readable(const std::string& path) {
+    if (!std::ifstream(path, std::ios::binary))
+        throw PluginError(ELVIS_ERROR_FILE, "the file does not exist or cannot be read");
+    return path;
+}
+
+void check_space(const Space& space, const std::string& what) {
+    if (space.shape == Shape::quadrilateral || space.shape == Shape::triangle)
+        throw PluginError(ELVIS_ERROR_UNSUPPORTED, what + " lives on a " + std::string(native::name(space.shape)) +
+                                                       "; this plugin draws hexahedra, prisms, pyramids and tetrahedra");
+    const std::uint32_t order = *std::max_element(space.order.begin(), space.order.end());
+    if (order > max_device_order)
+        throw PluginError(ELVIS_ERROR_UNSUPPORTED, what + " has order " + std::to_string(order) +
+                                                       "; this plugin draws orders up to " + std::to_string(max_device_order));
+}
+
+} // namespace
+
+Volume::Volume(const elvis_host* host, const std::string& path)
+    : m_host(host), m_path(path), m_reader(readable(path)), m_cache(cache_numbers) {
+    m_first_elements.push_back(0);
+    for (std::size_t i = 0; i < description().classes.size(); ++i) {
+        const native::ElementClass& element_class = description().classes[i];
+        const std::string in_class = " of element class " + std::to_string(i);
+        check_space(element_class.geometry, "the geometry" + in_class);
+        for (std::size_t field = 0; field < element_class.fields.size(); ++field)
+            check_space(element_class.fields[field], "field '" + description().fields[field].name + "'" + in_class);
+        m_first_elements.push_back(m_first_elements.back() + element_class.n_elements);
+    }
+    make_constants();
+}
+
+Volume::Place Volume::place(std::uint64_t element) const {
+    // The last class that starts at or before the element: empty classes start where the next one does.
+    const auto after = std::upper_bound(m_first_elements.begin(), m_first_elements.end(), element);
+    const auto element_class = static_cast<std::size_t>(after - m_first_elements.begin()) - 1;
+    return {element_class, element - m_first_elements[element_class]};
+}
+
+void Volume::make_constants() {
+    const auto add = [](std::vector<elvis_constant>& list, const char* name, std::int64_t value) {
+        list.push_back({sizeof(elvis_constant), 0, name, value});
+    };
+    const auto add_space = [&add](std::vector<elvis_constant>& list, const std::array<const char*, 7>& names,
+                                  const Space& space, std::size_t width) {
+        const DeviceSpace device(space);
+        for (std::size_t i = 0; i < 3; ++i)
+            add(list, names[i], space.order[i]);
+        add(list, names[3], space.basis == Basis::tensor ? 0 : space.basis == Basis::modified ? 1 : 2);
+        add(list, names[4], static_cast<std::int64_t>(device.slab_rows(width)));
+        add(list, names[5], static_cast<std::int64_t>(device.n_rows(width)));
+        add(list, names[6], static_cast<std::int64_t>(device.n_modes()));
+    };
+    for (const native::ElementClass& element_class : description().classes)
+        for (std::size_t field = 0; field < element_class.fields.size(); ++field) {
+            std::vector<elvis_constant> list;
+            const Transform transform = description().fields[field].transform;
+            add_space(list,
+                      {"NATIVE_GEOMETRY_P", "NATIVE_GEOMETRY_Q", "NATIVE_GEOMETRY_R", "NATIVE_GEOMETRY_BASIS",
+                       "NATIVE_GEOMETRY_SLAB_ROWS", "NATIVE_GEOMETRY_ROWS", "NATIVE_GEOMETRY_MODES"},
+                      element_class.geometry, 3);
+            add_space(list,
+                      {"NATIVE_FIELD_P", "NATIVE_FIELD_Q", "NATIVE_FIELD_R", "NATIVE_FIELD_BASIS", "NATIVE_FIELD_SLAB_ROWS",
+                       "NATIVE_FIELD_ROWS", "NATIVE_FIELD_MODES"},
+                      element_class.fields[field], transform == Transform::none ? 1 : 3);
+            add(list, "NATIVE_TRANSFORM", static_cast<std::int64_t>(transform));
+            m_constants.push_back(std::move(list));
+        }
+}
+
+std::span<const elvis_constant> Volume::constants(std::size_t element_class, std::size_t field) const {
+    return m_constants[element_class * description().fields.size() + field];
+}
+
+void Volume::element_numbers(std::uint64_t first, std::span<std::int64_t> numbers) const {
+    for_each_run(first, numbers.size(),
+                 [&](std::size_t element_class, std::uint64_t local, std::uint64_t count, std::uint64_t offset) {
+                     const std::lock_guard lock(m_reader_mutex);
+                     m_reader.read_numbers(element_class, local, count, numbers.subspan(offset, count));
+                 });
+}
+
+std::int64_t Volume::position(std::int64_t number) const {
+    if (number < 0)
+        return number;
+    const auto found = m_positions.find(number);
+    if (found == m_positions.end())
+        throw PluginError(ELVIS_ERROR_FORMAT, "the faces name element " + std::to_string(number) + ", which does not exist");
+    return found->second;
+}
+
+void Volume::faces(std::uint64_t first, std::span<elvis_face> faces) const {
+    if (m_positions.empty()) {
+        std::vector<std::int64_t> numbers(n_elements());
+        element_numbers(0, numbers);
+        m_positions.reserve(numbers.size());
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            m_positions.emplace(numbers[i], static_cast<std::int64_t>(i));
+    }
+    std::vector<native::Face> read(faces.size());
+    {
+        const std::lock_guard lock(m_reader_mutex);
+        m_reader.read_faces(first, read.size(), read);
+    }
+    for (std::size_t i = 0; i < read.size(); ++i)
+        faces[i] = {sizeof(elvis_face),          read[i].group,      position(read[i].element),
+                    position(read[i].neighbour), read[i].local_face, read[i].neighbour_local_face};
+}
+
+std::vector<double> Volume::read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count) const {
+    std::vector<double> coefficients(count * 3 * native::n_modes(geometry_space(element_class)));
+    const std::lock_guard lock(m_reader_mutex);
+    m_reader.read_geometry(element_class, first, count, coefficients);
+    return coefficients;
+}
+
+std::vector<double> Volume::read_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
+                                       std::uint64_t count) const {
+    const std::size_t n_modes = native::n_modes(field_space(element_class, field));
+    std::vector<double> coefficients(count * description().fields[field].n_components * n_modes);
+    const std::lock_guard lock(m_reader_mutex);
+    m_reader.read_field(field, time_step, element_class, first, count, coefficients);
+    return coefficients;
+}
+
+Volume::Coefficients Volume::element_geometry(Place place) const {
+    const std::uint64_t block = place.local / elements_per_block;
+    const std::uint64_t first = block * elements_per_block;
+    const std::uint64_t count = std::min(elements_per_block, description().classes[place.element_class].n_elements - first);
+    const auto numbers =
+        m_cache.get({-1, 0, place.element_class, block}, [&] { return read_geometry(place.element_class, first, count); });
+    const std::size_t size = numbers->size() / count;
+    return {numbers, std::span(*numbers).subspan((place.local - first) * size, size)};
+}
+
+Volume::Coefficients Volume::element_field(std::size_t field, std::size_t time_step, Place place) const {
+    const std::uint64_t block = place.local / elements_per_block;
+    const std::uint64_t first = block * elements_per_block;
+    const std::uint64_t count = std::min(elements_per_block, description().classes[place.element_class].n_elements - first);
+    const auto numbers = m_cache.get({static_cast<std::int64_t>(field), time_step, place.element_class, block},
+                                     [&] { return read_field(field, time_step, place.element_class, first, count); });
+    const std::size_t size = numbers->size() / count;
+    return {numbers, std::span(*numbers).subspan((place.local - first) * size, size)};
+}
+
+const Conversion& Volume::conversion(const Space& space) const {
+    const std::lock_guard lock(m_conversions_mutex);
+    for (const auto& [known, conversion] : m_conversions)
+        if (known == space)
+            return *conversion;
+    m_conversions.emplace_back(space, std::make_unique<const Conversion>(space));
+    return *m_conversions.back().second;
+}
+
+void Volume::check_cancelled() const {
+    if (m_host->is_cancelled(m_host) != 0)
+        throw PluginError(ELVIS_ERROR_CANCELLED, "cancelled by the user");
+}
+
+} // namespace elvis::native_plugin

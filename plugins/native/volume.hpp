@@ -1,0 +1,125 @@
+/**
+ * @file volume.hpp
+ * An open native volume, as the runtime interface sees it (elvis/runtime.h). Elements are counted class by class.
+ */
+#pragma once
+
+#include "block_cache.hpp"
+#include "conversion.hpp"
+
+#include <elvis/native/volume_file.hpp>
+#include <elvis/runtime.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace elvis::native_plugin {
+
+/**
+ * Everything throws PluginError or native::FileError. Functions may run at the same time as elvis/runtime.h allows; the file is
+ * read by one thread at a time.
+ */
+class Volume {
+public:
+    Volume(const elvis_host* host, const std::string& path);
+
+    const std::string& path() const { return m_path; }
+    const native::Description& description() const { return m_reader.description(); }
+    std::uint64_t n_elements() const { return m_first_elements.back(); }
+    std::uint64_t first_element(std::size_t element_class) const { return m_first_elements[element_class]; }
+    const native::Space& geometry_space(std::size_t element_class) const {
+        return description().classes[element_class].geometry;
+    }
+    const native::Space& field_space(std::size_t element_class, std::size_t field) const {
+        return description().classes[element_class].fields[field];
+    }
+
+    /** Constants of a class and field for the snippet; valid as long as the volume. */
+    std::span<const elvis_constant> constants(std::size_t element_class, std::size_t field) const;
+
+    void element_numbers(std::uint64_t first, std::span<std::int64_t> numbers) const;
+    void faces(std::uint64_t first, std::span<elvis_face> faces) const;
+
+    /** Certified: six numbers an element. */
+    void bounds(std::uint64_t first, std::uint64_t count, std::span<double> bounds) const;
+    /** Certified for fields without a transform, else from samples. */
+    elvis_certainty field_ranges(std::size_t field, std::size_t time_step, std::uint64_t first, std::uint64_t count,
+                                 std::span<double> ranges) const;
+
+    /** Numbers in a record of the class's buffers; see buffers.cpp. */
+    std::size_t geometry_record_size(std::size_t element_class) const;
+    std::size_t field_record_size(std::size_t element_class, std::size_t field) const;
+    /** `origins`: three numbers an element, from the class's element `first` on. */
+    void fill_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count, const double* origins,
+                       std::span<double> records) const;
+    void fill_field(std::size_t element_class, std::size_t field, std::size_t time_step, std::uint64_t first,
+                    std::uint64_t count, std::span<const double> offset, std::span<double> records) const;
+
+    /** See elvis_runtime.evaluate_mapping and evaluate_field; empty spans are not wanted. */
+    void evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions,
+                          std::span<double> jacobians) const;
+    void evaluate_field(std::size_t field, std::size_t time_step, std::uint64_t element, std::span<const double> xi,
+                        std::span<double> values, std::span<double> gradients) const;
+
+private:
+    /** A class and an element's position in it. */
+    struct Place {
+        std::size_t element_class;
+        std::uint64_t local;
+    };
+    Place place(std::uint64_t element) const;
+
+    /** Calls visit(element_class, first local, count, offset of the first in the request) for runs of elements of one class. */
+    template <class Visit> void for_each_run(std::uint64_t first, std::uint64_t count, Visit visit) const;
+
+    std::vector<double> read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count) const;
+    std::vector<double> read_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
+                                   std::uint64_t count) const;
+    /** Coefficients of one element, kept alive by the block they lie in. */
+    struct Coefficients {
+        BlockCache::Block block;
+        std::span<const double> numbers;
+    };
+    Coefficients element_geometry(Place place) const;
+    Coefficients element_field(std::size_t field, std::size_t time_step, Place place) const;
+
+    const Conversion& conversion(const native::Space& space) const;
+    /** Throws if the user has asked to stop. */
+    void check_cancelled() const;
+    void make_constants();
+    /** Position of the element with a native number, or a format error. */
+    std::int64_t position(std::int64_t number) const;
+
+    const elvis_host* m_host;
+    std::string m_path;
+    native::Reader m_reader;
+    mutable std::mutex m_reader_mutex;
+    /** First element of each class, and the number of all elements. */
+    std::vector<std::uint64_t> m_first_elements;
+    /** By class, then by field. */
+    std::vector<std::vector<elvis_constant>> m_constants;
+    mutable BlockCache m_cache;
+    mutable std::mutex m_conversions_mutex;
+    mutable std::vector<std::pair<native::Space, std::unique_ptr<const Conversion>>> m_conversions;
+    /** Filled when faces are first asked for. */
+    mutable std::unordered_map<std::int64_t, std::int64_t> m_positions;
+};
+
+template <class Visit> void Volume::for_each_run(std::uint64_t first, std::uint64_t count, Visit visit) const {
+    std::uint64_t done = 0;
+    while (done < count) {
+        const Place start = place(first + done);
+        const std::uint64_t n_here = description().classes[start.element_class].n_elements - start.local;
+        const std::uint64_t n = std::min(count - done, n_here);
+        visit(start.element_class, start.local, n, done);
+        done += n;
+    }
+}
+
+} // namespace elvis::native_plugin
