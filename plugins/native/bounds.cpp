@@ -1,7 +1,6 @@
 /*
  * Bounds of elements and ranges of fields, from certified ranges of the native spaces.
  */
-#include "error.hpp"
 #include "volume.hpp"
 
 #include <algorithm>
@@ -37,7 +36,7 @@ void Volume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> 
         native::RangeBounder bounder(geometry_space(element_class));
         const std::size_t n_modes = native::n_modes(geometry_space(element_class));
         for (std::uint64_t done = 0; done < n_run; done += elements_at_once) {
-            check_cancelled();
+            m_host.check_cancelled();
             const std::uint64_t n = std::min(elements_at_once, n_run - done);
             const std::vector<double> coefficients = read_geometry(element_class, local + done, n);
             for (std::uint64_t element = 0; element < n; ++element)
@@ -47,8 +46,8 @@ void Volume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> 
                     if (!std::isfinite(range.lower) || !std::isfinite(range.upper)) {
                         std::int64_t number = 0;
                         element_numbers(m_first_elements[element_class] + local + done + element, std::span(&number, 1));
-                        throw PluginError(ELVIS_ERROR_FORMAT, "the geometry of element " + std::to_string(number) +
-                                                                  " holds a number that is not finite");
+                        throw error(ELVIS_ERROR_FORMAT,
+                                    "the geometry of element " + std::to_string(number) + " holds a number that is not finite");
                     }
                     double* box = bounds.data() + (offset + done + element) * 6;
                     box[direction] = range.lower;
@@ -68,7 +67,7 @@ elvis_certainty Volume::field_ranges(std::size_t field, std::size_t time_step, s
             const std::vector<double> points = sample_points(space.shape);
             std::vector<double> values(points.size() / 3 * n_components);
             for (std::uint64_t element = 0; element < n_run; ++element) {
-                check_cancelled();
+                m_host.check_cancelled();
                 evaluate_field(field, time_step, m_first_elements[element_class] + local + element, points, values, {});
                 for (std::size_t component = 0; component < n_components; ++component) {
                     double* range = ranges.data() + ((offset + element) * n_components + component) * 2;
@@ -85,7 +84,7 @@ elvis_certainty Volume::field_ranges(std::size_t field, std::size_t time_step, s
         native::RangeBounder bounder(space);
         const std::size_t n_modes = native::n_modes(space);
         for (std::uint64_t done = 0; done < n_run; done += elements_at_once) {
-            check_cancelled();
+            m_host.check_cancelled();
             const std::uint64_t n = std::min(elements_at_once, n_run - done);
             const std::vector<double> coefficients = read_field(field, time_step, element_class, local + done, n);
             for (std::uint64_t i = 0; i < n * n_components; ++i) {

@@ -5,10 +5,10 @@
  *   field without transform        component by component: number component_start + slab_start + mode
  *   field with transform           number slab_start + 3 * mode + component of uhat; then one row with the offset of u
  */
-#include "error.hpp"
 #include "volume.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace elvis::native_plugin {
 namespace {
@@ -24,6 +24,23 @@ void scatter(const DeviceSpace& space, std::size_t width, std::span<const double
     for (std::size_t slab = 0; slab < space.n_slabs(); ++slab)
         for (std::size_t mode = 0; mode < space.slab_size(); ++mode)
             record[slab * slab_numbers + mode * width] = modes[slab * space.slab_size() + mode];
+}
+
+/**
+ * Where a function of a tensor pyramid has a single value at the apex, all its functions without a power of t but the constant
+ * vanish. Round-off of the data leaves about 1e-16 to 1e-13 of the largest coefficient, which 1/t in the gradient would blow up
+ * near the apex; a true part is never so small. Zeroing changes values by less than 1e-12 of their size.
+ */
+void clean_apex(const DeviceSpace& space, std::span<double> modes) {
+    if (space.shape != native::Shape::pyramid || space.basis != native::Basis::tensor)
+        return;
+    double largest = 0;
+    for (const double mode : modes)
+        largest = std::max(largest, std::abs(mode));
+    const auto stride = static_cast<std::size_t>(space.n_r(0, 0));
+    for (std::size_t i = stride; i < modes.size(); i += stride)
+        if (std::abs(modes[i]) < 1e-12 * largest)
+            modes[i] = 0;
 }
 
 } // namespace
@@ -49,12 +66,13 @@ void Volume::fill_geometry(std::size_t element_class, std::uint64_t first, std::
     std::vector<double> modes(n_modes);
     const std::uint64_t at_once = elements_at_once(3 * n_modes);
     for (std::uint64_t done = 0; done < count; done += at_once) {
-        check_cancelled();
+        m_host.check_cancelled();
         const std::uint64_t n = std::min(at_once, count - done);
         const std::vector<double> coefficients = read_geometry(element_class, first + done, n);
         for (std::uint64_t element = 0; element < n; ++element)
             for (std::size_t direction = 0; direction < 3; ++direction) {
                 convert.apply(std::span(coefficients).subspan((element * 3 + direction) * n_modes, n_modes), modes);
+                clean_apex(convert.device_space(), modes);
                 // The first device function of every shape is the constant 1.
                 if (origins != nullptr)
                     modes[0] -= origins[(done + element) * 3 + direction];
@@ -76,13 +94,14 @@ void Volume::fill_field(std::size_t element_class, std::size_t field, std::size_
     std::vector<double> modes(n_modes);
     const std::uint64_t at_once = elements_at_once(n_components * n_modes);
     for (std::uint64_t done = 0; done < count; done += at_once) {
-        check_cancelled();
+        m_host.check_cancelled();
         const std::uint64_t n = std::min(at_once, count - done);
         const std::vector<double> coefficients = read_field(field, time_step, element_class, first + done, n);
         for (std::uint64_t element = 0; element < n; ++element) {
             double* record = records.data() + (done + element) * record_size;
             for (std::size_t component = 0; component < n_components; ++component) {
                 convert.apply(std::span(coefficients).subspan((element * n_components + component) * n_modes, n_modes), modes);
+                clean_apex(convert.device_space(), modes);
                 if (!transformed && !offset.empty())
                     modes[0] -= offset[component];
                 scatter(convert.device_space(), width, modes, record + component * component_stride);

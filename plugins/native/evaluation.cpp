@@ -5,7 +5,6 @@
  *   covariant       u = J^-T uhat          du/dxi_k = J^-T (duhat/dxi_k - K^T u)
  *   contravariant   u = J uhat / det J     du/dxi_k = (K uhat + J duhat/dxi_k) / det J - u tr(J^-1 K)
  */
-#include "error.hpp"
 #include "volume.hpp"
 
 #include <cmath>
@@ -101,7 +100,6 @@ Point point(std::span<const double> xi, std::size_t i) { return {xi[3 * i], xi[3
 
 void Volume::evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions,
                               std::span<double> jacobians) const {
-    require(element < n_elements(), "element number out of range");
     const Place where = place(element);
     const Coefficients coefficients = element_geometry(where);
     VectorFunction mapping(geometry_space(where.element_class), coefficients.numbers);
@@ -116,7 +114,6 @@ void Volume::evaluate_mapping(std::uint64_t element, std::span<const double> xi,
 
 void Volume::evaluate_field(std::size_t field, std::size_t time_step, std::uint64_t element, std::span<const double> xi,
                             std::span<double> values, std::span<double> gradients) const {
-    require(element < n_elements(), "element number out of range");
     const Place where = place(element);
     const Coefficients coefficients = element_field(field, time_step, where);
     const native::Space& space = field_space(where.element_class, field);

@@ -1,7 +1,5 @@
 #include "volume.hpp"
 
-#include "error.hpp"
-
 #include <algorithm>
 #include <fstream>
 
@@ -18,37 +16,52 @@ constexpr std::uint64_t elements_per_block = 64;
 /** 256 MB of doubles. */
 constexpr std::size_t cache_numbers = std::size_t{1} << 25;
 
-/** A missing file deserves a plainer word than HDF5's. */
-const std::string& readable(const std::string& path) {
+native::Reader open_file(const std::string& path) {
+    // A missing file deserves a plainer word than HDF5's.
     if (!std::ifstream(path, std::ios::binary))
-        throw PluginError(ELVIS_ERROR_FILE, "the file does not exist or cannot be read");
-    return path;
+        throw api::Error(ELVIS_ERROR_FILE, path, "the file does not exist or cannot be read");
+    try {
+        return native::Reader(path);
+    } catch (const native::FileError& error) {
+        throw api::Error(ELVIS_ERROR_FORMAT, error.file(), error.what());
+    }
 }
 
-void check_space(const Space& space, const std::string& what) {
+void check_space(const std::string& path, const Space& space, const std::string& what) {
     if (space.shape == Shape::quadrilateral || space.shape == Shape::triangle)
-        throw PluginError(ELVIS_ERROR_UNSUPPORTED, what + " lives on a " + std::string(native::name(space.shape)) +
-                                                       "; this plugin draws hexahedra, prisms, pyramids and tetrahedra");
+        throw api::Error(ELVIS_ERROR_UNSUPPORTED, path,
+                         what + " lives on a " + std::string(native::name(space.shape)) +
+                             "; this plugin draws hexahedra, prisms, pyramids and tetrahedra");
     const std::uint32_t order = *std::max_element(space.order.begin(), space.order.end());
     if (order > max_device_order)
-        throw PluginError(ELVIS_ERROR_UNSUPPORTED, what + " has order " + std::to_string(order) +
-                                                       "; this plugin draws orders up to " + std::to_string(max_device_order));
+        throw api::Error(ELVIS_ERROR_UNSUPPORTED, path,
+                         what + " has order " + std::to_string(order) + "; this plugin draws orders up to " +
+                             std::to_string(max_device_order));
 }
 
 } // namespace
 
-Volume::Volume(const elvis_host* host, const std::string& path)
-    : m_host(host), m_path(path), m_reader(readable(path)), m_cache(cache_numbers) {
+Volume::Volume(const api::Host& host, const std::string& path)
+    : m_host(host), m_path(path), m_reader(open_file(path)), m_cache(cache_numbers) {
     m_first_elements.push_back(0);
     for (std::size_t i = 0; i < description().classes.size(); ++i) {
         const native::ElementClass& element_class = description().classes[i];
         const std::string in_class = " of element class " + std::to_string(i);
-        check_space(element_class.geometry, "the geometry" + in_class);
+        check_space(path, element_class.geometry, "the geometry" + in_class);
         for (std::size_t field = 0; field < element_class.fields.size(); ++field)
-            check_space(element_class.fields[field], "field '" + description().fields[field].name + "'" + in_class);
+            check_space(path, element_class.fields[field], "field '" + description().fields[field].name + "'" + in_class);
         m_first_elements.push_back(m_first_elements.back() + element_class.n_elements);
     }
     make_constants();
+}
+
+template <class Read> void Volume::read_file(Read read) const {
+    try {
+        const std::lock_guard lock(m_reader_mutex);
+        read();
+    } catch (const native::FileError& failure) {
+        throw api::Error(ELVIS_ERROR_FORMAT, failure.file(), failure.what());
+    }
 }
 
 Volume::Place Volume::place(std::uint64_t element) const {
@@ -96,8 +109,7 @@ std::span<const elvis_constant> Volume::constants(std::size_t element_class, std
 void Volume::element_numbers(std::uint64_t first, std::span<std::int64_t> numbers) const {
     for_each_run(first, numbers.size(),
                  [&](std::size_t element_class, std::uint64_t local, std::uint64_t count, std::uint64_t offset) {
-                     const std::lock_guard lock(m_reader_mutex);
-                     m_reader.read_numbers(element_class, local, count, numbers.subspan(offset, count));
+                     read_file([&] { m_reader.read_numbers(element_class, local, count, numbers.subspan(offset, count)); });
                  });
 }
 
@@ -106,7 +118,7 @@ std::int64_t Volume::position(std::int64_t number) const {
         return number;
     const auto found = m_positions.find(number);
     if (found == m_positions.end())
-        throw PluginError(ELVIS_ERROR_FORMAT, "the faces name element " + std::to_string(number) + ", which does not exist");
+        throw error(ELVIS_ERROR_FORMAT, "the faces name element " + std::to_string(number) + ", which does not exist");
     return found->second;
 }
 
@@ -120,8 +132,7 @@ void Volume::faces(std::uint64_t first, std::span<elvis_face> faces) const {
     }
     std::vector<native::Face> read(faces.size());
     {
-        const std::lock_guard lock(m_reader_mutex);
-        m_reader.read_faces(first, read.size(), read);
+        read_file([&] { m_reader.read_faces(first, read.size(), read); });
     }
     for (std::size_t i = 0; i < read.size(); ++i)
         faces[i] = {sizeof(elvis_face),          read[i].group,      position(read[i].element),
@@ -130,8 +141,7 @@ void Volume::faces(std::uint64_t first, std::span<elvis_face> faces) const {
 
 std::vector<double> Volume::read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count) const {
     std::vector<double> coefficients(count * 3 * native::n_modes(geometry_space(element_class)));
-    const std::lock_guard lock(m_reader_mutex);
-    m_reader.read_geometry(element_class, first, count, coefficients);
+    read_file([&] { m_reader.read_geometry(element_class, first, count, coefficients); });
     return coefficients;
 }
 
@@ -139,8 +149,7 @@ std::vector<double> Volume::read_field(std::size_t field, std::size_t time_step,
                                        std::uint64_t count) const {
     const std::size_t n_modes = native::n_modes(field_space(element_class, field));
     std::vector<double> coefficients(count * description().fields[field].n_components * n_modes);
-    const std::lock_guard lock(m_reader_mutex);
-    m_reader.read_field(field, time_step, element_class, first, count, coefficients);
+    read_file([&] { m_reader.read_field(field, time_step, element_class, first, count, coefficients); });
     return coefficients;
 }
 
@@ -171,11 +180,6 @@ const Conversion& Volume::conversion(const Space& space) const {
             return *conversion;
     m_conversions.emplace_back(space, std::make_unique<const Conversion>(space));
     return *m_conversions.back().second;
-}
-
-void Volume::check_cancelled() const {
-    if (m_host->is_cancelled(m_host) != 0)
-        throw PluginError(ELVIS_ERROR_CANCELLED, "cancelled by the user");
 }
 
 } // namespace elvis::native_plugin

@@ -8,7 +8,7 @@
 #include "conversion.hpp"
 
 #include <elvis/native/volume_file.hpp>
-#include <elvis/runtime.h>
+#include <elvis/plugin.hpp>
 
 #include <map>
 #include <memory>
@@ -22,12 +22,12 @@
 namespace elvis::native_plugin {
 
 /**
- * Everything throws PluginError or native::FileError. Functions may run at the same time as elvis/runtime.h allows; the file is
- * read by one thread at a time.
+ * Failures are api::Error that names the file. Functions may run at the same time as elvis/runtime.h allows; the file is read
+ * by one thread at a time.
  */
 class Volume {
 public:
-    Volume(const elvis_host* host, const std::string& path);
+    Volume(const api::Host& host, const std::string& path);
 
     const std::string& path() const { return m_path; }
     const native::Description& description() const { return m_reader.description(); }
@@ -90,13 +90,14 @@ private:
     Coefficients element_field(std::size_t field, std::size_t time_step, Place place) const;
 
     const Conversion& conversion(const native::Space& space) const;
-    /** Throws if the user has asked to stop. */
-    void check_cancelled() const;
+    /** Runs `read` with the file to itself; its errors become ours. */
+    template <class Read> void read_file(Read read) const;
+    api::Error error(elvis_result code, const std::string& what) const { return {code, m_path, what}; }
     void make_constants();
     /** Position of the element with a native number, or a format error. */
     std::int64_t position(std::int64_t number) const;
 
-    const elvis_host* m_host;
+    api::Host m_host;
     std::string m_path;
     native::Reader m_reader;
     mutable std::mutex m_reader_mutex;
