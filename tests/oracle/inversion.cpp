@@ -18,6 +18,8 @@ constexpr double same_solution = 1e-7;
 // Half-width of the reference box, in units of the local reference coordinates, from which Newton is tried on a box. Smaller
 // boxes try again whenever they have shrunk by another factor of four.
 constexpr double first_attempt = 0.5;
+// On a box of this size, whose Jacobian does not vanish, the mapping is one to one, the box's surroundings included.
+constexpr double one_to_one = 0.02;
 
 Vector clamp(const Vector& xi) { return xi.cwiseMax(-1.0).cwiseMin(1.0); }
 
@@ -118,7 +120,8 @@ void Inverter::subdivide(std::size_t element, const Vector& x, double tolerance,
         if (size < 2 * first_attempt && size < 0.25 * box.attempted_size) {
             box.attempted_size = size;
             Solution solution;
-            if (newton(element, x, xi, solution) && solution.excess <= tolerance) {
+            const bool converged = newton(element, x, xi, solution);
+            if (converged && solution.excess <= tolerance) {
                 const bool is_known = std::any_of(solutions.begin(), solutions.end(), [&](const Solution& known) {
                     return (known.xi - solution.xi).lpNorm<Eigen::Infinity>() < same_solution;
                 });
@@ -126,6 +129,10 @@ void Inverter::subdivide(std::size_t element, const Vector& x, double tolerance,
                     solutions.push_back(solution);
                 if (!enclosure.is_folded)
                     return;
+            } else if (converged && !enclosure.is_folded && size < one_to_one &&
+                       (solution.xi - xi).lpNorm<Eigen::Infinity>() < 2 * size) {
+                // The only solution that the neighbourhood of this box can have lies too far outside.
+                continue;
             }
         }
         // Smaller than what tells two solutions apart, and Newton has seen it.

@@ -1,7 +1,5 @@
 #include "test_volumes.hpp"
 
-#include <Eigen/QR>
-
 #include <cmath>
 #include <numbers>
 
@@ -9,33 +7,35 @@ namespace elvis::oracle {
 
 using native::Shape;
 
-std::vector<double> fit(const native::Space& space, const std::function<double(const Vector& xi)>& function) {
+Fit::Fit(const native::Space& space) {
     const auto n_modes = static_cast<Eigen::Index>(native::n_modes(space));
-    if (n_modes == 1)
-        return {function(centre(space.shape))};
     // More Chebyshev nodes than modes, inside the collapsed cube.
-    const native::Point degree{static_cast<double>(native::collapsed_order(space)[0]),
-                               static_cast<double>(native::collapsed_order(space)[1]),
-                               static_cast<double>(native::collapsed_order(space)[2])};
-    std::vector<Vector> points;
-    const auto node = [](double i, double n) { return -std::cos(std::numbers::pi * (2 * i + 1) / (2 * n + 2)); };
-    for (double k = 0; k <= degree[2] + 1; ++k)
-        for (double j = 0; j <= degree[1] + 1; ++j)
-            for (double i = 0; i <= degree[0] + 1; ++i) {
+    const auto degree = native::collapsed_order(space);
+    const auto node = [](std::uint32_t i, std::uint32_t n) {
+        return -std::cos(std::numbers::pi * (2.0 * i + 1) / (2.0 * n + 2));
+    };
+    for (std::uint32_t k = 0; k <= degree[2] + 1; ++k)
+        for (std::uint32_t j = 0; j <= degree[1] + 1; ++j)
+            for (std::uint32_t i = 0; i <= degree[0] + 1; ++i) {
                 const native::Point xi =
                     native::expand(space.shape, {node(i, degree[0] + 1), node(j, degree[1] + 1), node(k, degree[2] + 1)});
-                points.emplace_back(xi[0], xi[1], xi[2]);
+                m_points.emplace_back(xi[0], xi[1], xi[2]);
             }
-    Eigen::MatrixXd modes(static_cast<Eigen::Index>(points.size()), n_modes);
-    Eigen::VectorXd values(modes.rows());
+    Eigen::MatrixXd modes(static_cast<Eigen::Index>(m_points.size()), n_modes);
     std::vector<double> row(static_cast<std::size_t>(n_modes));
     for (Eigen::Index i = 0; i < modes.rows(); ++i) {
-        const Vector& xi = points[static_cast<std::size_t>(i)];
+        const Vector& xi = m_points[static_cast<std::size_t>(i)];
         native::evaluate_modes(space, {xi.x(), xi.y(), xi.z()}, row);
         modes.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), n_modes);
-        values[i] = function(xi);
     }
-    const Eigen::VectorXd coefficients = modes.colPivHouseholderQr().solve(values);
+    m_modes.compute(modes);
+}
+
+std::vector<double> Fit::operator()(const std::function<double(const Vector& xi)>& function) const {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(m_points.size()));
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+        values[i] = function(m_points[static_cast<std::size_t>(i)]);
+    const Eigen::VectorXd coefficients = m_modes.solve(values);
     return {coefficients.begin(), coefficients.end()};
 }
 
@@ -49,12 +49,14 @@ ClassData make_class(const native::Space& geometry, const native::Space& field, 
     ClassData data;
     data.geometry = geometry;
     data.field = field;
+    const Fit fit_geometry(geometry);
+    const Fit fit_field(field);
     for (const Map& map : maps) {
         for (Eigen::Index d = 0; d < 3; ++d) {
-            const std::vector<double> c = fit(geometry, [&](const Vector& xi) { return map(xi)[d]; });
+            const std::vector<double> c = fit_geometry([&](const Vector& xi) { return map(xi)[d]; });
             data.geometry_coefficients.insert(data.geometry_coefficients.end(), c.begin(), c.end());
         }
-        const std::vector<double> c = fit(field, [&](const Vector& xi) { return function(map(xi)); });
+        const std::vector<double> c = fit_field([&](const Vector& xi) { return function(map(xi)); });
         data.field_coefficients.insert(data.field_coefficients.end(), c.begin(), c.end());
         data.numbers.push_back(first_number++);
     }

@@ -6,6 +6,8 @@
 
 #include "volume.hpp"
 
+#include <Eigen/QR>
+
 #include <functional>
 #include <vector>
 
@@ -15,8 +17,16 @@ namespace elvis::oracle {
 using Map = std::function<Vector(const Vector& xi)>;
 using Function = std::function<double(const Vector& x)>;
 
-/** Least-squares coefficients in `space`: exact where the function lies in the space. */
-std::vector<double> fit(const native::Space& space, const std::function<double(const Vector& xi)>& function);
+/** Least-squares coefficients in a space: exact where the function lies in it. */
+class Fit {
+public:
+    explicit Fit(const native::Space& space);
+    std::vector<double> operator()(const std::function<double(const Vector& xi)>& function) const;
+
+private:
+    std::vector<Vector> m_points;
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> m_modes;
+};
 
 native::Space space_of(native::Shape shape, std::uint32_t order);
 
