@@ -1,89 +1,111 @@
+#include <core/shader/compiler.hpp>
+
 #include <core/base/cache.hpp>
 #include <core/base/error.hpp>
-#include <core/shader/compiler.hpp>
-#include <core/shader/include.hpp>
+#include <core/shader/includes.hpp>
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <spirv-tools/libspirv.hpp>
 
-#include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <span>
 
 namespace elvis {
 
 namespace {
 
-/** glslang's process-wide state, set up once. */
-class GlslangProcess {
-public:
-    static void ensure() { static const GlslangProcess process; }
-    ~GlslangProcess() { glslang::FinalizeProcess(); }
+/** Raise when the way of compiling changes, so that old cache entries are not taken. */
+constexpr const char* way_of_compiling = "1";
 
-private:
-    GlslangProcess() { glslang::InitializeProcess(); }
-};
-
-/** Lines "ERROR: file:line: message" of glslang's log as "file:line: message". */
-std::string error_lines(const std::string& log) {
-    constexpr std::string_view mark = "ERROR: ";
-    std::string lines;
-    for (std::size_t begin = 0; begin < log.size();) {
-        const std::size_t end = std::min(log.find('\n', begin), log.size());
-        const std::string line = log.substr(begin, end - begin);
-        // The last line only counts the errors.
-        if (line.starts_with(mark) && line.find("compilation errors") == std::string::npos) {
-            lines += "\n  " + line.substr(mark.size());
-        }
-        begin = end + 1;
-    }
-    return lines.empty() ? "\n  " + log : lines;
+std::string compiler_version() {
+    const glslang::Version version = glslang::GetVersion();
+    return std::to_string(version.major) + "." + std::to_string(version.minor) + "." + std::to_string(version.patch) +
+           version.flavor + "/" + std::to_string(glslang::GetSpirvGeneratorVersion()) + "/" + way_of_compiling;
 }
 
-std::vector<std::uint32_t> translate(const std::string& text, const std::string& name) {
-    GlslangProcess::ensure();
+/** glslang's log as one "file:line: message" a line, without its closing count of errors. */
+std::string readable_log(std::string_view log) {
+    std::string text;
+    while (!log.empty()) {
+        const std::size_t end = log.find('\n');
+        std::string_view line = log.substr(0, end);
+        log.remove_prefix(end == std::string_view::npos ? log.size() : end + 1);
+        constexpr std::string_view error = "ERROR: ";
+        if (line.substr(0, error.size()) == error) {
+            line.remove_prefix(error.size());
+            if (line.find("compilation errors.") != std::string_view::npos) {
+                continue;
+            }
+        }
+        if (!line.empty()) {
+            text.append(text.empty() ? "" : "\n").append(line);
+        }
+    }
+    return text;
+}
+
+std::vector<std::uint32_t> run_compiler(const std::string& text, const std::string& name) {
+    // Once a process; glslang counts its users and the process never ends its own use. Compiling is safe on any thread
+    // afterwards.
+    static std::once_flag initialized;
+    std::call_once(initialized, [] { glslang::InitializeProcess(); });
+
     glslang::TShader shader(EShLangCompute);
-    const char* const strings[] = {text.c_str()};
-    shader.setStrings(strings, 1);
+    const char* strings = text.c_str();
+    const auto length = static_cast<int>(text.size());
+    const char* names = name.c_str();
+    shader.setStringsWithLengthsAndNames(&strings, &length, &names, 1);
     shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
     if (!shader.parse(GetDefaultResources(), 460, false, messages)) {
-        throw Error("shader " + name, "does not compile:" + error_lines(shader.getInfoLog()));
+        throw Error("kernel '" + name + "'", "it does not compile\n" + readable_log(shader.getInfoLog()));
     }
     glslang::TProgram program;
     program.addShader(&shader);
     if (!program.link(messages)) {
-        throw Error("shader " + name, "does not link:" + error_lines(program.getInfoLog()));
+        throw Error("kernel '" + name + "'", "it does not link\n" + readable_log(program.getInfoLog()));
     }
-    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> spirv;
     glslang::SpvOptions options;
-    options.disableOptimizer = true;
-    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words, &options);
-    return words;
-}
-
-std::string cache_name(const std::string& text) {
-    const glslang::Version version = glslang::GetVersion();
-    return "spirv-" + content_hash(std::to_string(version.major) + "." + std::to_string(version.minor) + "." +
-                                   std::to_string(version.patch) + "\n" + text);
+    options.disableOptimizer = true; // Drivers optimize; spirv-opt takes a second and gains nothing that was measured.
+    options.validate = false;
+    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv, &options);
+#ifndef NDEBUG
+    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
+    std::string complaint;
+    tools.SetMessageConsumer(
+        [&](spv_message_level_t, const char*, const spv_position_t&, const char* message) { complaint += message; });
+    if (!tools.Validate(spirv)) {
+        throw Error("kernel '" + name + "'", "glslang made invalid SPIR-V: " + complaint);
+    }
+#endif
+    return spirv;
 }
 
 } // namespace
 
 std::vector<std::uint32_t> compile_shader(const std::string& text, const std::string& name) {
-    const std::string expanded = expand_includes(text, name, shader_source);
-    const std::string entry = cache_name(expanded);
-    if (const auto bytes = read_cache_entry(entry); bytes && bytes->size() % sizeof(std::uint32_t) == 0) {
-        std::vector<std::uint32_t> words(bytes->size() / sizeof(std::uint32_t));
-        std::memcpy(words.data(), bytes->data(), bytes->size());
-        return words;
+    const std::string complete = expand_includes(text, name, shader_source);
+    const std::string entry = content_hash(compiler_version() + "\n" + complete) + ".spirv";
+    if (const auto cached = read_cache_entry(entry); cached && cached->size() % sizeof(std::uint32_t) == 0) {
+        std::vector<std::uint32_t> spirv(cached->size() / sizeof(std::uint32_t));
+        std::memcpy(spirv.data(), cached->data(), cached->size());
+        return spirv;
     }
-    std::vector<std::uint32_t> words = translate(expanded, name);
-    write_cache_entry(entry, std::as_bytes(std::span(words)));
-    return words;
+    const auto spirv = run_compiler(complete, name);
+    write_cache_entry(entry, std::as_bytes(std::span(spirv)));
+    return spirv;
+}
+
+void warm_up_compiler() {
+    static std::once_flag warm;
+    // The first compilation builds the tables of built-in functions.
+    std::call_once(warm, [] { run_compiler("#version 460\nvoid main() {}\n", "warm-up"); });
 }
 
 } // namespace elvis

@@ -1,223 +1,366 @@
+#include <core/shader/composer.hpp>
+
 #include <core/base/error.hpp>
 #include <core/shader/compiler.hpp>
-#include <core/shader/composer.hpp>
 #include <core/shader/fetch.hpp>
-#include <core/shader/include.hpp>
-#include <core/shader/tokens.hpp>
+#include <core/shader/glsl_scan.hpp>
+#include <core/shader/includes.hpp>
+#include <core/shader/snippet_check.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cassert>
-#include <set>
+#include <limits>
 
 namespace elvis {
 
 namespace {
 
-/** Functions of the GLSL interface (plugin_api/glsl_interface.md) with their signatures. */
-struct InterfaceFunction {
-    const char* name;
-    const char* signature;
+/** Included once, before everything else. */
+constexpr std::array<std::string_view, 2> common_files{"library/types.glsl", "library/math.glsl"};
+
+/** A library file that gives an instance a function which its snippet lacks. */
+struct DefaultFile {
+    std::uint32_t capability;
+    const char* path;
 };
 
-constexpr InterfaceFunction required_functions[] = {
-    {"elvis_mapping", "elvis_vec3 elvis_mapping(uint element, elvis_vec3 xi)"},
-    {"elvis_jacobian", "elvis_mat3 elvis_jacobian(uint element, elvis_vec3 xi)"},
-    {"elvis_field_value", "elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component)"},
+/** In the order in which they may rest on each other. */
+constexpr std::array<DefaultFile, 2> default_files{
+    DefaultFile{ELVIS_SNIPPET_MAPPING_JACOBIAN, "library/mapping_jacobian_default.glsl"},
+    DefaultFile{ELVIS_SNIPPET_FIELD_GRADIENT, "library/gradient_default.glsl"},
 };
 
-constexpr const char* optional_functions[] = {"elvis_mapping_jacobian", "elvis_field_gradient", "elvis_inverse_mapping",
-                                              "elvis_origin"};
-
-constexpr const char* mapping_jacobian_default = R"(
-void elvis_mapping_jacobian(uint element, elvis_vec3 xi, out elvis_vec3 x, out elvis_mat3 jacobian) {
-    x = elvis_mapping(element, xi);
-    jacobian = elvis_jacobian(element, xi);
-}
-)";
+constexpr std::array<std::pair<const char*, std::uint32_t>, 5> capability_macros{
+    std::pair{"ELVIS_HAS_FIELD_GRADIENT", ELVIS_SNIPPET_FIELD_GRADIENT},
+    std::pair{"ELVIS_HAS_MAPPING_JACOBIAN", ELVIS_SNIPPET_MAPPING_JACOBIAN},
+    std::pair{"ELVIS_HAS_INVERSE_MAPPING", ELVIS_SNIPPET_INVERSE_MAPPING},
+    std::pair{"ELVIS_HAS_FIELD_OFFSET", ELVIS_SNIPPET_FIELD_OFFSET},
+    std::pair{"ELVIS_HAS_LOCAL_ORIGIN", ELVIS_SNIPPET_LOCAL_ORIGIN},
+};
 
 std::string define(const std::string& name, const std::string& value) { return "#define " + name + " " + value + "\n"; }
+std::string undef(const std::string& name) { return "#undef " + name + "\n"; }
 
-/** Builds the text of one request, and knows what is bound where. */
-class Composition {
+/** An integer as GLSL writes it, in 32 bits. */
+std::string integer_literal(const std::string& name, std::int64_t value) {
+    if (value < std::numeric_limits<std::int32_t>::min() || value > std::numeric_limits<std::uint32_t>::max()) {
+        throw Error("constant " + name, std::to_string(value) + " does not fit into the 32 bits of a GLSL integer");
+    }
+    std::string text = value < 0 ? "(" : "";
+    text += std::to_string(value);
+    text += value < 0 ? ")" : value > std::numeric_limits<std::int32_t>::max() ? "u" : "";
+    return text;
+}
+
+std::string suffix(std::size_t instance) {
+    return instance == 0 ? std::string() : std::string("_").append(std::to_string(instance));
+}
+
+/** The record buffers of a request, each once, numbered as they are met. */
+class Records {
 public:
-    Composition(const Device& device, const KernelRequest& request) : m_device(device), m_request(request) {
-        m_layout = request.bindings;
-        m_next_binding = static_cast<std::uint32_t>(request.bindings.size());
-        write_header();
-        for (const FetchBuffer& buffer : request.buffers) {
-            write_buffer(buffer);
+    explicit Records(const KernelRequest& request) {
+        add_all(request.buffers);
+        for (const SnippetInstance& instance : request.instances) {
+            add_all(instance.buffers);
+            if (instance.origins != nullptr) {
+                add(instance.origins);
+            }
         }
-        // The first instance comes last and stays visible under plain names to the kernel, with its constants.
-        for (std::size_t index = request.instances.size(); index-- > 0;) {
-            write_instance(request.instances[index], index);
-        }
-        m_text += "#include \"" + request.kernel + "\"\n";
     }
 
-    const std::string& text() const { return m_text; }
-    const std::vector<BindingLayout>& layout() const { return m_layout; }
-    const std::vector<BoundBuffer>& records() const { return m_records; }
+    const std::vector<const RecordBuffer*>& all() const { return m_records; }
+
+    std::uint32_t number(const RecordBuffer* records) const {
+        return static_cast<std::uint32_t>(std::find(m_records.begin(), m_records.end(), records) - m_records.begin());
+    }
 
 private:
-    void write_header();
-    std::string declare(const RecordBuffer& records);
-    void write_buffer(const FetchBuffer& buffer);
-    void write_instance(const SnippetInstance& instance, std::size_t index);
+    void add(const RecordBuffer* records) {
+        if (std::find(m_records.begin(), m_records.end(), records) == m_records.end()) {
+            m_records.push_back(records);
+        }
+    }
+    void add_all(const std::vector<FetchBuffer>& buffers) {
+        for (const FetchBuffer& buffer : buffers) {
+            add(buffer.records);
+        }
+    }
 
-    const Device& m_device;
-    const KernelRequest& m_request;
-    std::string m_text;
-    std::vector<BindingLayout> m_layout;
-    std::vector<BoundBuffer> m_records;
-    std::uint32_t m_next_binding = 0;
-    std::uint32_t m_next_name = 0;
+    std::vector<const RecordBuffer*> m_records;
 };
 
-void Composition::write_header() {
-    m_text = "#version 460\n"
-             "#extension GL_GOOGLE_cpp_style_line_directive : require\n"
-             "#extension GL_KHR_shader_subgroup_basic : require\n"
-             "#extension GL_KHR_shader_subgroup_arithmetic : require\n";
-    m_text += define("ELVIS_REAL_IS_DOUBLE", m_request.precision == Precision::float64 ? "1" : "0");
-    for (const auto& [name, value] : m_request.defines) {
-        m_text += define(name, value);
+std::string header(const KernelRequest& request) {
+    // Extensions must be named before the first declaration, so the kernel cannot ask for them itself. GL_GOOGLE_...: see
+    // expand_includes.
+    std::string text = "#version 460\n";
+    for (const char* extension :
+         {"GL_GOOGLE_cpp_style_line_directive", "GL_EXT_control_flow_attributes", "GL_KHR_shader_subgroup_basic",
+          "GL_KHR_shader_subgroup_vote", "GL_KHR_shader_subgroup_ballot", "GL_KHR_shader_subgroup_arithmetic"}) {
+        text += std::string("#extension ") + extension + " : enable\n";
     }
-    m_text += "#include \"library/types.glsl\"\n#include \"library/math.glsl\"\n";
-    m_text += "#line 1 \"composition of " + m_request.name + "\"\n";
-    m_text += "dvec2 core_unpack(uvec4 words) { return dvec2(packDouble2x32(words.xy), packDouble2x32(words.zw)); }\n";
+    text += define("ELVIS_REAL_IS_DOUBLE", request.precision == Precision::float64 ? "1" : "0");
+    text += define("ELVIS_N_INSTANCES", std::to_string(request.instances.size()));
+    for (const auto& [name, value] : request.defines) {
+        text += define(name, value);
+    }
+    return text;
 }
 
-/** Declares a record buffer under a name of its own, which is returned. */
-std::string Composition::declare(const RecordBuffer& records) {
-    const std::string name = "core_records" + std::to_string(m_next_name++);
-    FetchCode code = fetch_code(m_device, records, name, m_next_binding);
-    m_next_binding += records.n_parts();
-    m_text += code.text;
-    m_layout.insert(m_layout.end(), code.layout.begin(), code.layout.end());
-    m_records.insert(m_records.end(), code.bound.begin(), code.bound.end());
-    return name;
+bool is_common(std::string_view name) {
+    return std::find(common_files.begin(), common_files.end(), name) != common_files.end();
 }
 
-void Composition::write_buffer(const FetchBuffer& buffer) {
-    assert(buffer.records);
-    const std::string name = declare(*buffer.records);
-    m_text += define("elvis_fetch_" + buffer.name, name);
-    m_text += define("elvis_fetch4_" + buffer.name, name + "_row");
-}
-
-/** The snippet's sources as one text, its own includes expanded. */
-std::string snippet_text(const Snippet& snippet) {
-    const auto resolve = [&](std::string_view name) -> std::string_view {
+/** Files by name: a snippet's own sources, then the library, of which the common files are already there. */
+IncludeResolver resolver(const Snippet& snippet) {
+    return [&snippet](std::string_view name) -> std::string_view {
         for (const SnippetText& source : snippet.sources) {
             if (source.name == name) {
                 return source.text;
             }
         }
-        throw Error("the snippet has no source '" + std::string(name) + "'");
+        return is_common(name) ? std::string_view{} : shader_source(name);
     };
-    const SnippetText& main = snippet.sources.front();
-    return "#line 1 \"" + main.name + "\"\n" + expand_includes(main.text, main.name, resolve);
 }
 
-void require_functions(const Snippet& snippet, const std::set<std::string>& names) {
-    for (const InterfaceFunction& function : required_functions) {
-        if (!names.contains(function.name)) {
-            throw Error(snippet.sources.front().name,
-                        std::string("the snippet lacks the required function `") + function.signature + "`");
-        }
-    }
-}
-
-void Composition::write_instance(const SnippetInstance& instance, std::size_t index) {
-    const bool is_first = index == 0;
-    const auto has = [&](std::uint32_t capability) { return (instance.snippet.capabilities & capability) != 0; };
-    const std::string snippet = snippet_text(instance.snippet);
-    require_functions(instance.snippet, identifiers(snippet));
-
-    std::string origin = "elvis_vec3 elvis_origin(uint element) { return elvis_vec3(0); }\n";
-    if (instance.origins) {
-        const std::string name = declare(*instance.origins);
-        origin = "elvis_vec3 elvis_origin(uint element) { return " + name + "_row(element, 0u).xyz; }\n";
-    }
-    std::set<std::string> macros{"ELVIS_SHAPE", "ELVIS_N_COMPONENTS", "ELVIS_HAS_INVERSE_MAPPING"};
-    std::string defines = define("ELVIS_SHAPE", std::to_string(instance.shape)) +
-                          define("ELVIS_N_COMPONENTS", std::to_string(instance.n_components) + "u") +
-                          define("ELVIS_HAS_INVERSE_MAPPING", has(ELVIS_SNIPPET_INVERSE_MAPPING) ? "1" : "0");
-    for (const auto& [name, value] : instance.constants) {
-        defines += define(name, std::to_string(value));
-        macros.insert(name);
-    }
-    for (const FetchBuffer& buffer : instance.buffers) {
-        const std::string name = declare(*buffer.records);
-        defines += define("elvis_fetch_" + buffer.name, name) + define("elvis_fetch4_" + buffer.name, name + "_row");
-        macros.insert("elvis_fetch_" + buffer.name);
-        macros.insert("elvis_fetch4_" + buffer.name);
-    }
-
-    // Host code that belongs to each instance, because it depends on the shape or calls the snippet.
-    std::string host = expand_includes("#include \"library/reference_shape.glsl\"\n", "composition", shader_source);
-    std::string after = has(ELVIS_SNIPPET_MAPPING_JACOBIAN) ? "" : mapping_jacobian_default;
-    if (!has(ELVIS_SNIPPET_FIELD_GRADIENT)) {
-        after += expand_includes("#include \"library/gradient_default.glsl\"\n", "composition", shader_source);
-    }
-    const std::string body = host + origin + snippet + "#line 1 \"composition of " + m_request.name + "\"\n" + after;
-
-    const std::set<std::string> body_macros = defined_macros(body);
-    std::string renames;
-    std::set<std::string> renamed;
-    if (!is_first) {
-        const std::string suffix = "_" + std::to_string(index);
-        const std::string prefix = instance.snippet.prefix + "_";
-        const std::set<std::string> interface = [] {
-            std::set<std::string> names(std::begin(optional_functions), std::end(optional_functions));
-            for (const InterfaceFunction& function : required_functions) {
-                names.insert(function.name);
+/** The text of one instance and what its names need. */
+class InstanceWriter {
+public:
+    InstanceWriter(const KernelRequest& request, std::size_t index, const Records& records)
+        : m_instance(request.instances[index]), m_host_buffers(request.buffers), m_suffix(suffix(index)), m_records(records) {
+        const Snippet& snippet = m_instance.snippet;
+        check_snippet(snippet);
+        m_snippet_text = expand_includes(snippet.sources.front().text, snippet.sources.front().name, resolver(snippet));
+        m_snippet_names = scan_glsl(m_snippet_text);
+        std::string defaults = "#include \"library/reference_shape.glsl\"\n";
+        for (const DefaultFile& file : default_files) {
+            if ((snippet.capabilities & file.capability) == 0) {
+                defaults += std::string("#include \"") + file.path + "\"\n";
             }
+        }
+        m_default_text = expand_includes(defaults, "(defaults)", resolver(snippet));
+        m_default_names = scan_glsl(m_default_text);
+    }
+
+    /** Macros that a later instance or the kernel must not find defined by this one's snippet. */
+    std::string undef_macros() const { return undef_macros(m_snippet_names) + undef_macros(m_default_names); }
+
+    std::string write() const {
+        std::string text = "#line 1 \"(generated)\"\n" + class_macros();
+        const std::vector<std::string> renamed = renamed_names();
+        for (const std::string& name : renamed) {
+            text += define(name, name + m_suffix);
+        }
+        text += origin_function() + buffer_macros();
+        for (const auto& [name, value] : m_instance.constants) {
+            text += define(name, integer_literal(name, value));
+        }
+        text += m_snippet_text + m_default_text + "#line 1 \"(generated)\"\n" + undef_macros(m_snippet_names);
+        for (const auto& constant : m_instance.constants) {
+            text += undef(constant.first);
+        }
+        text += restore_buffer_macros();
+        for (const std::string& name : renamed) {
+            text += undef(name);
+        }
+        return text;
+    }
+
+private:
+    static std::string undef_macros(const GlslNames& names) {
+        std::string text;
+        for (const GlslDefinition& definition : names.definitions) {
+            if (definition.kind == GlslDefinition::Kind::macro) {
+                text += undef(definition.name);
+            }
+        }
+        return text;
+    }
+
+    /** The shape and capabilities, under their own names for the text that follows and with the suffix for the kernel. */
+    std::string class_macros() const {
+        std::vector<std::pair<std::string, std::string>> macros{
+            {"ELVIS_SHAPE", std::to_string(m_instance.shape)},
+            {"ELVIS_N_COMPONENTS", std::to_string(m_instance.n_components)},
+        };
+        for (const auto& [name, capability] : capability_macros) {
+            macros.emplace_back(name, (m_instance.snippet.capabilities & capability) != 0 ? "1" : "0");
+        }
+        std::string text;
+        for (const auto& [name, value] : macros) {
+            text += undef(name) + define(name, value);
+            if (!m_suffix.empty()) {
+                text += define(name + m_suffix, value);
+            }
+        }
+        return text;
+    }
+
+    /** What instances after the first call otherwise: the interface, the snippet's own names, those of the default functions.
+     */
+    std::vector<std::string> renamed_names() const {
+        std::vector<std::string> names;
+        if (m_suffix.empty()) {
             return names;
-        }();
-        for (const std::string& name : identifiers(body)) {
-            const bool belongs = interface.contains(name) || name.starts_with(prefix) ||
-                                 (name.starts_with("core_") && !name.starts_with("core_records"));
-            if (belongs && !body_macros.contains(name)) {
-                renames += define(name, name + suffix);
-                renamed.insert(name);
+        }
+        std::set<std::string> kept;
+        for (const auto& constant : m_instance.constants) {
+            kept.insert(constant.first);
+        }
+        for (const GlslNames* scanned : {&m_snippet_names, &m_default_names}) {
+            for (const GlslDefinition& definition : scanned->definitions) {
+                if (definition.kind == GlslDefinition::Kind::macro) {
+                    kept.insert(definition.name);
+                }
             }
         }
+        names.emplace_back("elvis_origin");
+        for (const SnippetFunction& function : snippet_functions()) {
+            names.emplace_back(function.name);
+        }
+        const std::string prefix = m_instance.snippet.prefix + "_";
+        for (const std::string& name : m_snippet_names.identifiers) {
+            if (name.compare(0, prefix.size(), prefix) == 0) {
+                names.push_back(name);
+            }
+        }
+        // Beyond the prefix, a snippet's text defines what library files it includes define.
+        for (const GlslNames* scanned : {&m_snippet_names, &m_default_names}) {
+            for (const GlslDefinition& definition : scanned->definitions) {
+                names.push_back(definition.name);
+            }
+        }
+        std::sort(names.begin(), names.end());
+        names.erase(std::unique(names.begin(), names.end()), names.end());
+        names.erase(std::remove_if(names.begin(), names.end(), [&](const std::string& name) { return kept.count(name) != 0; }),
+                    names.end());
+        return names;
     }
-    m_text += defines + renames + body;
-    if (!is_first) {
-        macros.insert(body_macros.begin(), body_macros.end());
-        macros.insert(renamed.begin(), renamed.end());
-        for (const std::string& name : macros) {
-            m_text += "#undef " + name + "\n";
+
+    std::string origin_function() const {
+        std::string value = "elvis_vec3(0)";
+        if (m_instance.origins != nullptr) {
+            value = "elvis_vec3(core_row_" + std::to_string(m_records.number(m_instance.origins)) + "(element, 0u).xyz)";
+        }
+        return "elvis_vec3 elvis_origin(uint element) { return " + value + "; }\n";
+    }
+
+    const FetchBuffer* host_buffer(const std::string& name) const {
+        const auto found = std::find_if(m_host_buffers.begin(), m_host_buffers.end(),
+                                        [&](const FetchBuffer& buffer) { return buffer.name == name; });
+        return found == m_host_buffers.end() ? nullptr : &*found;
+    }
+
+    std::string buffer_macros() const {
+        std::string text;
+        for (const FetchBuffer& buffer : m_instance.buffers) {
+            text += fetch_undefs(buffer.name) + fetch_macros(buffer.name, *buffer.records, m_records.number(buffer.records));
+        }
+        return text;
+    }
+
+    /** Takes the instance's buffers away again; a buffer of the host of the same name comes back. */
+    std::string restore_buffer_macros() const {
+        std::string text;
+        for (const FetchBuffer& buffer : m_instance.buffers) {
+            text += fetch_undefs(buffer.name);
+            if (const FetchBuffer* host = host_buffer(buffer.name)) {
+                text += fetch_macros(host->name, *host->records, m_records.number(host->records));
+            }
+        }
+        return text;
+    }
+
+    const SnippetInstance& m_instance;
+    const std::vector<FetchBuffer>& m_host_buffers;
+    std::string m_suffix;
+    const Records& m_records;
+    std::string m_snippet_text;
+    GlslNames m_snippet_names;
+    std::string m_default_text;
+    GlslNames m_default_names;
+};
+
+std::string instances_text(const KernelRequest& request, const Records& records) {
+    std::vector<InstanceWriter> writers;
+    for (std::size_t index = 0; index < request.instances.size(); ++index) {
+        writers.emplace_back(request, index, records);
+    }
+    // The first instance comes last: what library files define for it, guards included, is what the kernel finds.
+    std::string text;
+    for (std::size_t index = writers.size(); index-- > 0;) {
+        text += writers[index].write();
+        if (index > 0) {
+            text += writers[index].undef_macros();
         }
     }
+    return text;
+}
+
+std::string compose(const Device& device, const KernelRequest& request, const Records& records) {
+    std::string text = header(request);
+    for (const std::string_view file : common_files) {
+        text += expand_includes(shader_source(file), std::string(file), shader_source);
+    }
+    text += "#line 1 \"(generated)\"\n";
+    auto binding = static_cast<std::uint32_t>(request.bindings.size());
+    for (std::uint32_t number = 0; number < records.all().size(); ++number) {
+        text += fetch_functions(device, *records.all()[number], number, binding);
+        binding += records.all()[number]->n_parts();
+    }
+    for (const FetchBuffer& buffer : request.buffers) {
+        text += fetch_macros(buffer.name, *buffer.records, records.number(buffer.records));
+    }
+    text += instances_text(request, records);
+    const std::string_view kernel = request.kernel_text.empty() ? shader_source(request.kernel) : request.kernel_text;
+    return text + expand_includes(kernel, request.kernel, shader_source);
+}
+
+/** Descriptors of the record buffers: all parts of all buffers, behind the kernel's own bindings. */
+std::vector<BoundBuffer> record_bindings(const KernelRequest& request, const Records& records) {
+    std::vector<BoundBuffer> bound;
+    auto binding = static_cast<std::uint32_t>(request.bindings.size());
+    for (const RecordBuffer* buffer : records.all()) {
+        for (std::uint32_t part = 0; part < buffer->n_parts(); ++part) {
+            bound.push_back({binding++, nullptr, buffer, part});
+        }
+    }
+    return bound;
+}
+
+Kernel make_kernel(const Device& device, const KernelRequest& request) {
+    if (request.precision == Precision::float64 && !device.summary().has_float64) {
+        throw Error("device '" + device.summary().name + "'", "it has no double precision; use --precision float32");
+    }
+    const Records records(request);
+    std::vector<BindingLayout> layout = request.bindings;
+    for (const BoundBuffer& bound : record_bindings(request, records)) {
+        layout.push_back(
+            {bound.binding, device.uses_texel_buffers() ? BindingType::texel_buffer : BindingType::storage_buffer});
+    }
+    const auto spirv = compile_shader(compose(device, request, records), request.name);
+    return Kernel(device, spirv, std::move(layout), request.push_constant_bytes, request.name);
 }
 
 } // namespace
 
-std::string compose_text(const Device& device, const KernelRequest& request) { return Composition(device, request).text(); }
-
 ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request)
-    : ComposedKernel(device, request, [&] {
-          if (request.precision == Precision::float64 && !device.summary().has_float64) {
-              throw Error(device.summary().name, "cannot compute in float64; use --precision float32");
-          }
-          const Composition composition(device, request);
-          return Parts{compile_shader(composition.text(), request.name), composition.layout(), composition.records()};
-      }()) {}
-
-ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request, Parts parts)
-    : m_kernel(device, parts.spirv, std::move(parts.layout), request.push_constant_bytes, request.name),
-      m_records(std::move(parts.records)), m_n_own(request.bindings.size()) {}
+    : m_kernel(make_kernel(device, request)), m_records(record_bindings(request, Records(request))),
+      m_n_bindings(request.bindings.size()) {}
 
 void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
                               std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
-    assert(bindings.size() == m_n_own);
+    assert(bindings.size() == m_n_bindings);
     std::vector<BoundBuffer> bound = m_records;
     for (std::uint32_t binding = 0; binding < bindings.size(); ++binding) {
         bound.push_back({binding, bindings[binding], nullptr, 0});
     }
     m_kernel.dispatch(bound, push_constants, groups_x, groups_y, groups_z);
+}
+
+std::string compose_text(const Device& device, const KernelRequest& request) {
+    return compose(device, request, Records(request));
 }
 
 } // namespace elvis

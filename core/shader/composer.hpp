@@ -1,16 +1,31 @@
 /**
  * @file composer.hpp
- * Composes kernels: interface + library + snippet + kernel, in this order:
+ * Composes kernels: interface + library + snippet + kernel.
  *
- *   types and mathematics       library/types.glsl, library/math.glsl
- *   the host's record buffers   elvis_fetch_NAME, elvis_fetch4_NAME
- *   each snippet instance       constants, fetch macros, library/reference_shape.glsl, elvis_origin, the snippet, defaults for
- * what it lacks (elvis_mapping_jacobian, elvis_field_gradient) the kernel                  which includes what else it needs of
- * the library
+ * The text of a kernel, in order:
  *
- * All but the first instance have their names replaced by #defines ("native_row" becomes "native_row_1") that are undone after
- * it, as are the macros they define: a snippet may occur several times, and lines keep their numbers. The first instance comes
- * last and stays visible as it is, ELVIS_SHAPE and all, for the kernel and the parts of the library that depend on it.
+ *   1. #version, extensions, ELVIS_REAL_IS_DOUBLE, ELVIS_N_INSTANCES, the request's #defines
+ *   2. library/types.glsl, library/math.glsl
+ *   3. fetch functions for every record buffer of host and instances (core/shader/fetch.hpp), and the host's elvis_fetch_NAME
+ *   4. the instances, the first one last
+ *   5. the kernel's file, whose #includes reach everything below shaders/
+ *
+ * An instance is: ELVIS_SHAPE, ELVIS_N_COMPONENTS and ELVIS_HAS_... (FIELD_GRADIENT, MAPPING_JACOBIAN, INVERSE_MAPPING,
+ * FIELD_OFFSET, LOCAL_ORIGIN: 0 or 1); elvis_origin; the fetch macros of its buffers; its constants; the snippet's first
+ * source; library/reference_shape.glsl; and, where the snippet lacks them, library/mapping_jacobian_default.glsl and
+ * library/gradient_default.glsl. A kernel that inverts mappings includes library/newton.glsl itself, which is about the first
+ * instance. Afterwards the snippet's macros and fetch macros are undefined again.
+ *
+ * Instance k > 0 is the same text with #defines around it that append _k to the interface functions, to every identifier that
+ * starts with the snippet's prefix, and to every name that the library files of the instance define. So a kernel calls
+ * elvis_field_value_1(...), core_excess_1(...), and reads ELVIS_SHAPE_1. The first instance keeps all names, and the macros of
+ * its library files (not those of the snippet) stay defined for the kernel, so that include guards work there.
+ *
+ * Library files of an instance may include each other, with guards, and the common files of step 2, which are left out then.
+ * Names that macros put together with ## are not renamed.
+ *
+ * Before anything is compiled, a snippet's names are checked (core/shader/snippet_check.hpp). Compiler messages name the file
+ * and line of whoever wrote the text.
  */
 #pragma once
 
@@ -18,7 +33,7 @@
 #include <core/vulkan/buffer.hpp>
 #include <core/vulkan/kernel.hpp>
 
-#include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +66,8 @@ struct KernelRequest {
     std::string name;
     /** Path of the kernel below shaders/, e.g. "kernels/cut_plane.comp". It has main() and its own bindings from 0. */
     std::string kernel;
+    /** The kernel itself, if it is not among the files; `kernel` is its name in messages then. */
+    std::string kernel_text;
     Precision precision = Precision::float32;
     std::vector<SnippetInstance> instances;
     /** Record buffers of the host, visible to library and kernel. */
@@ -62,7 +79,10 @@ struct KernelRequest {
     std::uint32_t push_constant_bytes = 0;
 };
 
-/** A kernel with the descriptors of all record buffers already known; only the kernel's own buffers are given at dispatch. */
+/**
+ * A kernel with the descriptors of all record buffers already known; only the kernel's own buffers are given at dispatch. The
+ * record buffers must outlive it.
+ */
 class ComposedKernel {
 public:
     ComposedKernel(const Device& device, const KernelRequest& request);
@@ -72,16 +92,9 @@ public:
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;
 
 private:
-    struct Parts {
-        std::vector<std::uint32_t> spirv;
-        std::vector<BindingLayout> layout;
-        std::vector<BoundBuffer> records;
-    };
-    ComposedKernel(const Device& device, const KernelRequest& request, Parts parts);
-
     Kernel m_kernel;
     std::vector<BoundBuffer> m_records;
-    std::size_t m_n_own;
+    std::size_t m_n_bindings;
 };
 
 /** The complete GLSL text of a request, for messages and tests. */

@@ -1,28 +1,33 @@
 /**
  * @file fetch.hpp
- * GLSL that reads record buffers, whatever they are bound as and however many parts they have.
+ * GLSL that reads record buffers.
+ *
+ * For record buffer number N of a kernel, with P parts of R records each:
+ *
+ *   vec4   core_row_N(uint record, uint row)       numbers 4*row .. 4*row+3 of the record (dvec4, uvec4)
+ *   float  core_number_N(uint record, uint index)  number `index` (double, uint)
+ *
+ * A texel holds four floats, four uints or, as bits, two doubles. With several parts the right one is found by comparing the
+ * record with the parts' borders: drivers for CPUs cannot index descriptors by a value that differs between lanes, and read all
+ * parts anyway. A record beyond the last reads as zero then; with one part, that is left to the driver's bounds check.
  */
 #pragma once
 
 #include <core/vulkan/buffer.hpp>
-#include <core/vulkan/kernel.hpp>
+#include <core/vulkan/device.hpp>
 
 #include <string>
 
 namespace elvis {
 
-/** Declarations of one record buffer in a shader. */
-struct FetchCode {
-    /** Bindings and functions: `NAME(record, index)` and `NAME_row(record, row)`. */
-    std::string text;
-    std::vector<BindingLayout> layout;
-    std::vector<BoundBuffer> bound;
-};
+/** Declarations and both functions for record buffer `number`, whose parts stand at `first_binding` .. */
+std::string fetch_functions(const Device& device, const RecordBuffer& records, std::uint32_t number,
+                            std::uint32_t first_binding);
 
-/**
- * `name` is the GLSL name of the function that fetches one number; parts are bound at first_binding and following. The parts of
- * a buffer are told apart by comparison, because not every device may index descriptors by values that differ between lanes.
- */
-FetchCode fetch_code(const Device& device, const RecordBuffer& records, const std::string& name, std::uint32_t first_binding);
+/** #defines of elvis_fetch_NAME and elvis_fetch4_NAME for record buffer `number`, giving elvis_real or uint. */
+std::string fetch_macros(const std::string& name, const RecordBuffer& records, std::uint32_t number);
+
+/** The #undefs that belong to them. */
+std::string fetch_undefs(const std::string& name);
 
 } // namespace elvis

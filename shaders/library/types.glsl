@@ -1,4 +1,7 @@
-// Names of the types that depend on the precision, and of the reference shapes (plugin_api/glsl_interface.md).
+// Types and constants of the GLSL interface (plugin_api/glsl_interface.md): the precision in use behind one set of names.
+
+#ifndef CORE_TYPES
+#define CORE_TYPES
 
 #if ELVIS_REAL_IS_DOUBLE
 #define elvis_real double
@@ -14,7 +17,18 @@
 #define elvis_mat3 mat3
 #endif
 
+// As in elvis/element.h.
 #define ELVIS_SHAPE_HEXAHEDRON 0
 #define ELVIS_SHAPE_PRISM 1
 #define ELVIS_SHAPE_PYRAMID 2
 #define ELVIS_SHAPE_TETRAHEDRON 3
+#define ELVIS_SHAPE_QUADRILATERAL 4
+#define ELVIS_SHAPE_TRIANGLE 5
+
+// Two doubles that travelled as the bits of one texel; and one of them, the second if `index` is odd.
+dvec4 core_doubles(uvec4 low, uvec4 high) {
+    return dvec4(packDouble2x32(low.xy), packDouble2x32(low.zw), packDouble2x32(high.xy), packDouble2x32(high.zw));
+}
+double core_double(uvec4 texel, uint index) { return packDouble2x32((index & 1u) == 0u ? texel.xy : texel.zw); }
+
+#endif

@@ -1,0 +1,96 @@
+#include <core/shader/snippet_check.hpp>
+
+#include <core/base/error.hpp>
+#include <core/shader/glsl_scan.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace elvis {
+
+namespace {
+
+bool begins_with(const std::string& text, const std::string& prefix) { return text.compare(0, prefix.size(), prefix) == 0; }
+
+const SnippetFunction* find_function(const std::string& name) {
+    const auto& functions = snippet_functions();
+    const auto found = std::find_if(functions.begin(), functions.end(),
+                                    [&](const SnippetFunction& function) { return name == function.name; });
+    return found == functions.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+const std::vector<SnippetFunction>& snippet_functions() {
+    static const std::vector<SnippetFunction> functions{
+        {"elvis_mapping", "elvis_vec3 elvis_mapping(uint element, elvis_vec3 xi)", 0},
+        {"elvis_jacobian", "elvis_mat3 elvis_jacobian(uint element, elvis_vec3 xi)", 0},
+        {"elvis_field_value", "elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component)", 0},
+        {"elvis_field_gradient",
+         "void elvis_field_gradient(uint element, elvis_vec3 xi, uint component, out elvis_real value, out elvis_vec3 "
+         "gradient)",
+         ELVIS_SNIPPET_FIELD_GRADIENT},
+        {"elvis_mapping_jacobian",
+         "void elvis_mapping_jacobian(uint element, elvis_vec3 xi, out elvis_vec3 x, out elvis_mat3 jacobian)",
+         ELVIS_SNIPPET_MAPPING_JACOBIAN},
+        {"elvis_inverse_mapping", "bool elvis_inverse_mapping(uint element, elvis_vec3 x, out elvis_vec3 xi)",
+         ELVIS_SNIPPET_INVERSE_MAPPING},
+    };
+    return functions;
+}
+
+std::string macro_prefix(const Snippet& snippet) {
+    std::string prefix = snippet.prefix;
+    std::transform(prefix.begin(), prefix.end(), prefix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return prefix;
+}
+
+void check_snippet(const Snippet& snippet) {
+    if (snippet.sources.empty()) {
+        throw Error("snippet '" + snippet.prefix + "'", "it has no source");
+    }
+    if (snippet.prefix.empty() || snippet.prefix == "elvis" || snippet.prefix == "core" || snippet.prefix == "gl") {
+        throw Error(snippet.sources.front().name,
+                    "'" + snippet.prefix + "' cannot be a snippet's prefix; take the plugin's name");
+    }
+    std::set<std::string> functions;
+    for (const SnippetText& source : snippet.sources) {
+        const GlslNames names = scan_glsl(source.text);
+        if (names.forbidden_line != 0) {
+            throw Error(source.name + ":" + std::to_string(names.forbidden_line),
+                        "a snippet must not contain " + names.forbidden);
+        }
+        for (const GlslDefinition& definition : names.definitions) {
+            const std::string place = source.name + ":" + std::to_string(definition.line);
+            const SnippetFunction* function = find_function(definition.name);
+            if (function != nullptr) {
+                if (function->capability != 0 && (snippet.capabilities & function->capability) == 0) {
+                    throw Error(place,
+                                "the snippet defines " + definition.name + " but does not announce it in its capabilities");
+                }
+                if (definition.kind == GlslDefinition::Kind::function) {
+                    functions.insert(definition.name);
+                }
+                continue;
+            }
+            const std::string prefix =
+                (definition.kind == GlslDefinition::Kind::macro ? macro_prefix(snippet) : snippet.prefix) + "_";
+            if (!begins_with(definition.name, prefix)) {
+                throw Error(place,
+                            "the name '" + definition.name + "' does not begin with the snippet's prefix '" + prefix + "'");
+            }
+        }
+    }
+    for (const SnippetFunction& function : snippet_functions()) {
+        const bool is_wanted = function.capability == 0 || (snippet.capabilities & function.capability) != 0;
+        if (is_wanted && functions.count(function.name) == 0) {
+            throw Error(snippet.sources.front().name, std::string("the snippet lacks ") +
+                                                          (function.capability == 0 ? "the required " : "what it announces: ") +
+                                                          function.signature);
+        }
+    }
+}
+
+} // namespace elvis
