@@ -75,11 +75,11 @@ void check_snippet(const Snippet& snippet) {
                 }
                 continue;
             }
-            const std::string prefix =
-                (definition.kind == GlslDefinition::Kind::macro ? macro_prefix(snippet) : snippet.prefix) + "_";
-            if (!begins_with(definition.name, prefix)) {
-                throw Error(place,
-                            "the name '" + definition.name + "' does not begin with the snippet's prefix '" + prefix + "'");
+            // A function may be defined under a macro's name, which stands for the real one.
+            if (!begins_with(definition.name, snippet.prefix + "_") &&
+                !begins_with(definition.name, macro_prefix(snippet) + "_")) {
+                throw Error(place, "the name '" + definition.name + "' does not begin with the snippet's prefix, '" +
+                                       snippet.prefix + "_' ('" + macro_prefix(snippet) + "_' for macros)");
             }
         }
     }
