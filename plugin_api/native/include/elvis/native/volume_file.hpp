@@ -127,6 +127,8 @@ public:
     void write_faces(std::uint64_t first, std::uint64_t count, std::span<const Face> faces);
     /** Known only after all blocks. */
     void set_max_jump(std::size_t field, double jump);
+    /** Replaces the label given in the description: what the jumps show is known only after all blocks. */
+    void set_continuity(std::size_t field, Continuity continuity);
     /** Adds or replaces a note. */
     void set_note(const std::string& key, const std::string& value);
     void commit();
