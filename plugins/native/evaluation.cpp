@@ -7,6 +7,8 @@
  */
 #include "volume.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -68,30 +70,45 @@ private:
 };
 
 /**
- * dJ/dxi_k: derivative of the polynomial that interpolates J at Chebyshev points on a short line through xi. The Jacobian of
- * hexahedra, prisms and tetrahedra is a polynomial on every line, of no more than `degree`, so nothing but round-off is lost;
- * in pyramids it is analytic as far as the apex, and the line, half as long as the distance to it, leaves an error of about
- * 1e-11.
+ * Derivative of the Jacobian J in direction `line`, from the polynomial that interpolates J at Chebyshev points within `reach`
+ * times `line` of xi. J must be a polynomial of no more than `degree` on this line; then nothing but round-off is lost.
  */
-Matrix3 jacobian_derivative(VectorFunction& mapping, const native::Space& space, const Point& xi, std::size_t direction) {
-    const bool pyramid = space.shape == native::Shape::pyramid;
-    const int degree = pyramid ? 20 : static_cast<int>(space.order[0] + space.order[1] + space.order[2]);
-    const double half_length = pyramid ? std::max(std::abs(1 - xi[2]) / 2, 1e-6) : 1.0;
-    const int n = 2 * (degree / 2) + 2;
-    // Chebyshev-Gauss points z_i = cos(theta_i), an even number of them, so that the centre is none; coefficients
-    // c_m = 2/n sum_i J(z_i) cos(m theta_i); derivative at the centre: T_m'(0) = m sin(m pi/2).
+Matrix3 derivative_along(VectorFunction& mapping, const Point& xi, const Vector3& line, double reach, std::uint32_t degree) {
+    // Chebyshev-Gauss points z_i = cos(theta_i); coefficients c_m = 2/n sum_i J(z_i) cos(m theta_i); T_m'(0) = m sin(m pi/2).
+    const auto n = static_cast<int>(degree) + 1;
     Matrix3 result = Matrix3::Zero();
     for (int i = 0; i < n; ++i) {
         const double theta = std::numbers::pi * (i + 0.5) / n;
         double weight = 0;
         for (int m = 1; m < n; m += 2)
             weight += 2.0 / n * std::cos(m * theta) * m * (m % 4 == 1 ? 1 : -1);
-        Point at = xi;
-        at[direction] += half_length * std::cos(theta);
-        mapping.move_to(at);
-        result += weight / half_length * mapping.derivatives();
+        const double z = reach * std::cos(theta);
+        mapping.move_to({xi[0] + z * line[0], xi[1] + z * line[1], xi[2] + z * line[2]});
+        result += weight / reach * mapping.derivatives();
     }
     return result;
+}
+
+/**
+ * dJ/dxi_k for all k. In hexahedra, prisms and tetrahedra J is a polynomial on every line. In pyramids it is one on lines of
+ * constant xi3, and on lines through the apex, where the collapsed coordinates eta1 and eta2 are constant:
+ * d/dxi3 = d/dline + (1 + eta1)/2 d/dxi1 + (1 + eta2)/2 d/dxi2.
+ */
+std::array<Matrix3, 3> jacobian_derivatives(VectorFunction& mapping, const native::Space& space, const Point& xi) {
+    const std::array<std::uint32_t, 3> orders = native::collapsed_order(space);
+    const std::uint32_t degree = std::max({orders[0], orders[1], orders[2]});
+    if (space.shape != native::Shape::pyramid)
+        return {derivative_along(mapping, xi, Vector3::UnitX(), 1, degree),
+                derivative_along(mapping, xi, Vector3::UnitY(), 1, degree),
+                derivative_along(mapping, xi, Vector3::UnitZ(), 1, degree)};
+    // At the apex itself there is no derivative; close to it round-off grows with 1/t.
+    const double t = std::max((1 - xi[2]) / 2, 1e-12);
+    const double drift1 = (1 + xi[0]) / (2 * t);
+    const double drift2 = (1 + xi[1]) / (2 * t);
+    const Matrix3 first = derivative_along(mapping, xi, Vector3::UnitX(), t, degree);
+    const Matrix3 second = derivative_along(mapping, xi, Vector3::UnitY(), t, degree);
+    const Matrix3 along = derivative_along(mapping, xi, {-drift1, -drift2, 1}, t, degree);
+    return {first, second, along + drift1 * first + drift2 * second};
 }
 
 Point point(std::span<const double> xi, std::size_t i) { return {xi[3 * i], xi[3 * i + 1], xi[3 * i + 2]}; }
@@ -155,9 +172,10 @@ void Volume::evaluate_field(std::size_t field, std::size_t time_step, std::uint6
             continue;
         const Matrix3 hat_derivatives = reference.derivatives();
         Eigen::Map<Matrix3> gradient(gradients.data() + 9 * i);
+        const std::array<Matrix3, 3> bends = jacobian_derivatives(mapping, mapping_space, at);
         for (std::size_t k = 0; k < 3; ++k) {
             const auto column = static_cast<Eigen::Index>(k);
-            const Matrix3 bend = jacobian_derivative(mapping, mapping_space, at, k);
+            const Matrix3& bend = bends[k];
             if (covariant)
                 gradient.col(column) = inverse.transpose() * (hat_derivatives.col(column) - bend.transpose() * u);
             else

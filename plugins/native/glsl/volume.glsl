@@ -91,18 +91,5 @@ void elvis_field_gradient(uint element, elvis_vec3 xi, uint component, out elvis
 }
 
 #else
-
-// u = J^-T uhat (covariant, 1) or J uhat / det J (contravariant, 2), less the offset in the record's last row.
-elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component) {
-    elvis_vec3 hat = native_field(element, 0u, xi);
-    elvis_mat3 jacobian = elvis_jacobian(element, xi);
-#if NATIVE_TRANSFORM == 1
-    elvis_vec3 u = hat * inverse(jacobian);
-#else
-    elvis_vec3 u = jacobian * hat / determinant(jacobian);
-#endif
-    u -= elvis_fetch4_field(element, uint(NATIVE_FIELD_ROWS)).xyz;
-    return component == 0u ? u.x : component == 1u ? u.y : u.z;
-}
-
+#include "transform.glsl"
 #endif

@@ -1,0 +1,246 @@
+/*
+ * The snippets on the device against the CPU evaluation of the native spaces.
+ */
+#include "test_volume.hpp"
+
+#include <core/shader/composer.hpp>
+#include <core/vulkan/buffer.hpp>
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <iostream>
+
+using namespace elvis;
+using test::ClassPlan;
+using test::TestVolume;
+
+namespace {
+
+const Device& device() {
+    static const Device only({}, true);
+    return only;
+}
+
+/** As in shaders/kernels/snippet_check.comp. */
+struct CheckPoint {
+    double xi[3];
+    std::uint32_t element;
+    std::uint32_t component;
+};
+constexpr std::size_t numbers_per_point = 20;
+
+/** A class of a volume with one field, on the device. */
+class ClassOnDevice {
+public:
+    ClassOnDevice(const RuntimeVolume& volume, std::uint32_t element_class, std::uint32_t field, Precision precision,
+                  std::span<const double> origins, std::span<const double> offset) {
+        m_request.name = "snippet check";
+        m_request.kernel = "kernels/snippet_check.comp";
+        m_request.precision = precision;
+        m_request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
+        m_request.push_constant_bytes = 4;
+        SnippetInstance instance;
+        instance.snippet = volume.snippet(element_class);
+        instance.shape = volume.classes()[element_class].shape;
+        instance.n_components = volume.fields()[field].n_components;
+        instance.constants = volume.class_field(element_class, field).constants;
+        for (std::uint32_t i = 0; i < volume.n_buffers(); ++i) {
+            const BufferInfo info = volume.buffer(i, field);
+            if (info.element_class != element_class)
+                continue;
+            std::vector<double> numbers(info.n_records * info.record_size);
+            const elvis_fill_request request{
+                sizeof(elvis_fill_request), i, field, 0, 0, info.n_records, offset.data(), origins.data()};
+            volume.fill_buffer(request, numbers.data());
+            m_buffers.push_back(
+                std::make_unique<RecordBuffer>(device(), RecordKind::real, precision, info.n_records, info.record_size));
+            m_buffers.back()->write_reals(0, numbers);
+            instance.buffers.push_back({info.name, m_buffers.back().get()});
+        }
+        m_request.instances = {instance};
+        m_kernel.emplace(device(), m_request);
+    }
+
+    std::vector<double> evaluate(const std::vector<CheckPoint>& points) const {
+        const Buffer input(device(), points.size() * sizeof(CheckPoint));
+        const Buffer output(device(), points.size() * numbers_per_point * sizeof(double));
+        input.write_items(std::span<const CheckPoint>(points));
+        const auto n = static_cast<std::uint32_t>(points.size());
+        const std::array<const Buffer*, 2> bindings{&input, &output};
+        m_kernel->dispatch(bindings, std::as_bytes(std::span(&n, 1)), (n + 7) / 8);
+        return output.read_items<double>(points.size() * numbers_per_point);
+    }
+
+private:
+    KernelRequest m_request;
+    std::vector<std::unique_ptr<RecordBuffer>> m_buffers;
+    std::optional<ComposedKernel> m_kernel;
+};
+
+/** Points inside, on faces, edges and corners; collapsed vertices among them. */
+std::vector<CheckPoint> check_points(native::Shape shape, std::uint32_t n_elements, std::uint32_t n_components,
+                                     Precision precision) {
+    test::Random random(9);
+    std::vector<CheckPoint> points;
+    for (int i = 0; i < 64; ++i) {
+        native::Point eta;
+        for (std::size_t d = 0; d < 3; ++d)
+            eta[d] = (i >> d) % 8 == 0 ? (i % 3 == 0 ? -1 : 1) : random.between(-1, 1);
+        native::Point xi = native::expand(shape, eta);
+        for (double& coordinate : xi)
+            if (precision == Precision::float32)
+                coordinate = static_cast<double>(static_cast<float>(coordinate));
+        points.push_back(
+            {{xi[0], xi[1], xi[2]}, static_cast<std::uint32_t>(i) % n_elements, static_cast<std::uint32_t>(i) % n_components});
+    }
+    for (int corner = 0; corner < native::n_corners(shape); ++corner) {
+        const native::Point xi = native::corner(shape, corner);
+        points.push_back({{xi[0], xi[1], xi[2]}, 0, 0});
+    }
+    return points;
+}
+
+/** Errors relative to the largest magnitude of what is compared, over all points. */
+class Comparison {
+public:
+    void add(double actual, double expected) {
+        m_error = std::isfinite(actual) ? std::max(m_error, std::abs(actual - expected)) : INFINITY;
+        m_scale = std::max(m_scale, std::abs(expected));
+    }
+    double error() const { return m_error == 0 ? 0 : m_error / m_scale; }
+
+private:
+    double m_error = 0;
+    double m_scale = 0;
+};
+
+struct Errors {
+    double value, gradient, position, jacobian;
+    double largest() const { return std::max({value, gradient, position, jacobian}); }
+};
+
+/** Compares all that the snippet of a class gives with the volume's CPU evaluation, at points with xi3 <= top. */
+Errors check_class(const TestVolume& file, std::uint32_t element_class, std::uint32_t field, Precision precision, double centre,
+                   double top = 1) {
+    const RuntimeVolume volume = file.open();
+    const std::uint32_t n_components = volume.fields()[field].n_components;
+    const std::vector<double> origins(3 * volume.n_elements(), centre);
+    const std::vector<double> offset{0.5, -0.25, 0.125};
+    const ClassOnDevice on_device(volume, element_class, field, precision, origins, std::span(offset).first(n_components));
+    std::vector<CheckPoint> points =
+        check_points(file.description().classes[element_class].geometry.shape,
+                     static_cast<std::uint32_t>(volume.classes()[element_class].n_elements), n_components, precision);
+    std::erase_if(points, [top](const CheckPoint& point) { return point.xi[2] > top; });
+    const std::vector<double> results = on_device.evaluate(points);
+    Comparison value, gradient, position, jacobian;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double* result = results.data() + i * numbers_per_point;
+        const std::uint64_t element = volume.classes()[element_class].first_element + points[i].element;
+        const std::size_t component = points[i].component;
+        std::array<double, 3> x{};
+        std::array<double, 9> j{};
+        std::vector<double> values(n_components), gradients(3 * n_components);
+        volume.evaluate_mapping(element, points[i].xi, x, j);
+        volume.evaluate_field(field, 0, element, points[i].xi, values, gradients);
+        value.add(result[0], values[component] - offset[component]);
+        value.add(result[1], values[component] - offset[component]);
+        for (std::size_t d = 0; d < 3; ++d) {
+            gradient.add(result[2 + d], gradients[3 * component + d]);
+            position.add(result[5 + d], x[d] - centre);
+            position.add(result[8 + d], x[d] - centre);
+            for (std::size_t k = 0; k < 3; ++k)
+                jacobian.add(result[11 + 3 * k + d], j[3 * d + k]);
+        }
+    }
+    return {value.error(), gradient.error(), position.error(), jacobian.error()};
+}
+
+/** One class for each text of GLSL that the snippet turns into. */
+std::vector<native::Space> snippet_spaces(std::uint32_t order) {
+    std::vector<native::Space> spaces;
+    for (const native::Space& space : test::spaces_of_order(order)) {
+        using native::Basis;
+        if (space.shape == native::Shape::pyramid || space.basis == Basis::modified)
+            spaces.push_back(space);
+    }
+    return spaces;
+}
+
+std::string describe(const Errors& errors) {
+    char text[200];
+    std::snprintf(text, sizeof text, "value %.1e, gradient %.1e, position %.1e, Jacobian %.1e", errors.value, errors.gradient,
+                  errors.position, errors.jacobian);
+    return text;
+}
+
+native::Field field_of(std::uint32_t n_components, native::Transform transform) {
+    return {"f", "", n_components, native::Continuity::unknown, transform, std::nan("")};
+}
+
+} // namespace
+
+TEST_CASE("snippets agree with the CPU in float64, orders 0 to 14") {
+    for (const std::uint32_t order : {0u, 1u, 2u, 3u, 5u, 8u, 14u}) {
+        const std::vector<native::Space> spaces = snippet_spaces(order);
+        const std::vector<native::Space> geometry = snippet_spaces(1 + order % 4);
+        std::vector<ClassPlan> classes;
+        for (std::size_t i = 0; i < spaces.size(); ++i)
+            classes.push_back({geometry[i], {spaces[i]}});
+        const TestVolume file(classes, {field_of(2, native::Transform::none)}, {0.0}, 1);
+        for (std::uint32_t i = 0; i < spaces.size(); ++i) {
+            const Errors errors = check_class(file, i, 0, Precision::float64, 1);
+            std::cout << "float64 " << test::describe(spaces[i]) << ": " << describe(errors) << "\n";
+            CHECK(errors.value < 1e-13);
+            CHECK(errors.gradient < 1e-12);
+            CHECK(errors.position < 1e-13);
+            // In tensor pyramids the CPU's terms of size 1/t cancel: a few 1e-16 / t.
+            CHECK(errors.jacobian < 1e-12);
+        }
+    }
+}
+
+TEST_CASE("snippets agree with the CPU in float32") {
+    for (const std::uint32_t order : {2u, 6u}) {
+        const std::vector<native::Space> spaces = snippet_spaces(order);
+        const std::vector<native::Space> geometry = snippet_spaces(order / 2);
+        std::vector<ClassPlan> classes;
+        for (std::size_t i = 0; i < spaces.size(); ++i)
+            classes.push_back({geometry[i], {spaces[i]}});
+        const TestVolume file(classes, {field_of(1, native::Transform::none)}, {0.0}, 1000);
+        for (std::uint32_t i = 0; i < spaces.size(); ++i) {
+            const Errors errors = check_class(file, i, 0, Precision::float32, 1000);
+            std::cout << "float32 " << test::describe(spaces[i]) << ": " << describe(errors) << "\n";
+            CHECK(errors.largest() < 2e-6);
+        }
+    }
+}
+
+TEST_CASE("snippets agree with the CPU where orders differ between directions") {
+    for (const native::Space& space : test::spaces_of_mixed_order()) {
+        const TestVolume file({{space, {space}}}, {field_of(1, native::Transform::none)});
+        const Errors errors = check_class(file, 0, 0, Precision::float64, 0);
+        INFO(test::describe(space) << ": " << describe(errors));
+        CHECK(errors.largest() < 1e-12);
+    }
+}
+
+TEST_CASE("snippets give vector fields with a transform and their gradients") {
+    const native::Transform transform = GENERATE(native::Transform::covariant, native::Transform::contravariant);
+    const std::vector<native::Space> spaces = snippet_spaces(3);
+    std::vector<ClassPlan> classes;
+    for (const native::Space& space : spaces)
+        classes.push_back({space, {space}});
+    const TestVolume file(classes, {field_of(3, transform)});
+    for (std::uint32_t i = 0; i < spaces.size(); ++i) {
+        // At the apex of a curved pyramid the Jacobian depends on the direction, and so does the vector.
+        const double top = spaces[i].shape == native::Shape::pyramid ? 0.9 : 1;
+        const Errors errors = check_class(file, i, 0, Precision::float64, 0, top);
+        INFO(test::describe(spaces[i]) << ": " << describe(errors));
+        CHECK(errors.largest() < 1e-11);
+    }
+}
+
+TEST_CASE("the validation layer has nothing to say") { CHECK(device().validation_messages().empty()); }
