@@ -275,6 +275,7 @@ public:
         ConvertReport report = make_report();
         for (std::size_t field = 0; field < m_plans.size(); ++field) {
             writer.set_max_jump(field, report.fields[field].max_jump);
+            writer.set_continuity(field, static_cast<native::Continuity>(report.fields[field].continuity));
         }
         m_control.progress(1, "finishing the file");
         writer.commit();

@@ -1,0 +1,298 @@
+#include "format.hpp"
+#include "hdf5.hpp"
+
+#include <elvis/native/volume_file.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <filesystem>
+
+namespace elvis::native {
+
+using h5::Handle;
+using h5::Place;
+
+namespace {
+
+/** More of these than any volume has: a damaged count is found before memory is asked for. */
+constexpr std::uint32_t most_classes = 65536;
+constexpr std::uint32_t most_fields = 4096;
+constexpr std::uint32_t most_components = 1024;
+constexpr std::uint32_t most_notes = 65536;
+constexpr std::uint32_t most_groups = 1000000;
+constexpr std::uint64_t most_times = 10000000;
+constexpr std::uint64_t most_elements = std::uint64_t{1} << 40;
+
+template <class T> T read_count(const Handle& object, const char* name, T least, T most, const Place& place) {
+    const T count = h5::read_attribute<T>(object, name, place);
+    if (count < least || count > most) {
+        place.child(name).fail("is " + std::to_string(count) + ", outside " + std::to_string(least) + ".." +
+                               std::to_string(most));
+    }
+    return count;
+}
+
+Basis read_basis(const Handle& object, const char* attribute, const Place& place) {
+    const std::string text = h5::read_text(object, attribute, place);
+    for (const Basis basis : {Basis::modified, Basis::orthogonal, Basis::gll_lagrange, Basis::gauss_lagrange, Basis::tensor}) {
+        if (text == name(basis)) {
+            return basis;
+        }
+    }
+    place.child(attribute).fail("is '" + text + "', which is no basis");
+}
+
+Shape read_shape(const Handle& object, const Place& place) {
+    const std::string text = h5::read_text(object, "shape", place);
+    for (const Shape shape :
+         {Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::tetrahedron, Shape::quadrilateral, Shape::triangle}) {
+        if (text == name(shape)) {
+            return shape;
+        }
+    }
+    place.child("shape").fail("is '" + text + "', which is no shape");
+}
+
+Space read_space(const Handle& object, Shape shape, const char* basis, const char* order, const Place& place) {
+    Space space;
+    space.shape = shape;
+    space.basis = read_basis(object, basis, place);
+    h5::read_attribute_raw(object, order, H5T_NATIVE_UINT32, space.order.data(), 3, place);
+    try {
+        check(space);
+    } catch (const std::invalid_argument& error) {
+        place.fail(std::string("names a space that does not exist: ") + error.what());
+    }
+    return space;
+}
+
+} // namespace
+
+struct Reader::Impl {
+    std::string path;
+    Place place;
+    Description description;
+    Handle file;
+    std::vector<Handle> geometry;
+    std::vector<Handle> numbers;
+    std::vector<std::vector<Handle>> coefficients;
+    Handle faces;
+
+    ~Impl() {
+        const auto guard = h5::lock();
+        faces.reset();
+        coefficients.clear();
+        numbers.clear();
+        geometry.clear();
+        file.reset();
+    }
+
+    void open_file();
+    void read_header();
+    void open_classes();
+    void open_fields();
+};
+
+void Reader::Impl::open_file() {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) {
+        throw FileError(path, "there is no such file");
+    }
+    file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    if (!file.is_valid()) {
+        place.fail_with_stack("is not a readable HDF5 file: no native volume, or truncated, or damaged");
+    }
+    if (h5::read_text(file, "format", place) != format::mark) {
+        place.fail("is HDF5, but not a native volume: its attribute 'format' says something else");
+    }
+    std::uint32_t version[2] = {};
+    h5::read_attribute_raw(file, "version", H5T_NATIVE_UINT32, version, 2, place);
+    if (version[0] != format::version_major) {
+        place.child("version").fail("is " + std::to_string(version[0]) + "." + std::to_string(version[1]) +
+                                    "; this program reads native volumes of version " + std::to_string(format::version_major));
+    }
+}
+
+void Reader::Impl::read_header() {
+    const std::uint32_t dimension = h5::read_attribute<std::uint32_t>(file, "dimension", place);
+    if (dimension != 2 && dimension != 3) {
+        place.child("dimension").fail("is " + std::to_string(dimension) + ", neither 2 nor 3");
+    }
+    description.dimension = static_cast<int>(dimension);
+    const hsize_t n_times = read_count<std::uint64_t>(file, "n_times", 1, most_times, place);
+    const Handle times = h5::open_dataset(file, "times", H5T_FLOAT, {n_times}, place);
+    description.times.resize(n_times);
+    h5::read_box(times, H5T_NATIVE_DOUBLE, {0}, {n_times}, description.times.data(), place.child("times"));
+    const auto n_groups = read_count<std::uint32_t>(file, "n_boundary_groups", 0, most_groups, place);
+    if (n_groups > 0) {
+        description.boundary_groups = h5::read_texts(file, "boundary_groups", {n_groups}, place);
+    }
+    const auto n_notes = read_count<std::uint32_t>(file, "n_notes", 0, most_notes, place);
+    if (n_notes > 0) {
+        const std::vector<std::string> texts = h5::read_texts(file, "notes", {n_notes, 2}, place);
+        for (std::size_t index = 0; index < n_notes; ++index) {
+            description.notes.emplace_back(texts[2 * index], texts[2 * index + 1]);
+        }
+    }
+    description.n_faces = read_count<std::uint64_t>(file, "n_faces", 0, 6 * most_elements, place);
+    if (description.n_faces > 0) {
+        faces = h5::open_dataset(file, "faces", H5T_INTEGER, {description.n_faces, format::face_numbers}, place);
+    }
+}
+
+void Reader::Impl::open_classes() {
+    const auto n_classes = read_count<std::uint32_t>(file, "n_classes", 1, most_classes, place);
+    const Handle classes = h5::open_group(file, "classes", place.child("classes"));
+    for (std::uint32_t index = 0; index < n_classes; ++index) {
+        const Place here = place.child("classes").child(std::to_string(index));
+        const Handle group = h5::open_group(classes, std::to_string(index), here);
+        const Shape shape = read_shape(group, here);
+        if (dimension(shape) != description.dimension) {
+            here.child("shape").fail("does not fit the volume's dimension");
+        }
+        ElementClass element_class;
+        element_class.geometry = read_space(group, shape, "geometry_basis", "geometry_order", here);
+        element_class.n_elements = read_count<std::uint64_t>(group, "n_elements", 1, most_elements, here);
+        const hsize_t modes = n_modes(element_class.geometry);
+        geometry.push_back(h5::open_dataset(group, "geometry", H5T_FLOAT, {element_class.n_elements, 3, modes}, here));
+        numbers.push_back(h5::open_dataset(group, "numbers", H5T_INTEGER, {element_class.n_elements}, here));
+        description.classes.push_back(std::move(element_class));
+    }
+    if (h5::read_attribute<std::uint64_t>(file, "n_elements", place) != description.n_elements()) {
+        place.child("n_elements").fail("is not the sum over the classes");
+    }
+}
+
+void Reader::Impl::open_fields() {
+    const auto n_fields = read_count<std::uint32_t>(file, "n_fields", 0, most_fields, place);
+    const Handle fields = h5::open_group(file, "fields", place.child("fields"));
+    for (std::uint32_t index = 0; index < n_fields; ++index) {
+        const Place here = place.child("fields").child(std::to_string(index));
+        const Handle group = h5::open_group(fields, std::to_string(index), here);
+        Field field;
+        field.name = h5::read_text(group, "name", here);
+        field.unit = h5::read_text(group, "unit", here);
+        field.n_components = read_count<std::uint32_t>(group, "n_components", 1, most_components, here);
+        field.max_jump = h5::read_attribute<double>(group, "max_jump", here);
+        const auto continuity = format::value_of(format::continuities, h5::read_text(group, "continuity", here));
+        const auto transform = format::value_of(format::transforms, h5::read_text(group, "transform", here));
+        if (!continuity || !transform) {
+            here.fail("has an unknown continuity or transform");
+        }
+        field.continuity = *continuity;
+        field.transform = *transform;
+        if (field.transform != Transform::none && field.n_components != 3) {
+            here.child("transform").fail("needs three components");
+        }
+        if (field.name.empty() || std::any_of(description.fields.begin(), description.fields.end(),
+                                              [&](const Field& other) { return other.name == field.name; })) {
+            here.child("name").fail("is empty or the name of another field");
+        }
+        coefficients.emplace_back();
+        for (std::size_t class_index = 0; class_index < description.classes.size(); ++class_index) {
+            ElementClass& element_class = description.classes[class_index];
+            const std::string class_name = std::to_string(class_index);
+            const Place part_place = here.child(class_name);
+            const Handle part = h5::open_group(group, class_name, part_place);
+            const Space space = read_space(part, element_class.geometry.shape, "basis", "order", part_place);
+            coefficients.back().push_back(h5::open_dataset(
+                part, "coefficients", H5T_FLOAT,
+                {description.times.size(), element_class.n_elements, field.n_components, n_modes(space)}, part_place));
+            element_class.fields.push_back(space);
+        }
+        description.fields.push_back(std::move(field));
+    }
+}
+
+Reader::Reader(const std::string& path) : m_impl(std::make_unique<Impl>()) {
+    m_impl->path = path;
+    m_impl->place = {path, {}};
+    const auto guard = h5::lock();
+    try {
+        m_impl->open_file();
+        m_impl->read_header();
+        m_impl->open_classes();
+        m_impl->open_fields();
+    } catch (const std::bad_alloc&) {
+        throw FileError(path, "asks for more memory than there is");
+    }
+}
+
+Reader::~Reader() = default;
+Reader::Reader(Reader&&) noexcept = default;
+Reader& Reader::operator=(Reader&&) noexcept = default;
+
+int Reader::probe(const std::string& path) noexcept {
+    try {
+        const auto guard = h5::lock();
+        if (H5Fis_hdf5(path.c_str()) <= 0) {
+            return 0;
+        }
+        const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+        return file.is_valid() && h5::read_text(file, "format", {path, {}}) == format::mark ? 100 : 0;
+    } catch (...) {
+        return 0;
+    }
+}
+
+const Description& Reader::description() const { return m_impl->description; }
+
+void Reader::read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                           std::span<double> coefficients) const {
+    const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).geometry);
+    assert(coefficients.size() == count * 3 * modes);
+    const auto guard = h5::lock();
+    h5::read_box(m_impl->geometry[element_class], H5T_NATIVE_DOUBLE, {first, 0, 0}, {count, 3, modes}, coefficients.data(),
+                 m_impl->place.child("classes").child(std::to_string(element_class)).child("geometry"));
+}
+
+void Reader::read_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
+                        std::uint64_t count, std::span<double> coefficients) const {
+    const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).fields.at(field));
+    const std::uint32_t n_components = m_impl->description.fields[field].n_components;
+    assert(coefficients.size() == count * n_components * modes);
+    const auto guard = h5::lock();
+    h5::read_box(
+        m_impl->coefficients[field][element_class], H5T_NATIVE_DOUBLE, {time_step, first, 0, 0},
+        {1, count, n_components, modes}, coefficients.data(),
+        m_impl->place.child("fields").child(std::to_string(field)).child(std::to_string(element_class)).child("coefficients"));
+}
+
+void Reader::read_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                          std::span<std::int64_t> numbers) const {
+    assert(numbers.size() == count);
+    const Place place = m_impl->place.child("classes").child(std::to_string(element_class)).child("numbers");
+    const auto guard = h5::lock();
+    h5::read_box(m_impl->numbers.at(element_class), H5T_NATIVE_INT64, {first}, {count}, numbers.data(), place);
+    const auto n_elements = static_cast<std::int64_t>(m_impl->description.n_elements());
+    for (const std::int64_t number : numbers) {
+        if (number < 0 || number >= n_elements) {
+            place.fail("holds the number " + std::to_string(number) + " in a volume of " + std::to_string(n_elements) +
+                       " elements");
+        }
+    }
+}
+
+void Reader::read_faces(std::uint64_t first, std::uint64_t count, std::span<Face> faces) const {
+    assert(faces.size() == count);
+    if (count == 0) {
+        return;
+    }
+    const Place place = m_impl->place.child("faces");
+    std::vector<std::int64_t> rows(count * format::face_numbers);
+    const auto guard = h5::lock();
+    h5::read_box(m_impl->faces, H5T_NATIVE_INT64, {first, 0}, {count, format::face_numbers}, rows.data(), place);
+    const auto n_elements = static_cast<std::int64_t>(m_impl->description.n_elements());
+    const auto n_groups = static_cast<std::int64_t>(m_impl->description.boundary_groups.size());
+    for (std::uint64_t index = 0; index < count; ++index) {
+        const std::int64_t* row = &rows[index * format::face_numbers];
+        if (row[0] < 0 || row[0] >= n_elements || row[1] < -2 || row[1] >= n_elements || row[2] < 0 || row[2] > 5 ||
+            row[3] < -1 || row[3] > 5 || row[4] < -1 || row[4] >= n_groups) {
+            place.fail("has numbers out of range in row " + std::to_string(first + index));
+        }
+        faces[index] = {row[0], row[1], static_cast<std::int32_t>(row[2]), static_cast<std::int32_t>(row[3]),
+                        static_cast<std::int32_t>(row[4])};
+    }
+}
+
+} // namespace elvis::native

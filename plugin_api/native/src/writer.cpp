@@ -1,0 +1,313 @@
+#include "format.hpp"
+#include "hdf5.hpp"
+
+#include <elvis/native/volume_file.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cstdio>
+#include <filesystem>
+
+namespace elvis::native {
+
+using h5::check;
+using h5::Handle;
+using h5::Place;
+
+FileError::FileError(std::string file, const std::string& what)
+    : std::runtime_error(file + ": " + what), m_file(std::move(file)) {}
+
+std::uint64_t Description::n_elements() const {
+    std::uint64_t sum = 0;
+    for (const ElementClass& element_class : classes) {
+        sum += element_class.n_elements;
+    }
+    return sum;
+}
+
+namespace {
+
+/** A name beside the target that no other writer has. */
+std::string temporary_name(const std::string& path) {
+    static std::atomic<unsigned> counter{0};
+    return path + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+}
+
+void write_space(const Handle& object, const Space& space, const char* basis_name, const char* order_name, const Place& place) {
+    h5::write_text(object, basis_name, std::string(name(space.basis)), place);
+    h5::write_attribute_raw(object, order_name, H5T_STD_U32LE, H5T_NATIVE_UINT32, space.order.data(), 3, place);
+}
+
+/** Waits until a file, or a folder's list of names, is on the disk. */
+void synchronize(const std::string& path, int flags) {
+    const int descriptor = ::open(path.c_str(), flags);
+    if (descriptor >= 0) {
+        ::fsync(descriptor);
+        ::close(descriptor);
+    }
+}
+
+} // namespace
+
+struct Writer::Impl {
+    std::string path;
+    std::string temporary;
+    Description description;
+    Place place;
+    Handle file;
+    std::vector<Handle> field_groups;
+    std::vector<Handle> geometry;
+    std::vector<Handle> numbers;
+    /** By field, then class. */
+    std::vector<std::vector<Handle>> coefficients;
+    Handle faces;
+    /** Elements (or faces) not written yet; for fields those of all steps. */
+    std::vector<std::uint64_t> geometry_left;
+    std::vector<std::uint64_t> numbers_left;
+    std::vector<std::vector<std::uint64_t>> coefficients_left;
+    std::uint64_t faces_left = 0;
+    bool is_committed = false;
+
+    ~Impl() {
+        if (!is_committed) {
+            const auto guard = h5::lock();
+            close();
+            std::remove(temporary.c_str());
+        }
+    }
+
+    void close() {
+        faces.reset();
+        coefficients.clear();
+        numbers.clear();
+        geometry.clear();
+        field_groups.clear();
+        file.reset();
+    }
+
+    void create_file();
+    void create_classes();
+    void create_fields();
+    void check_complete() const;
+};
+
+void Writer::Impl::create_file() {
+    const Handle access(check(H5Pcreate(H5P_FILE_ACCESS), place, "no memory"), H5Pclose);
+    // From 1.10 on, every structure of the file carries a checksum.
+    check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), place, "cannot be of this format version");
+    file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.id()), H5Fclose);
+    if (!file.is_valid()) {
+        throw FileError(path, "cannot be created: is its folder there and writable?");
+    }
+    h5::write_text(file, "format", format::mark, place);
+    const std::uint32_t version[2] = {format::version_major, format::version_minor};
+    h5::write_attribute_raw(file, "version", H5T_STD_U32LE, H5T_NATIVE_UINT32, version, 2, place);
+    h5::write_attribute(file, "dimension", static_cast<std::uint32_t>(description.dimension), place);
+    h5::write_attribute(file, "n_elements", description.n_elements(), place);
+    h5::write_attribute(file, "n_classes", static_cast<std::uint32_t>(description.classes.size()), place);
+    h5::write_attribute(file, "n_fields", static_cast<std::uint32_t>(description.fields.size()), place);
+    h5::write_attribute(file, "n_times", static_cast<std::uint64_t>(description.times.size()), place);
+    h5::write_attribute(file, "n_faces", description.n_faces, place);
+    h5::write_attribute(file, "n_boundary_groups", static_cast<std::uint32_t>(description.boundary_groups.size()), place);
+
+    const std::vector<hsize_t> shape = {description.times.size()};
+    const Handle times = h5::create_dataset(file, "times", H5T_IEEE_F64LE, shape, 0, sizeof(double), place);
+    h5::write_box(times, H5T_NATIVE_DOUBLE, {0}, shape, description.times.data(), place.child("times"));
+    if (!description.boundary_groups.empty()) {
+        h5::write_texts(file, "boundary_groups", description.boundary_groups, {description.boundary_groups.size()}, place);
+    }
+    if (description.n_faces > 0) {
+        faces = h5::create_dataset(file, "faces", H5T_STD_I64LE, {description.n_faces, format::face_numbers}, 0,
+                                   format::face_numbers * sizeof(std::int64_t), place);
+        faces_left = description.n_faces;
+    }
+}
+
+void Writer::Impl::create_classes() {
+    const Handle classes = h5::create_group(file, "classes", place.child("classes"));
+    for (std::size_t index = 0; index < description.classes.size(); ++index) {
+        const ElementClass& element_class = description.classes[index];
+        native::check(element_class.geometry);
+        const Place here = place.child("classes").child(std::to_string(index));
+        const Handle group = h5::create_group(classes, std::to_string(index), here);
+        h5::write_text(group, "shape", std::string(name(element_class.geometry.shape)), here);
+        write_space(group, element_class.geometry, "geometry_basis", "geometry_order", here);
+        h5::write_attribute(group, "n_elements", element_class.n_elements, here);
+        const std::size_t modes = n_modes(element_class.geometry);
+        geometry.push_back(h5::create_dataset(group, "geometry", H5T_IEEE_F64LE, {element_class.n_elements, 3, modes}, 0,
+                                              3 * modes * sizeof(double), here));
+        numbers.push_back(
+            h5::create_dataset(group, "numbers", H5T_STD_I64LE, {element_class.n_elements}, 0, sizeof(std::int64_t), here));
+        geometry_left.push_back(element_class.n_elements);
+        numbers_left.push_back(element_class.n_elements);
+    }
+}
+
+void Writer::Impl::create_fields() {
+    const Handle fields = h5::create_group(file, "fields", place.child("fields"));
+    for (std::size_t index = 0; index < description.fields.size(); ++index) {
+        const Field& field = description.fields[index];
+        const Place here = place.child("fields").child(std::to_string(index));
+        field_groups.push_back(h5::create_group(fields, std::to_string(index), here));
+        const Handle& group = field_groups.back();
+        h5::write_text(group, "name", field.name, here);
+        h5::write_text(group, "unit", field.unit, here);
+        h5::write_attribute(group, "n_components", field.n_components, here);
+        h5::write_text(group, "transform", format::name_of(format::transforms, field.transform), here);
+        coefficients.emplace_back();
+        coefficients_left.emplace_back();
+        for (std::size_t element_class = 0; element_class < description.classes.size(); ++element_class) {
+            const Space& space = description.classes[element_class].fields.at(index);
+            native::check(space);
+            const std::string class_name = std::to_string(element_class);
+            const Handle part = h5::create_group(group, class_name, here.child(class_name));
+            write_space(part, space, "basis", "order", here.child(class_name));
+            const std::uint64_t n_elements = description.classes[element_class].n_elements;
+            const std::size_t modes = n_modes(space);
+            coefficients.back().push_back(h5::create_dataset(
+                part, "coefficients", H5T_IEEE_F64LE, {description.times.size(), n_elements, field.n_components, modes}, 1,
+                field.n_components * modes * sizeof(double), here.child(class_name)));
+            coefficients_left.back().push_back(n_elements * description.times.size());
+        }
+    }
+}
+
+void Writer::Impl::check_complete() const {
+    for (std::size_t index = 0; index < description.classes.size(); ++index) {
+        if (geometry_left[index] > 0 || numbers_left[index] > 0) {
+            throw FileError(path, "class " + std::to_string(index) + " lacks geometry or numbers of some elements");
+        }
+    }
+    for (std::size_t field = 0; field < description.fields.size(); ++field) {
+        for (const std::uint64_t left : coefficients_left[field]) {
+            if (left > 0) {
+                throw FileError(path, "field '" + description.fields[field].name + "' lacks coefficients of some elements");
+            }
+        }
+    }
+    if (faces_left > 0) {
+        throw FileError(path, "some faces are not written");
+    }
+}
+
+Writer::Writer(const std::string& path, const Description& description) : m_impl(std::make_unique<Impl>()) {
+    if (description.classes.empty() || description.times.empty()) {
+        throw FileError(path, "a volume needs elements and at least one time");
+    }
+    for (const ElementClass& element_class : description.classes) {
+        if (element_class.n_elements == 0 || element_class.fields.size() != description.fields.size()) {
+            throw FileError(path, "a class needs elements, and one space for each field");
+        }
+    }
+    m_impl->path = path;
+    m_impl->temporary = temporary_name(path);
+    m_impl->description = description;
+    m_impl->place = {path, {}};
+    const auto guard = h5::lock();
+    m_impl->create_file();
+    m_impl->create_classes();
+    m_impl->create_fields();
+}
+
+Writer::~Writer() = default;
+Writer::Writer(Writer&&) noexcept = default;
+Writer& Writer::operator=(Writer&&) noexcept = default;
+
+void Writer::write_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                            std::span<const double> coefficients) {
+    const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).geometry);
+    assert(coefficients.size() == count * 3 * modes);
+    const auto guard = h5::lock();
+    h5::write_box(m_impl->geometry[element_class], H5T_NATIVE_DOUBLE, {first, 0, 0}, {count, 3, modes}, coefficients.data(),
+                  m_impl->place);
+    m_impl->geometry_left[element_class] -= std::min(count, m_impl->geometry_left[element_class]);
+}
+
+void Writer::write_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
+                         std::uint64_t count, std::span<const double> coefficients) {
+    const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).fields.at(field));
+    const std::uint32_t n_components = m_impl->description.fields[field].n_components;
+    assert(coefficients.size() == count * n_components * modes);
+    const auto guard = h5::lock();
+    h5::write_box(m_impl->coefficients[field][element_class], H5T_NATIVE_DOUBLE, {time_step, first, 0, 0},
+                  {1, count, n_components, modes}, coefficients.data(), m_impl->place);
+    std::uint64_t& left = m_impl->coefficients_left[field][element_class];
+    left -= std::min(count, left);
+}
+
+void Writer::write_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                           std::span<const std::int64_t> numbers) {
+    assert(numbers.size() == count);
+    const auto guard = h5::lock();
+    h5::write_box(m_impl->numbers.at(element_class), H5T_NATIVE_INT64, {first}, {count}, numbers.data(), m_impl->place);
+    m_impl->numbers_left[element_class] -= std::min(count, m_impl->numbers_left[element_class]);
+}
+
+void Writer::write_faces(std::uint64_t first, std::uint64_t count, std::span<const Face> faces) {
+    assert(faces.size() == count);
+    std::vector<std::int64_t> rows;
+    rows.reserve(count * format::face_numbers);
+    for (const Face& face : faces) {
+        rows.insert(rows.end(), {face.element, face.neighbour, face.local_face, face.neighbour_local_face, face.group});
+    }
+    const auto guard = h5::lock();
+    if (count > 0) {
+        h5::write_box(m_impl->faces, H5T_NATIVE_INT64, {first, 0}, {count, format::face_numbers}, rows.data(), m_impl->place);
+    }
+    m_impl->faces_left -= std::min(count, m_impl->faces_left);
+}
+
+void Writer::set_max_jump(std::size_t field, double jump) { m_impl->description.fields.at(field).max_jump = jump; }
+
+void Writer::set_continuity(std::size_t field, Continuity continuity) {
+    m_impl->description.fields.at(field).continuity = continuity;
+}
+
+void Writer::set_note(const std::string& key, const std::string& value) {
+    auto& notes = m_impl->description.notes;
+    const auto found = std::find_if(notes.begin(), notes.end(), [&](const auto& note) { return note.first == key; });
+    if (found != notes.end()) {
+        found->second = value;
+    } else {
+        notes.emplace_back(key, value);
+    }
+}
+
+void Writer::commit() {
+    m_impl->check_complete();
+    const Description& description = m_impl->description;
+    {
+        const auto guard = h5::lock();
+        for (std::size_t index = 0; index < description.fields.size(); ++index) {
+            const Place here = m_impl->place.child("fields").child(std::to_string(index));
+            h5::write_text(m_impl->field_groups[index], "continuity",
+                           format::name_of(format::continuities, description.fields[index].continuity), here);
+            h5::write_attribute(m_impl->field_groups[index], "max_jump", description.fields[index].max_jump, here);
+        }
+        h5::write_attribute(m_impl->file, "n_notes", static_cast<std::uint32_t>(description.notes.size()), m_impl->place);
+        if (!description.notes.empty()) {
+            std::vector<std::string> texts;
+            for (const auto& [key, value] : description.notes) {
+                texts.push_back(key);
+                texts.push_back(value);
+            }
+            h5::write_texts(m_impl->file, "notes", texts, {description.notes.size(), 2}, m_impl->place);
+        }
+        // Closing writes what is still in memory: its result counts.
+        check(H5Fflush(m_impl->file.id(), H5F_SCOPE_GLOBAL), m_impl->place, "cannot be written; is the disk full?");
+        m_impl->close();
+    }
+    synchronize(m_impl->temporary, O_RDONLY);
+    if (std::rename(m_impl->temporary.c_str(), m_impl->path.c_str()) != 0) {
+        throw FileError(m_impl->path, "cannot be put in place of what is there");
+    }
+    m_impl->is_committed = true;
+    const std::filesystem::path folder = std::filesystem::path(m_impl->path).parent_path();
+    synchronize(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+}
+
+} // namespace elvis::native
