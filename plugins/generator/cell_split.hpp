@@ -2,8 +2,8 @@
  * @file cell_split.hpp
  * How one hexahedral cell is cut into elements.
  *
- * A cell is the unit cube with coordinates c in [0,1]^3. All its cuts are by planes, so that every element is an affine image of
- * its reference shape in c, whatever the cell's own shape in space is. Neighbouring cells agree because a cut face is always
+ * A cell is the unit cube with coordinates c in [0,1]^3. All its cuts are by planes, so that every element is an affine image
+ * of its reference shape in c, whatever the cell's own shape in space is. Neighbouring cells agree because a cut face is always
  * cut from its corner (0,0) to its corner (1,1), and cells count coordinates along the same mesh lines in the same direction.
  *
  * Triangular faces agree on their collapsed vertex, as Nektar++ asks for: corners are ordered along the mesh lines, the centre

@@ -28,8 +28,7 @@ Vec3 waves(const Parameters& p, const Vec3& u) {
 
 // From the point of the inner square or cube (n coordinates in [-1,1]) to the circle or sphere of radius 1, blended by t.
 // On the rim, angles are equidistant along each side (the equiangular gnomonic projection).
-template <std::size_t n>
-std::array<double, n> blend(const std::array<double, n>& v, double inner, double t) {
+template <std::size_t n> std::array<double, n> blend(const std::array<double, n>& v, double inner, double t) {
     std::array<double, n> rim;
     double norm = 0;
     for (std::size_t d = 0; d < n; ++d) {

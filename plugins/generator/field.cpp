@@ -17,7 +17,8 @@ double power(double x, std::uint32_t n) {
 double polynomial(const std::vector<Term>& terms, const Vec3& x) {
     double sum = 0;
     for (const Term& term : terms)
-        sum += term.coefficient * power(x[0], term.exponents[0]) * power(x[1], term.exponents[1]) * power(x[2], term.exponents[2]);
+        sum +=
+            term.coefficient * power(x[0], term.exponents[0]) * power(x[1], term.exponents[1]) * power(x[2], term.exponents[2]);
     return sum;
 }
 

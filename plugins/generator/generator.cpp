@@ -81,7 +81,8 @@ public:
         const ElementPlace place = m_mesh.place(element);
         if (m_domain.is_affine()) {
             for (std::size_t i = 0; i < xi.size(); i += 3)
-                std::ranges::copy(m_domain.position(m_mesh.lattice_point(place, &xi[i])), positions.begin() + std::ptrdiff_t(i));
+                std::ranges::copy(m_domain.position(m_mesh.lattice_point(place, &xi[i])),
+                                  positions.begin() + std::ptrdiff_t(i));
             return;
         }
         const Interpolation& interpolation = m_interpolations[place.element->shape];

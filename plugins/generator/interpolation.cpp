@@ -16,10 +16,10 @@ double jacobi(int n, int a, double x) {
     double current = 1;
     for (int k = 1; k <= n; ++k) {
         const double s = 2.0 * k + a;
-        const double next =
-            k == 1 ? 0.5 * (a + (a + 2.0) * x)
-                   : ((s - 1) * (a * a + (s - 2) * s * x) * current - 2.0 * (k + a - 1) * (k - 1) * s * previous) /
-                         (2.0 * k * (k + a) * (s - 2));
+        const double next = k == 1
+                                ? 0.5 * (a + (a + 2.0) * x)
+                                : ((s - 1) * (a * a + (s - 2) * s * x) * current - 2.0 * (k + a - 1) * (k - 1) * s * previous) /
+                                      (2.0 * k * (k + a) * (s - 2));
         previous = current;
         current = next;
     }

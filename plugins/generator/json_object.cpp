@@ -31,7 +31,8 @@ template <class Names> std::string nearest(const std::string& word, const Names&
 
 } // namespace
 
-JsonObject::JsonObject(const nlohmann::json& object, std::string path, std::string prefix, const std::vector<std::string>& known)
+JsonObject::JsonObject(const nlohmann::json& object, std::string path, std::string prefix,
+                       const std::vector<std::string>& known)
     : m_object(object), m_path(std::move(path)), m_prefix(std::move(prefix)) {
     for (const auto& [key, value] : m_object.items())
         if (std::ranges::find(known, key) == known.end())

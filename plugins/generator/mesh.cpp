@@ -122,8 +122,8 @@ void Mesh::add_layers(const Parameters& parameters, int side) {
     Block block;
     block.side = side;
     block.directions = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2, outward};
-    block.count = {m_cells[static_cast<std::size_t>(block.directions[0])], m_cells[static_cast<std::size_t>(block.directions[1])],
-                   m_layers};
+    block.count = {m_cells[static_cast<std::size_t>(block.directions[0])],
+                   m_cells[static_cast<std::size_t>(block.directions[1])], m_layers};
     block.groups[5] = outer_group;
     if (parameters.mesh == MeshKind::shell)
         block.groups[4] = second_group;
