@@ -48,6 +48,8 @@ Volume::Volume(const api::Host& host, const std::string& path)
         const native::ElementClass& element_class = description().classes[i];
         const std::string in_class = " of element class " + std::to_string(i);
         check_space(path, element_class.geometry, "the geometry" + in_class);
+        if (element_class.geometry.order[0] == 0)
+            throw error(ELVIS_ERROR_FORMAT, "the geometry" + in_class + " has order 0, which maps the element to a point");
         for (std::size_t field = 0; field < element_class.fields.size(); ++field)
             check_space(path, element_class.fields[field], "field '" + description().fields[field].name + "'" + in_class);
         m_first_elements.push_back(m_first_elements.back() + element_class.n_elements);

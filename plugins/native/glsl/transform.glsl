@@ -20,15 +20,15 @@ elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component) {
 #if ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID && NATIVE_GEOMETRY_BASIS != 0
 #define NATIVE_PAIRS NATIVE_GEOMETRY_R
 #else
-#define NATIVE_PAIRS (max(max(NATIVE_GEOMETRY_P, NATIVE_GEOMETRY_Q), NATIVE_GEOMETRY_R) + 1) / 2
+#define NATIVE_PAIRS ((max(max(NATIVE_GEOMETRY_P, NATIVE_GEOMETRY_Q), NATIVE_GEOMETRY_R) + 1) / 2)
 #endif
 
-// Derivative of the Jacobian along `line`. J is a polynomial on every line in hexahedra, prisms and tetrahedra, and in pyramids on
-// lines of constant xi3 and on those through the apex; a central difference with enough points is exact. The points lie within
-// `reach` times `line` of xi.
+// Derivative of the Jacobian along `line`. J is a polynomial on lines along the axes in hexahedra, prisms and tetrahedra, in
+// pyramids on lines of constant xi3 and on those through the apex: a central difference with enough points is exact there. The
+// points lie within `reach` times `line` of xi.
 elvis_mat3 native_bend(uint element, elvis_vec3 xi, elvis_vec3 line, elvis_real reach) {
     elvis_real spacing = reach / elvis_real(NATIVE_PAIRS);
-    elvis_real weight = elvis_real(2 * (NATIVE_PAIRS)) / elvis_real(NATIVE_PAIRS + 1);
+    elvis_real weight = elvis_real(2 * NATIVE_PAIRS) / elvis_real(NATIVE_PAIRS + 1);
     elvis_mat3 sum = elvis_mat3(0);
     for (int i = 1; i <= NATIVE_PAIRS; ++i) {
         elvis_vec3 step = elvis_real(i) * spacing * line;

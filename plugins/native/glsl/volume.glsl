@@ -23,7 +23,7 @@
 #define NATIVE_BASIS NATIVE_GEOMETRY_BASIS
 #define NATIVE_SLAB_ROWS NATIVE_GEOMETRY_SLAB_ROWS
 #define NATIVE_NUMBER(row, i) elvis_fetch4_geometry(element, (row) + uint((i) >> 2))[(i) & 3]
-#define NATIVE_COEFFICIENT(row, mode)                                                                                               \
+#define NATIVE_COEFFICIENT(row, mode)                                                                                              \
     elvis_vec3(NATIVE_NUMBER(row, 3 * (mode)), NATIVE_NUMBER(row, 3 * (mode) + 1), NATIVE_NUMBER(row, 3 * (mode) + 2))
 #include "shape.glsl"
 #undef NATIVE_VALUE
@@ -50,7 +50,7 @@
 #define NATIVE_COEFFICIENT(row, mode) NATIVE_NUMBER(row, mode)
 #else
 #define NATIVE_TYPE elvis_vec3
-#define NATIVE_COEFFICIENT(row, mode)                                                                                               \
+#define NATIVE_COEFFICIENT(row, mode)                                                                                              \
     elvis_vec3(NATIVE_NUMBER(row, 3 * (mode)), NATIVE_NUMBER(row, 3 * (mode) + 1), NATIVE_NUMBER(row, 3 * (mode) + 2))
 #endif
 #include "shape.glsl"
