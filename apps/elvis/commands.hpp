@@ -9,4 +9,8 @@
 
 namespace elvis::commands {
 
+void add_convert(CLI::App& app);
+void add_devices(CLI::App& app);
+void add_plugins(CLI::App& app);
+
 } // namespace elvis::commands

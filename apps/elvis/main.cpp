@@ -1,13 +1,30 @@
 #include "commands.hpp"
 
 #include <core/base/error.hpp>
+#include <core/base/log.hpp>
 
 #include <cstdio>
 #include <exception>
 
-int main(int argc, char** argv) {
-    CLI::App app{"ElVis, the Element Visualizer: pixel-exact pictures of high-order finite element fields"};
+namespace {
+
+/** 0: all was done; 2: wrong usage; 1: anything else. */
+int run(int argc, char** argv) {
+    CLI::App app{"ElVis, the Element Visualizer: pixel-exact pictures of high-order finite element fields", "elvis"};
+    app.set_version_flag("--version", "elvis " ELVIS_VERSION);
     app.require_subcommand(1);
+    bool verbose = false;
+    bool quiet = false;
+    app.add_flag("-v,--verbose", verbose, "Say more on stderr");
+    app.add_flag("-q,--quiet", quiet, "Say nothing but errors on stderr");
+    // Runs before the subcommand's callback.
+    app.parse_complete_callback([&] {
+        elvis::set_up_log(verbose ? elvis::Verbosity::verbose : quiet ? elvis::Verbosity::quiet : elvis::Verbosity::normal);
+    });
+
+    elvis::commands::add_convert(app);
+    elvis::commands::add_devices(app);
+    elvis::commands::add_plugins(app);
 
     try {
         app.parse(argc, argv);
@@ -22,3 +39,7 @@ int main(int argc, char** argv) {
     }
     return 0;
 }
+
+} // namespace
+
+int main(int argc, char** argv) { return run(argc, argv); }

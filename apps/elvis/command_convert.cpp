@@ -1,0 +1,161 @@
+#include "commands.hpp"
+
+#include <core/base/error.hpp>
+#include <core/convert/convert.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/source_volume.hpp>
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace elvis::commands {
+
+namespace {
+
+struct Arguments {
+    std::vector<std::string> inputs;
+    std::string output;
+    std::string plugin;
+    std::string options;
+    std::string continuity;
+    std::string report;
+    std::vector<std::string> fields;
+    int order = -1;
+    bool json = false;
+};
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/** Ctrl-C asks the task to stop instead of ending the process, as long as this lives. */
+class InterruptGuard {
+public:
+    explicit InterruptGuard(TaskControl& control)
+        : m_previous(std::signal(SIGINT, [](int) { interrupted = true; })),
+          m_watcher([this, &control](const std::stop_token& stop) {
+              while (!stop.stop_requested()) {
+                  control.cancelled = interrupted.load();
+                  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+              }
+          }) {}
+    ~InterruptGuard() { std::signal(SIGINT, m_previous); }
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+private:
+    void (*m_previous)(int);
+    std::jthread m_watcher;
+};
+
+/** One line on a terminal that shows how far the task has come. */
+class ProgressBar {
+public:
+    explicit ProgressBar(TaskControl& control) {
+        if (::isatty(STDERR_FILENO) == 0) {
+            return;
+        }
+        control.on_progress = [this](double fraction, std::string_view activity) {
+            const std::lock_guard lock(m_mutex);
+            const auto now = std::chrono::steady_clock::now();
+            if (now - m_last < std::chrono::milliseconds(100)) {
+                return;
+            }
+            m_last = now;
+            m_is_drawn = true;
+            const int done = fraction < 0 ? 0 : static_cast<int>(40 * fraction);
+            std::fprintf(stderr, "\r[%.*s%*s] %-24.*s", done, "========================================", 40 - done, "",
+                         static_cast<int>(activity.size()), activity.data());
+        };
+    }
+    ~ProgressBar() {
+        if (m_is_drawn) {
+            std::fprintf(stderr, "\r\033[K");
+        }
+    }
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+private:
+    std::mutex m_mutex;
+    std::chrono::steady_clock::time_point m_last{};
+    bool m_is_drawn = false;
+};
+
+void print_table(const ConvertReport& report, const std::string& output) {
+    for (const auto& [shape, count] : report.elements) {
+        std::printf("%llu %s elements\n", static_cast<unsigned long long>(count), shape.c_str());
+    }
+    for (const FieldReport& field : report.fields) {
+        std::printf("field %s: %s, residual %.3g of its range, largest jump %.3g\n", field.name.c_str(),
+                    field.exact ? "exact but for round-off" : "NOT exact", field.residual, field.max_jump);
+    }
+    if (report.n_unknown_faces > 0) {
+        std::printf("%llu faces whose neighbour is unknown\n", static_cast<unsigned long long>(report.n_unknown_faces));
+    }
+    std::printf("%s written in %.2f s\n", output.c_str(), report.seconds);
+}
+
+void write_report(const ConvertReport& report, const std::string& path) {
+    std::ofstream file(path);
+    file << to_json(report) << '\n';
+    if (!file.flush()) {
+        throw Error(path, "the report cannot be written");
+    }
+}
+
+void run(const Arguments& arguments) {
+    ConvertOptions options;
+    options.program_version = ELVIS_VERSION;
+    options.fields = arguments.fields;
+    if (arguments.order >= 0) {
+        options.order = static_cast<std::uint32_t>(arguments.order);
+    }
+    if (!arguments.continuity.empty()) {
+        options.continuity = arguments.continuity == "cg" ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
+    }
+    const PluginRegistry registry;
+    TaskControl control;
+    const ProgressBar progress(control);
+    const InterruptGuard guard(control);
+    const std::shared_ptr<const Plugin> plugin =
+        arguments.plugin.empty() ? registry.converter_for(arguments.inputs.front()) : registry.find(arguments.plugin);
+    const SourceVolume source(plugin, arguments.inputs, arguments.options, &control);
+    const ConvertReport report = convert(source, arguments.output, options, control);
+    if (!arguments.report.empty()) {
+        write_report(report, arguments.report);
+    }
+    if (arguments.json) {
+        std::printf("%s\n", to_json(report).c_str());
+    } else {
+        print_table(report, arguments.output);
+    }
+}
+
+} // namespace
+
+void add_convert(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("convert", "Convert a foreign data set to a native volume");
+    auto arguments = std::make_shared<Arguments>();
+    command->add_option("inputs", arguments->inputs, "Geometry first, then field files")->required();
+    command->add_option("-o,--output", arguments->output, "Native volume to write")->required();
+    command->add_option("--plugin", arguments->plugin, "Id of the conversion plugin (default: the one surest of the file)");
+    command->add_option("--options", arguments->options, "Options of the plugin, a JSON object");
+    command->add_option("--order", arguments->order, "Order of every field (default: what contains the source)")
+        ->check(CLI::Range(0, 30));
+    command->add_option("--continuity", arguments->continuity, "cg (continuous) or dg (discontinuous)")
+        ->check(CLI::IsMember({"cg", "dg"}));
+    command->add_option("--fields", arguments->fields, "Only these fields, separated by commas")->delimiter(',');
+    command->add_option("--report", arguments->report, "JSON file with residuals, jumps and times");
+    command->add_flag("--json", arguments->json, "Print the report in JSON");
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace elvis::commands

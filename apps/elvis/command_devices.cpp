@@ -1,0 +1,67 @@
+#include "commands.hpp"
+
+#include <core/base/error.hpp>
+#include <core/vulkan/device.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+namespace elvis::commands {
+
+namespace {
+
+/** What ElVis would take if nothing were asked for, or nothing if no device is usable. */
+std::optional<std::uint32_t> default_device() {
+    try {
+        return choose_device({}).index;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+void print_json(const std::vector<DeviceSummary>& devices, std::optional<std::uint32_t> chosen) {
+    nlohmann::ordered_json root = nlohmann::ordered_json::array();
+    for (const DeviceSummary& device : devices) {
+        root.push_back({{"index", device.index},
+                        {"name", device.name},
+                        {"driver", device.driver},
+                        {"type", device.type},
+                        {"memory_bytes", device.memory_bytes},
+                        {"float64", device.has_float64},
+                        {"usable", device.unusable_because.empty()},
+                        {"unusable_because", device.unusable_because},
+                        {"chosen", device.index == chosen}});
+    }
+    std::printf("%s\n", root.dump(2).c_str());
+}
+
+void print_table(const std::vector<DeviceSummary>& devices, std::optional<std::uint32_t> chosen) {
+    if (devices.empty()) {
+        std::printf(
+            "no Vulkan device; on Debian, `apt-get install mesa-vulkan-drivers` gives one that runs on the processor\n");
+    }
+    for (const DeviceSummary& device : devices) {
+        std::printf("%c %u  %s  (%s, %s, %.1f GiB, float64: %s)%s%s\n", device.index == chosen ? '*' : ' ', device.index,
+                    device.name.c_str(), device.type.c_str(), device.driver.c_str(),
+                    static_cast<double>(device.memory_bytes) / (1024.0 * 1024 * 1024), device.has_float64 ? "yes" : "no",
+                    device.unusable_because.empty() ? "" : " cannot be used: ", device.unusable_because.c_str());
+    }
+}
+
+} // namespace
+
+void add_devices(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("devices", "List Vulkan devices; * marks the one that is used unless told otherwise");
+    auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "Answer in JSON");
+    command->callback([json] {
+        const std::vector<DeviceSummary> devices = list_devices();
+        *json ? print_json(devices, default_device()) : print_table(devices, default_device());
+    });
+}
+
+} // namespace elvis::commands
