@@ -195,7 +195,7 @@ Handle open_dataset(const Handle& parent, const std::string& name, H5T_class_t t
     }
     hsize_t present = 0;
     if (expected > 0) {
-        check(H5Dget_num_chunks(dataset.id(), H5S_ALL, &present), here, "is damaged");
+        check(H5Dget_num_chunks(dataset.id(), space.id(), &present), here, "is damaged");
     }
     if (present != expected) {
         here.fail("is incomplete: " + std::to_string(present) + " of " + std::to_string(expected) + " chunks are there");
