@@ -16,6 +16,14 @@ constexpr std::uint64_t elements_per_block = 64;
 /** 256 MB of doubles. */
 constexpr std::size_t cache_numbers = std::size_t{1} << 25;
 
+/** The host puts the file's name before the message itself. */
+api::Error without_name(const native::FileError& error) {
+    std::string what = error.what();
+    if (what.starts_with(error.file() + ": "))
+        what.erase(0, error.file().size() + 2);
+    return {ELVIS_ERROR_FORMAT, error.file(), what};
+}
+
 native::Reader open_file(const std::string& path) {
     // A missing file deserves a plainer word than HDF5's.
     if (!std::ifstream(path, std::ios::binary))
@@ -23,7 +31,7 @@ native::Reader open_file(const std::string& path) {
     try {
         return native::Reader(path);
     } catch (const native::FileError& error) {
-        throw api::Error(ELVIS_ERROR_FORMAT, error.file(), error.what());
+        throw without_name(error);
     }
 }
 
@@ -62,7 +70,7 @@ template <class Read> void Volume::read_file(Read read) const {
         const std::lock_guard lock(m_reader_mutex);
         read();
     } catch (const native::FileError& failure) {
-        throw api::Error(ELVIS_ERROR_FORMAT, failure.file(), failure.what());
+        throw without_name(failure);
     }
 }
 
