@@ -304,6 +304,11 @@ std::string compose(const Device& device, const KernelRequest& request, const Re
         text += expand_includes(shader_source(file), std::string(file), shader_source);
     }
     text += "#line 1 \"(generated)\"\n";
+    if (std::any_of(records.all().begin(), records.all().end(), [](const RecordBuffer* buffer) {
+            return buffer->kind() == RecordKind::real && buffer->precision() == Precision::float64;
+        })) {
+        text += fetch_helpers();
+    }
     auto binding = static_cast<std::uint32_t>(request.bindings.size());
     for (std::uint32_t number = 0; number < records.all().size(); ++number) {
         text += fetch_functions(device, *records.all()[number], number, binding);

@@ -112,6 +112,16 @@ private:
 
 } // namespace
 
+std::string fetch_helpers() {
+    return "dvec4 core_doubles(uvec4 low, uvec4 high) {\n"
+           "    return dvec4(packDouble2x32(low.xy), packDouble2x32(low.zw), packDouble2x32(high.xy), "
+           "packDouble2x32(high.zw));\n"
+           "}\n"
+           "double core_double(uvec4 texel, uint index) {\n"
+           "    return packDouble2x32((index & 1u) == 0u ? texel.xy : texel.zw);\n"
+           "}\n";
+}
+
 std::string fetch_functions(const Device& device, const RecordBuffer& records, std::uint32_t number,
                             std::uint32_t first_binding) {
     return FetchWriter(device, records, number).write(first_binding);

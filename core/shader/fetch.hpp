@@ -20,6 +20,9 @@
 
 namespace elvis {
 
+/** What fetch_functions calls for buffers of doubles; to be written once, and not for devices without doubles. */
+std::string fetch_helpers();
+
 /** Declarations and both functions for record buffer `number`, whose parts stand at `first_binding` .. */
 std::string fetch_functions(const Device& device, const RecordBuffer& records, std::uint32_t number,
                             std::uint32_t first_binding);

@@ -25,10 +25,4 @@
 #define ELVIS_SHAPE_QUADRILATERAL 4
 #define ELVIS_SHAPE_TRIANGLE 5
 
-// Two doubles that travelled as the bits of one texel; and one of them, the second if `index` is odd.
-dvec4 core_doubles(uvec4 low, uvec4 high) {
-    return dvec4(packDouble2x32(low.xy), packDouble2x32(low.zw), packDouble2x32(high.xy), packDouble2x32(high.zw));
-}
-double core_double(uvec4 texel, uint index) { return packDouble2x32((index & 1u) == 0u ? texel.xy : texel.zw); }
-
 #endif
