@@ -40,6 +40,9 @@ std::string readable_log(std::string_view log) {
                 continue;
             }
         }
+        while (!line.empty() && line.back() == ' ') {
+            line.remove_suffix(1);
+        }
         if (!line.empty()) {
             text.append(text.empty() ? "" : "\n").append(line);
         }

@@ -18,8 +18,8 @@
  *
  * Instance k > 0 is the same text with #defines around it that append _k to the interface functions, to every identifier that
  * starts with the snippet's prefix, and to every name that the library files of the instance define. So a kernel calls
- * elvis_field_value_1(...), core_excess_1(...), and reads ELVIS_SHAPE_1. The first instance keeps all names, and the macros of
- * its library files (not those of the snippet) stay defined for the kernel, so that include guards work there.
+ * elvis_field_value_1(...), core_face_constraint_1(...), and reads ELVIS_SHAPE_1. The first instance keeps all names, and the
+ * macros of its library files (not those of the snippet) stay defined for the kernel, so that include guards work there.
  *
  * Library files of an instance may include each other, with guards, and the common files of step 2, which are left out then.
  * Names that macros put together with ## are not renamed.

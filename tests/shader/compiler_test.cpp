@@ -1,11 +1,15 @@
+#include <core/base/cache.hpp>
 #include <core/base/error.hpp>
 #include <core/shader/compiler.hpp>
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <thread>
 
 #include <unistd.h>
 
@@ -47,6 +51,52 @@ TEST_CASE("Compiling twice gives the same words, the second time from the cache"
     REQUIRE(n_entries == 1);
     REQUIRE(compile_shader(text, "test") == first);
     REQUIRE(compile_shader(text, "test") == first);
+}
+
+TEST_CASE("A second compilation is served by the cache") {
+    const PrivateCache cache;
+    compile_shader(text, "test");
+    const std::string entry = fs::directory_iterator(cache.folder)->path().filename().string();
+    const std::vector<std::uint32_t> mark{1, 2, 3};
+    REQUIRE(write_cache_entry(entry, std::as_bytes(std::span(mark))));
+    CHECK(compile_shader(text, "test") == mark);
+    CHECK(compile_shader(std::string(text) + " ", "test") != mark);
+}
+
+TEST_CASE("Without a place for the cache, shaders compile all the same") {
+    ::setenv("ELVIS_CACHE_PATH", "/dev/null/nowhere", 1);
+    CHECK(compile_shader(text, "test").size() > 20);
+    ::unsetenv("ELVIS_CACHE_PATH");
+}
+
+TEST_CASE("Includes reach the library, and their errors name its files") {
+    const PrivateCache cache;
+    const std::string with_types = "#version 460\n#define ELVIS_REAL_IS_DOUBLE 0\n#include \"library/types.glsl\"\n"
+                                   "elvis_real f() { return elvis_real(1); }\nvoid main() {}\n";
+    CHECK(compile_shader(with_types, "test").size() > 20);
+    CHECK_THROWS_WITH(compile_shader("#version 460\n\n#include \"library/nothing.glsl\"\n", "my.comp"),
+                      Catch::Contains("my.comp:3") && Catch::Contains("library/nothing.glsl"));
+    CHECK_THROWS_WITH(compile_shader(with_types + "void g() { h(); }\n", "my.comp"), Catch::Contains("my.comp:6: 'h'"));
+}
+
+TEST_CASE("Threads may compile at the same time") {
+    const PrivateCache cache;
+    std::array<std::vector<std::uint32_t>, 4> results;
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t t = 0; t < results.size(); ++t) {
+            threads.emplace_back([&results, t] {
+                warm_up_compiler();
+                for (int i = 0; i < 5; ++i) {
+                    // The same function under names of different kernels, so that each is compiled.
+                    results[t] = compile_shader(std::string(text) + "// " + std::to_string(10 * t) + std::to_string(i), "test");
+                }
+            });
+        }
+    }
+    for (const auto& result : results) {
+        CHECK(result == results[0]);
+    }
 }
 
 TEST_CASE("An error names file and line") {

@@ -116,3 +116,44 @@ TEST_CASE("Every number of a record buffer is fetched bit for bit") {
         }
     }
 }
+
+TEST_CASE("Three hundred mebibytes are read on the device's own limits") {
+    const test::CacheFolder cache;
+    const DataBuffers buffers = GENERATE(DataBuffers::texel, DataBuffers::storage);
+    DeviceOptions options;
+    options.data_buffers = buffers;
+    const Device device(options);
+    constexpr std::uint32_t n_records = 76800, record_size = 1024;
+    const RecordBuffer records(device, RecordKind::real, Precision::float32, n_records, record_size);
+    REQUIRE(records.bytes() == 300u << 20u);
+    const auto value = [](std::uint64_t i) { return static_cast<float>(i % 16777213); };
+    constexpr std::uint32_t at_once = 2400;
+    std::vector<double> numbers(std::size_t{at_once} * record_size);
+    for (std::uint32_t first = 0; first < n_records; first += at_once) {
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            numbers[i] = value(std::uint64_t{first} * record_size + i);
+        }
+        records.write_reals(first, numbers);
+    }
+    KernelRequest request;
+    request.name = "large fetch test";
+    request.kernel = "test.comp";
+    request.kernel_text = "layout(local_size_x = 64) in;\n"
+                          "layout(std430, binding = 0) writeonly buffer result_block { float result[]; };\n"
+                          "void main() {\n"
+                          "    uint i = gl_GlobalInvocationID.x;\n"
+                          "    result[i] = elvis_fetch_large(i, i % 1024u);\n"
+                          "}\n";
+    request.buffers = {{"large", &records}};
+    request.bindings = {{0, BindingType::storage_buffer}};
+    const ComposedKernel kernel(device, request);
+    const Buffer output(device, n_records * sizeof(float));
+    const std::array<const Buffer*, 1> bindings{&output};
+    kernel.dispatch(bindings, {}, n_records / 64);
+    const auto result = output.read_items<float>(n_records);
+    std::size_t n_wrong = 0;
+    for (std::uint32_t i = 0; i < n_records; ++i) {
+        n_wrong += result[i] != value(std::uint64_t{i} * record_size + i % 1024) ? 1 : 0;
+    }
+    CHECK(n_wrong == 0);
+}
