@@ -1,0 +1,329 @@
+#include "commands.hpp"
+#include "volume_argument.hpp"
+
+#include <core/base/error.hpp>
+#include <core/render/renderer.hpp>
+#include <core/scene/buffers_file.hpp>
+#include <core/scene/color_map.hpp>
+#include <core/scene/output_file.hpp>
+#include <core/scene/png_file.hpp>
+#include <core/scene/resolve.hpp>
+#include <core/scene/scene.hpp>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace elvis::commands {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+struct Arguments {
+    std::string input;
+    std::string output;
+    std::string field;
+    std::vector<std::string> cut_planes;
+    std::string color_map;
+    std::string range;
+    std::string eye, look_at, up;
+    double field_of_view = 0;
+    double orthographic = 0;
+    std::string background;
+    std::string size;
+    std::string precision;
+    std::string device;
+    std::string buffers;
+    std::string stats;
+    int time_step = -1;
+    int repeat = 0;
+    int bits = 8;
+    bool validation = false;
+    bool schema = false;
+};
+
+/** "1,0,0,-0.5" as that many finite numbers. */
+std::vector<double> numbers(const char* option, const std::string& text, std::size_t least, std::size_t most) {
+    std::vector<double> list;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string part = text.substr(begin, end - begin);
+        std::size_t used = 0;
+        double value = std::nan("");
+        try {
+            value = std::stod(part, &used);
+        } catch (const std::exception&) {
+            used = 0;
+        }
+        if (used == 0 || used != part.size() || !std::isfinite(value)) {
+            throw UsageError(option, "'" + text + "' is no list of numbers separated by commas");
+        }
+        list.push_back(value);
+        begin = end + 1;
+    }
+    if (list.size() < least || list.size() > most) {
+        throw UsageError(option, "'" + text + "' has " + std::to_string(list.size()) + " numbers where " +
+                                     std::to_string(least) + (most > least ? " or " + std::to_string(most) : "") +
+                                     " are expected");
+    }
+    return list;
+}
+
+Vector3 vector3(const char* option, const std::string& text) {
+    const std::vector<double> list = numbers(option, text, 3, 3);
+    return {list[0], list[1], list[2]};
+}
+
+/** What the command line says goes before what the file says. */
+void apply_options(const Arguments& arguments, Scene& scene) {
+    if (!arguments.field.empty()) {
+        scene.field = arguments.field;
+    }
+    if (!arguments.cut_planes.empty()) {
+        scene.cut_planes.clear();
+    }
+    for (const std::string& text : arguments.cut_planes) {
+        const std::vector<double> list = numbers("--cut-plane", text, 4, 4);
+        if (list[0] == 0 && list[1] == 0 && list[2] == 0) {
+            throw UsageError("--cut-plane", "'" + text + "' has a normal of length zero");
+        }
+        scene.cut_planes.push_back({{list[0], list[1], list[2], list[3]}});
+    }
+    if (!arguments.color_map.empty()) {
+        const bool is_file = std::filesystem::exists(arguments.color_map);
+        scene.color_map.name = is_file ? "" : arguments.color_map;
+        scene.color_map.file = is_file ? arguments.color_map : "";
+        scene.color_map.points.clear();
+    }
+    if (!arguments.range.empty()) {
+        const std::vector<double> list = numbers("--range", arguments.range, 2, 2);
+        if (!(list[0] < list[1])) {
+            throw UsageError("--range", "'" + arguments.range + "' must go from a smaller to a larger value");
+        }
+        scene.color_map.range = {list[0], list[1]};
+    }
+    if (!arguments.eye.empty()) {
+        scene.camera.eye = vector3("--eye", arguments.eye);
+    }
+    if (!arguments.look_at.empty()) {
+        scene.camera.look_at = vector3("--look-at", arguments.look_at);
+    }
+    if (!arguments.up.empty()) {
+        scene.camera.up = vector3("--up", arguments.up);
+    }
+    if (arguments.field_of_view > 0) {
+        scene.camera.field_of_view = arguments.field_of_view;
+    }
+    if (arguments.orthographic > 0) {
+        scene.camera.orthographic = true;
+        scene.camera.height = arguments.orthographic;
+    }
+    if (!arguments.background.empty()) {
+        const std::vector<double> list = numbers("--background", arguments.background, 3, 4);
+        scene.background = {list[0], list[1], list[2], list.size() > 3 ? list[3] : 1.0};
+        for (const double channel : scene.background) {
+            if (channel < 0 || channel > 1) {
+                throw UsageError("--background", "'" + arguments.background + "' has a number outside 0 to 1");
+            }
+        }
+    }
+    if (!arguments.size.empty()) {
+        unsigned width = 0, height = 0;
+        int used = 0;
+        if (std::sscanf(arguments.size.c_str(), "%ux%u%n", &width, &height, &used) != 2 ||
+            static_cast<std::size_t>(used) != arguments.size.size() || width == 0 || height == 0 || width > 32768 ||
+            height > 32768) {
+            throw UsageError("--size", "'" + arguments.size + "' is not WIDTHxHEIGHT with both from 1 to 32768");
+        }
+        scene.size = {width, height};
+    }
+    if (!arguments.precision.empty()) {
+        scene.precision = arguments.precision;
+    }
+    if (arguments.time_step >= 0) {
+        scene.time_step = static_cast<std::uint32_t>(arguments.time_step);
+    }
+}
+
+FieldChoice choose_field(const RuntimeVolume& volume, const Scene& scene) {
+    if (volume.fields().empty()) {
+        throw Error(volume.path(), "has no field to draw");
+    }
+    const FieldExpression expression =
+        scene.field ? parse_field_expression(*scene.field) : FieldExpression{volume.fields()[0].name, -1};
+    FieldChoice choice;
+    choice.field = volume.field_index(expression.name);
+    const std::uint32_t n_components = volume.fields()[choice.field].n_components;
+    if (expression.component >= static_cast<std::int32_t>(n_components)) {
+        throw Error("field '" + *scene.field + "'", "has only " + std::to_string(n_components) + " components, counted from 0");
+    }
+    choice.component = expression.component >= 0 ? expression.component : n_components > 1 ? -1 : 0;
+    return choice;
+}
+
+nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,
+                                  double load, double total, const std::vector<double>& repeated) {
+    nlohmann::ordered_json root;
+    root["device"] = device.summary().name;
+    root["driver"] = device.summary().driver;
+    root["precision"] = is_double ? "float64" : "float32";
+    const RendererTimes& times = renderer.times();
+    root["milliseconds"] = {{"load", load},
+                            {"upload", times.upload_milliseconds},
+                            {"hierarchy", times.hierarchy_milliseconds},
+                            {"compile", times.compile_milliseconds},
+                            {"render", frame.render_milliseconds},
+                            {"total", total}};
+    const FrameCounts& counts = frame.counts;
+    root["counts"] = {{"pixels", counts.pixels},
+                      {"hit_pixels", counts.hit_pixels},
+                      {"field_evaluations", counts.field_evaluations},
+                      {"newton_iterations", counts.newton_iterations},
+                      {"newton_failures", counts.newton_failures},
+                      {"undecided_pixels", counts.undecided_pixels},
+                      {"nan_pixels", counts.nan_pixels},
+                      {"work_limit_pixels", counts.work_limit_pixels}};
+    const RendererMemory memory = renderer.memory();
+    root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
+    if (!repeated.empty()) {
+        root["frame_milliseconds"] = repeated;
+    }
+    return root;
+}
+
+void warn_about(const FrameCounts& counts) {
+    if (counts.hit_pixels == 0) {
+        spdlog::warn("nothing is hit: the picture shows background only");
+    }
+    if (counts.newton_failures > 0) {
+        spdlog::warn("{} inversions of the mapping failed; their pixels carry flag 8", counts.newton_failures);
+    }
+    if (counts.nan_pixels > 0) {
+        spdlog::warn("{} pixels show values that are not finite", counts.nan_pixels);
+    }
+    if (counts.work_limit_pixels > 0) {
+        spdlog::warn("{} pixels reached the work limit and may be wrong; they carry flag 1024", counts.work_limit_pixels);
+    }
+    if (counts.undecided_pixels > 0) {
+        spdlog::info("{} pixels are undecided within rounding", counts.undecided_pixels);
+    }
+}
+
+void run(const Arguments& arguments) {
+    if (arguments.schema) {
+        std::printf("%s", std::string(scene_schema_text()).c_str());
+        return;
+    }
+    if (arguments.input.empty() || arguments.output.empty()) {
+        throw UsageError("render", "needs a scene or volume, and -o OUT.png; see elvis render --help");
+    }
+    const Clock::time_point start = Clock::now();
+    Scene scene;
+    if (is_scene(arguments.input)) {
+        scene = read_scene(arguments.input);
+    } else {
+        scene.volume = arguments.input;
+    }
+    apply_options(arguments, scene);
+    if (scene.volume.empty()) {
+        throw Error(arguments.input, "'volume' is missing");
+    }
+    const bool is_double = scene.precision.value_or("float32") == "float64";
+
+    const PluginRegistry registry;
+    const RuntimeVolume volume = open_volume(registry, scene.volume, scene.plugin, scene.plugin_options);
+    if (scene.time_step >= volume.times().size()) {
+        throw Error(scene.volume, "has " + std::to_string(volume.times().size()) +
+                                      " time steps, counted from 0; there is no step " + std::to_string(scene.time_step));
+    }
+    FrameRequest request;
+    request.field = choose_field(volume, scene);
+    const double load = milliseconds_since(start);
+
+    const Device device(arguments.device, arguments.validation);
+    spdlog::info("device: {}", device.summary().name);
+    Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
+    request.width = scene.size[0];
+    request.height = scene.size[1];
+    request.background = scene.background;
+    request.time_step = scene.time_step;
+    request.cut_planes = scene.cut_planes;
+    if (request.cut_planes.empty()) {
+        request.cut_planes = {central_plane(renderer.bounds())};
+    }
+    request.camera = resolve_camera(scene.camera, renderer.bounds(), request.cut_planes,
+                                    static_cast<double>(request.width) / request.height);
+    std::array<double, 2> range{};
+    if (scene.color_map.range) {
+        range = *scene.color_map.range;
+    } else {
+        const FieldRange of_field = renderer.field_range(request.field, scene.time_step);
+        range = {of_field.lower, of_field.upper};
+    }
+    request.colors = make_color_table(scene.color_map, range);
+
+    const Frame frame = renderer.render(request);
+    std::vector<double> repeated;
+    for (int repetition = 0; repetition < arguments.repeat; ++repetition) {
+        const Clock::time_point frame_start = Clock::now();
+        renderer.render(request);
+        repeated.push_back(milliseconds_since(frame_start));
+    }
+    write_png(frame, arguments.output, arguments.bits);
+    if (!arguments.buffers.empty()) {
+        write_buffers(frame, arguments.buffers, is_double);
+    }
+    if (!arguments.stats.empty()) {
+        const auto stats = stats_json(device, is_double, frame, renderer, load, milliseconds_since(start), repeated);
+        write_text_file(arguments.stats, stats.dump(2) + "\n");
+    }
+    warn_about(frame.counts);
+    if (arguments.validation && !device.validation_messages().empty()) {
+        throw Error("validation layer", device.validation_messages().front());
+    }
+}
+
+} // namespace
+
+void add_render(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("render", "Draw one picture of a volume, from a scene file or options");
+    auto a = std::make_shared<Arguments>();
+    command->add_option("input", a->input, "Scene file (JSON) or volume");
+    command->add_option("-o,--output", a->output, "Picture to write (PNG)");
+    command->add_option("--field", a->field, "Field: name, or name[component]; a vector alone means its magnitude");
+    command->add_option("--cut-plane", a->cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
+        ->allow_extra_args(false);
+    command->add_option("--color-map", a->color_map, "Built-in name, or file (ParaView JSON, ElVis XML)");
+    command->add_option("--range", a->range, "LOW,HIGH: values at the ends of the colour map");
+    command->add_option("--eye", a->eye, "x,y,z of the camera");
+    command->add_option("--look-at", a->look_at, "x,y,z in the middle of the picture");
+    command->add_option("--up", a->up, "x,y,z of the direction that is up in the picture");
+    command->add_option("--fov", a->field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
+    command->add_option("--orthographic", a->orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
+    command->add_option("--background", a->background, "R,G,B or R,G,B,A from 0 to 1");
+    command->add_option("--size", a->size, "WIDTHxHEIGHT");
+    command->add_option("--precision", a->precision, "float32 or float64")->check(CLI::IsMember({"float32", "float64"}));
+    command->add_option("--device", a->device, "Name (or part of it) or index of the Vulkan device");
+    command->add_option("--time-step", a->time_step, "Which time step")->check(CLI::NonNegativeNumber);
+    command->add_option("--buffers", a->buffers, "HDF5 file with what the picture is made of, per pixel");
+    command->add_option("--stats", a->stats, "JSON file with times and counts");
+    command->add_option("--repeat", a->repeat, "Draw the frame that many times more, and put the times into --stats")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--bits", a->bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));
+    command->add_flag("--validation", a->validation, "Run with the Vulkan validation layer; any message is an error");
+    command->add_flag("--schema", a->schema, "Print the JSON Schema of scene files");
+    command->callback([a] { run(*a); });
+}
+
+} // namespace elvis::commands

@@ -1,0 +1,19 @@
+/**
+ * @file buffers_file.hpp
+ * What a picture is made of, per pixel, as HDF5.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+
+#include <string>
+
+namespace elvis {
+
+/**
+ * Datasets, top row first: color (height, width, 4), value, depth, normal (height, width, 3), in single or double precision;
+ * element (int64), flags (uint32). Appears whole or not at all. Throws Error naming the file.
+ */
+void write_buffers(const Frame& frame, const std::string& path, bool double_precision);
+
+} // namespace elvis

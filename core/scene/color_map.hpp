@@ -1,0 +1,37 @@
+/**
+ * @file color_map.hpp
+ * Colour maps, and the table that the device interpolates.
+ */
+#pragma once
+
+#include <core/scene/scene.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+/** A map over positions in any range; its ends are mapped to the ends of the colour range. */
+struct ColorMap {
+    ColorSpace space = ColorSpace::rgb;
+    std::vector<SceneColorMap::Point> points;
+    std::optional<Rgb> nan;
+};
+
+/** Names of the built-in maps. */
+std::vector<std::string> color_map_names();
+
+/** A built-in map; an Error that lists them if there is none of that name. */
+ColorMap built_in_color_map(const std::string& name);
+
+/** Reads ParaView JSON or the original ElVis XML, by content. */
+ColorMap read_color_map_file(const std::string& path);
+
+/**
+ * The table for values from `range`: piecewise linear in display RGB, within 1e-5 of the map in every channel. Values outside
+ * take the end colours unless the scene says otherwise; NaN is magenta by default, which is in none of the built-in maps.
+ */
+ColorTable make_color_table(const SceneColorMap& scene, const std::array<double, 2>& range);
+
+} // namespace elvis

@@ -1,0 +1,54 @@
+/**
+ * @file json_reader.hpp
+ * Typed access to a JSON document whose keys a JSON Schema lists: what the schema does not know is an error.
+ */
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+/** Parses a file. A syntax error names file, line and column. */
+nlohmann::json parse_json_file(const std::string& path);
+
+/** The known word nearest to one that is unknown, by edits. */
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
+
+/** An object in a document, with its place for messages. */
+class JsonObject {
+public:
+    /** `schema`: the schema's node for this object; every key must be among its properties. */
+    JsonObject(const nlohmann::json& value, const nlohmann::json& schema, std::string file, std::string path);
+
+    bool has(const char* key) const { return m_value->contains(key); }
+    JsonObject object(const char* key) const;
+    std::vector<JsonObject> objects(const char* key) const;
+    std::string text(const char* key) const;
+    /** A text among the schema's "enum". */
+    std::string word(const char* key) const;
+    double number(const char* key) const;
+    std::uint32_t integer(const char* key) const;
+    /** A list of numbers of a length the schema allows, each finite and in its bounds. */
+    std::vector<double> numbers(const char* key) const;
+    std::vector<std::vector<double>> rows(const char* key) const;
+    const nlohmann::json& raw(const char* key) const { return m_value->at(key); }
+
+    [[noreturn]] void fail(const std::string& key, const std::string& what) const;
+
+private:
+    const nlohmann::json& schema_of(const char* key) const;
+    double checked(const nlohmann::json& value, const nlohmann::json& schema, const std::string& key) const;
+    std::vector<double> checked_list(const nlohmann::json& value, const nlohmann::json& schema, const std::string& key) const;
+
+    const nlohmann::json* m_value;
+    const nlohmann::json* m_schema;
+    const nlohmann::json* m_root_schema;
+    std::string m_file;
+    std::string m_path;
+};
+
+} // namespace elvis

@@ -1,0 +1,34 @@
+/**
+ * @file resolve.hpp
+ * Fills in what a scene leaves open, from facts about the volume.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+#include <core/scene/scene.hpp>
+
+#include <array>
+#include <span>
+#include <string>
+
+namespace elvis {
+
+/** "name" or "name[i]": name of the field, and component or -1 where none is named. */
+struct FieldExpression {
+    std::string name;
+    std::int32_t component = -1;
+};
+FieldExpression parse_field_expression(const std::string& text);
+
+/**
+ * Camera with everything decided. Defaults: looks at the centre of the bounds (min x y z, max x y z), at the first cut plane
+ * from its front or along a diagonal, sees the whole of the bounds; up is +y, or +z when looking along y. Throws Error where
+ * eye and look_at coincide or up is parallel to the view.
+ */
+Camera resolve_camera(const SceneCamera& camera, const std::array<double, 6>& bounds, std::span<const CutPlane> planes,
+                      double aspect);
+
+/** The plane through the centre of the bounds across their shortest extent. */
+CutPlane central_plane(const std::array<double, 6>& bounds);
+
+} // namespace elvis

@@ -1,0 +1,67 @@
+/**
+ * @file scene.hpp
+ * The scene as its file has it: what was not said is absent. scene.schema.json describes the file.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace elvis {
+
+using Rgb = std::array<double, 3>;
+
+enum class ColorSpace { rgb, lab, hsv, diverging, step };
+
+struct SceneColorMap {
+    /** At most one of name, file and points. */
+    std::string name;
+    std::string file;
+    struct Point {
+        double position = 0;
+        Rgb rgb{};
+    };
+    std::vector<Point> points;
+    ColorSpace space = ColorSpace::rgb;
+    std::optional<std::array<double, 2>> range;
+    std::optional<Rgb> below, above, nan;
+};
+
+struct SceneCamera {
+    std::optional<bool> orthographic;
+    std::optional<Vector3> eye, look_at, up;
+    std::optional<double> field_of_view, height;
+    std::array<double, 2> image_shift{};
+};
+
+struct Scene {
+    std::string volume;
+    std::string plugin;
+    /** JSON text, or empty. */
+    std::string plugin_options;
+    std::uint32_t time_step = 0;
+    std::optional<std::string> field;
+    std::optional<std::string> precision;
+    SceneCamera camera;
+    std::array<std::uint32_t, 2> size{1024, 768};
+    std::array<double, 4> background{1, 1, 1, 1};
+    SceneColorMap color_map;
+    std::vector<CutPlane> cut_planes;
+};
+
+/** Reads a scene file; paths in it become relative to the working directory. Throws Error naming file, key and cause. */
+Scene read_scene(const std::string& path);
+
+/** The JSON Schema of the file, as text. */
+std::string_view scene_schema_text();
+
+/** Whether a file is a scene rather than a volume: a JSON object with the key "version". */
+bool is_scene(const std::string& path);
+
+} // namespace elvis
