@@ -13,27 +13,19 @@ namespace elvis::commands {
 
 namespace {
 
-/** What ElVis would take if nothing were asked for, or nothing if no device is usable. */
-std::optional<std::uint32_t> default_device() {
-    try {
-        return choose_device({}).index;
-    } catch (const Error&) {
-        return std::nullopt;
-    }
-}
-
 void print_json(const std::vector<DeviceSummary>& devices, std::optional<std::uint32_t> chosen) {
-    nlohmann::ordered_json root = nlohmann::ordered_json::array();
+    nlohmann::ordered_json root;
+    root["devices"] = nlohmann::ordered_json::array();
     for (const DeviceSummary& device : devices) {
-        root.push_back({{"index", device.index},
-                        {"name", device.name},
-                        {"driver", device.driver},
-                        {"type", device.type},
-                        {"memory_bytes", device.memory_bytes},
-                        {"float64", device.has_float64},
-                        {"usable", device.unusable_because.empty()},
-                        {"unusable_because", device.unusable_because},
-                        {"chosen", device.index == chosen}});
+        root["devices"].push_back({{"index", device.index},
+                                   {"name", device.name},
+                                   {"driver", device.driver},
+                                   {"type", device.type},
+                                   {"memory_bytes", device.memory_bytes},
+                                   {"float64", device.has_float64},
+                                   {"usable", device.unusable_because.empty()},
+                                   {"unusable_because", device.unusable_because},
+                                   {"chosen", device.index == chosen}});
     }
     std::printf("%s\n", root.dump(2).c_str());
 }
@@ -60,7 +52,20 @@ void add_devices(CLI::App& app) {
     command->add_flag("--json", *json, "Answer in JSON");
     command->callback([json] {
         const std::vector<DeviceSummary> devices = list_devices();
-        *json ? print_json(devices, default_device()) : print_table(devices, default_device());
+        // A choice that fails ($ELVIS_DEVICE names nothing) is told after the list, in which no device is marked then.
+        std::optional<std::uint32_t> chosen;
+        std::optional<Error> failure;
+        if (!devices.empty()) {
+            try {
+                chosen = choose_device({}).index;
+            } catch (const Error& error) {
+                failure = error;
+            }
+        }
+        *json ? print_json(devices, chosen) : print_table(devices, chosen);
+        if (failure) {
+            throw *failure;
+        }
     });
 }
 
