@@ -13,8 +13,10 @@
  *         void get_info(elvis_volume_info& info) override;
  *         ...
  *     };
- *     ELVIS_PLUGIN(.id = "org.example.reader", .name = "Example reader", .version = "1.0.0", .runtime =
- * elvis::api::runtime_table<Volume>());
+ *     ELVIS_PLUGIN(.id = "org.example.reader", .name = "Example reader", .version = "1.0.0",
+ *                  .runtime = elvis::api::runtime_table<Volume>());
+ *
+ * plugins/analytic is a complete example.
  *
  * Since 0.9.
  */
@@ -33,6 +35,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -127,13 +130,12 @@ public:
     virtual elvis_certainty get_bounds(std::uint64_t first, std::uint64_t count, std::span<double> bounds) = 0;
     virtual void fill_buffer(const elvis_fill_request& request, void* destination) = 0;
 
-    // Optional, found by name and signature:
+    // Optional, found by name; public members with exactly these signatures:
     //   void get_element_numbers(std::uint64_t first, std::span<std::int64_t> numbers);
     //   void get_faces(std::uint64_t first, StructArray<elvis_face> faces);
     //   elvis_string get_boundary_group(std::uint32_t group);
-    //   elvis_certainty get_field_ranges(std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t
-    //   count,
-    //                                    std::span<double> ranges);
+    //   elvis_certainty get_field_ranges(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+    //                                    std::uint64_t count, std::span<double> ranges);
     //   std::pair<elvis_string, elvis_string> get_note(std::uint32_t note);
     //   void evaluate_mapping(std::uint64_t element, std::span<const double> xi, double* positions, double* jacobians);
     //   void evaluate_field(std::uint32_t field, std::uint32_t time_step, std::uint64_t element, std::span<const double> xi,
@@ -162,10 +164,14 @@ public:
     virtual void get_spaces(std::uint32_t field, std::uint64_t first, StructArray<elvis_source_space> spaces) = 0;
     /** Three numbers a point in both spans. */
     virtual void evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions) = 0;
-    /** All fields at each point. */
-    virtual void sample(std::uint32_t time_step, std::uint64_t element, std::span<const double> xi, double* values) = 0;
+    /** All fields at each point. Need not be overridden by a class that has sample_world. */
+    virtual void sample([[maybe_unused]] std::uint32_t time_step, [[maybe_unused]] std::uint64_t element,
+                        [[maybe_unused]] std::span<const double> xi, [[maybe_unused]] double* values) {
+        throw Error(ELVIS_ERROR_UNSUPPORTED, {}, "this source is sampled at world positions only");
+    }
 
-    // Optional, found by name and signature:
+    // Optional, found by name; public members with exactly these signatures:
+    //   void sample_world(std::uint32_t time_step, std::uint64_t element, std::span<const double> positions, double* values);
     //   double get_time(std::uint32_t time_step);
     //   elvis_string get_boundary_group(std::uint32_t group);
 
@@ -195,21 +201,24 @@ template <class Call> elvis_result guard(const elvis_host* host, Call&& call) no
     }
 }
 
-/** Lets `fill` work on a struct of the size known here, and copies to the caller what fits into theirs. */
-template <class Struct, class Fill> void fill_struct(Struct* theirs, Fill&& fill) {
-    const std::uint32_t their_size = theirs->struct_size;
-    Struct ours{};
-    ours.struct_size = sizeof ours;
-    fill(ours);
-    std::memcpy(theirs, &ours, std::min<std::size_t>(their_size, sizeof ours));
-    theirs->struct_size = their_size;
-}
-
 /** A request of the host as the struct known here; members that an older host does not have are zero. */
 template <class Struct> Struct read_struct(const Struct* theirs) {
     Struct ours{};
     std::memcpy(&ours, theirs, std::min<std::size_t>(theirs->struct_size, sizeof ours));
     return ours;
+}
+
+/**
+ * Lets `fill` work on a struct of the size known here, and copies to the caller what fits into theirs. Members that `fill`
+ * leaves alone keep what the host put there, zero for those that an older host does not know.
+ */
+template <class Struct, class Fill> void fill_struct(Struct* theirs, Fill&& fill) {
+    const std::uint32_t their_size = theirs->struct_size;
+    Struct ours = read_struct<Struct>(theirs);
+    ours.struct_size = sizeof ours;
+    fill(ours);
+    std::memcpy(theirs, &ours, std::min<std::size_t>(their_size, sizeof ours));
+    theirs->struct_size = their_size;
 }
 
 template <class Volume> Volume& self(elvis_volume* volume) { return *reinterpret_cast<Volume*>(volume); }
@@ -366,12 +375,26 @@ template <class Source> const elvis_converter* converter_table() {
                                    std::span<double>(positions, 3 * n_points));
             });
         };
-        t.sample = [](elvis_source_volume* source, std::uint32_t time_step, std::uint64_t element, std::uint64_t n_points,
-                      const double* xi, double* values) {
-            return guard_on(self<Source>(source), [&](Source& s) {
-                s.sample(time_step, element, std::span<const double>(xi, 3 * n_points), values);
-            });
-        };
+        // The pointer has the base's type where nothing overrides the function.
+        constexpr bool samples = !std::is_same_v<decltype(&Source::sample), decltype(&ConverterSource::sample)>;
+        constexpr bool samples_world = requires { &Source::sample_world; };
+        static_assert(samples || samples_world, "a source needs sample or sample_world");
+        if constexpr (samples) {
+            t.sample = [](elvis_source_volume* source, std::uint32_t time_step, std::uint64_t element, std::uint64_t n_points,
+                          const double* xi, double* values) {
+                return guard_on(self<Source>(source), [&](Source& s) {
+                    s.sample(time_step, element, std::span<const double>(xi, 3 * n_points), values);
+                });
+            };
+        }
+        if constexpr (samples_world) {
+            t.sample_world = [](elvis_source_volume* source, std::uint32_t time_step, std::uint64_t element,
+                                std::uint64_t n_points, const double* positions, double* values) {
+                return guard_on(self<Source>(source), [&](Source& s) {
+                    s.sample_world(time_step, element, std::span<const double>(positions, 3 * n_points), values);
+                });
+            };
+        }
         if constexpr (requires { &Source::get_time; }) {
             t.get_time = [](elvis_source_volume* source, std::uint32_t step, double* time) {
                 return guard_on(self<Source>(source), [&](Source& s) { *time = s.get_time(step); });
