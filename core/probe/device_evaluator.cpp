@@ -1,0 +1,130 @@
+#include <core/base/error.hpp>
+#include <core/probe/device_class.hpp>
+#include <core/probe/device_evaluator.hpp>
+#include <core/probe/reference_shape.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace elvis {
+namespace {
+
+// Points handed to the device at once: bounds memory and the time of one dispatch.
+constexpr std::size_t block_size = 1u << 16;
+
+// As in shaders/kernels/probe_invert.comp and probe_evaluate.comp.
+struct DevicePoint {
+    double coordinates[3];
+    std::uint32_t element;
+    std::uint32_t unused;
+};
+struct DeviceAnswer {
+    double xi[3];
+    double error;
+    std::uint32_t status;
+    std::uint32_t unused;
+};
+// As in shaders/library/newton.glsl.
+constexpr std::uint32_t status_converged = 1;
+constexpr std::uint32_t status_outside = 2;
+
+// Calls action(class index, indices of the items in that class) for every class that has some.
+template <class Item, class Action>
+void for_each_class(const std::vector<ClassInfo>& classes, std::span<const Item> items, const Action& action) {
+    std::vector<std::vector<std::size_t>> indices(classes.size());
+    for (std::size_t i = 0; i < items.size(); ++i)
+        for (std::size_t c = 0; c < classes.size(); ++c)
+            if (items[i].element - classes[c].first_element < classes[c].n_elements)
+                indices[c].push_back(i);
+    for (std::uint32_t c = 0; c < classes.size(); ++c)
+        if (!indices[c].empty())
+            action(c, indices[c]);
+}
+
+} // namespace
+
+DeviceEvaluator::DeviceEvaluator(const RuntimeVolume& volume, const std::string& device) : m_device(device), m_volume(&volume) {
+    if (!m_device.summary().has_float64)
+        throw Error(m_device.summary().name, "the device has no double precision, which probing needs");
+    if (volume.fields().empty())
+        throw Error(volume.path(), "a volume without fields cannot be probed on the device");
+    std::vector<double> boxes(6 * volume.n_elements());
+    volume.bounds(0, volume.n_elements(), boxes);
+    for (const double coordinate : boxes)
+        m_position_error = std::max(m_position_error, std::numeric_limits<double>::epsilon() * std::abs(coordinate));
+}
+
+DeviceEvaluator::~DeviceEvaluator() = default;
+
+std::vector<Inversion> DeviceEvaluator::invert(std::span<const InversionQuery> queries) {
+    std::vector<Inversion> inversions(queries.size());
+    for_each_class(m_volume->classes(), queries, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
+        const DeviceClass on_device(m_device, *m_volume, c, 0, 0);
+        const ClassInfo& info = m_volume->classes()[c];
+        for (std::size_t first = 0; first < indices.size(); first += block_size) {
+            const std::size_t count = std::min(block_size, indices.size() - first);
+            std::vector<DevicePoint> points(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const InversionQuery& query = queries[indices[first + i]];
+                points[i] = {{query.position[0], query.position[1], query.position[2]},
+                             static_cast<std::uint32_t>(query.element - info.first_element),
+                             0};
+            }
+            const Buffer input(m_device, count * sizeof(DevicePoint));
+            const Buffer output(m_device, count * sizeof(DeviceAnswer));
+            input.write_items(std::span<const DevicePoint>(points));
+            on_device.run("kernels/probe_invert.comp", std::as_bytes(std::span(&m_position_error, 1)), input, output,
+                          static_cast<std::uint32_t>(count));
+            const auto answers = output.read_items<DeviceAnswer>(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const DeviceAnswer& answer = answers[i];
+                Inversion& inversion = inversions[indices[first + i]];
+                inversion.xi = {answer.xi[0], answer.xi[1], answer.xi[2]};
+                if (answer.status == status_converged) {
+                    const bool is_inside = reference_excess(info.shape, inversion.xi) <= inside_tolerance + answer.error;
+                    inversion.outcome = is_inside ? Inversion::Outcome::inside : Inversion::Outcome::outside;
+                } else if (answer.status == status_outside) {
+                    inversion.outcome = Inversion::Outcome::outside;
+                }
+            }
+        }
+    });
+    return inversions;
+}
+
+std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uint32_t time_step,
+                                                   std::span<const ReferencePoint> points) {
+    const std::size_t n_components = m_volume->fields()[field].n_components;
+    std::vector<FieldSample> samples(points.size());
+    for_each_class(m_volume->classes(), points, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
+        const DeviceClass on_device(m_device, *m_volume, c, field, time_step);
+        const ClassInfo& info = m_volume->classes()[c];
+        for (std::size_t first = 0; first < indices.size(); first += block_size) {
+            const std::size_t count = std::min(block_size, indices.size() - first);
+            std::vector<DevicePoint> inputs(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const ReferencePoint& point = points[indices[first + i]];
+                inputs[i] = {
+                    {point.xi[0], point.xi[1], point.xi[2]}, static_cast<std::uint32_t>(point.element - info.first_element), 0};
+            }
+            const std::size_t n_numbers = 4 * n_components * count;
+            const Buffer input(m_device, count * sizeof(DevicePoint));
+            const Buffer output(m_device, n_numbers * sizeof(double));
+            input.write_items(std::span<const DevicePoint>(inputs));
+            on_device.run("kernels/probe_evaluate.comp", {}, input, output, static_cast<std::uint32_t>(count));
+            const auto numbers = output.read_items<double>(n_numbers);
+            for (std::size_t i = 0; i < count; ++i) {
+                FieldSample& sample = samples[indices[first + i]];
+                for (std::size_t component = 0; component < n_components; ++component) {
+                    const double* at = &numbers[4 * (i * n_components + component)];
+                    sample.values.push_back(at[0]);
+                    sample.gradients.insert(sample.gradients.end(), at + 1, at + 4);
+                }
+            }
+        }
+    });
+    return samples;
+}
+
+} // namespace elvis

@@ -1,0 +1,64 @@
+/**
+ * @file point_evaluator.hpp
+ * Inverse mapping and fields at points of known elements, in double precision, on the CPU or on the device.
+ */
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+/** Whether an element contains a position. */
+struct InversionQuery {
+    std::uint64_t element = 0;
+    std::array<double, 3> position{};
+};
+
+struct Inversion {
+    enum class Outcome {
+        inside,  ///< in the closed element, but for rounding
+        outside, ///< not in the element
+        failed   ///< neither could be established
+    };
+    Outcome outcome = Outcome::failed;
+    /** Meaningful if inside. */
+    std::array<double, 3> xi{};
+};
+
+/** A point of an element. */
+struct ReferencePoint {
+    std::uint64_t element = 0;
+    std::array<double, 3> xi{};
+};
+
+/** Components of a field and their gradients in world coordinates (three numbers a component). */
+struct FieldSample {
+    std::vector<double> values;
+    std::vector<double> gradients;
+};
+
+class PointEvaluator {
+public:
+    PointEvaluator() = default;
+    virtual ~PointEvaluator() = default;
+    PointEvaluator(const PointEvaluator&) = delete;
+    PointEvaluator& operator=(const PointEvaluator&) = delete;
+
+    /** One answer a query, in the same order. */
+    virtual std::vector<Inversion> invert(std::span<const InversionQuery> queries) = 0;
+
+    /** One sample a point, in the same order. */
+    virtual std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step,
+                                              std::span<const ReferencePoint> points) = 0;
+};
+
+/**
+ * A reference point counts as inside up to this excess beyond a face, plus what the rounding of positions makes of it: points
+ * that people compute on a face or edge are rounded, and both neighbours are to be found there.
+ */
+inline constexpr double inside_tolerance = 1e-10;
+
+} // namespace elvis

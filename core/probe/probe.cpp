@@ -1,0 +1,107 @@
+#include <core/base/error.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/probe/cpu_evaluator.hpp>
+#include <core/probe/device_evaluator.hpp>
+#include <core/probe/probe.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elvis {
+namespace {
+
+std::unique_ptr<PointEvaluator> make_evaluator(const RuntimeVolume& volume, const ProbeOptions& options) {
+    const bool on_cpu = options.evaluation == ProbeOptions::Evaluation::cpu ||
+                        (options.evaluation == ProbeOptions::Evaluation::automatic && volume.has_evaluation());
+    if (!on_cpu)
+        return std::make_unique<DeviceEvaluator>(volume, options.device);
+    if (!volume.has_evaluation())
+        throw Error(volume.path(),
+                    "the plugin " + volume.plugin().id() + " cannot evaluate on the CPU; evaluate on the device");
+    return std::make_unique<CpuEvaluator>(volume);
+}
+
+// An element that contains a point.
+struct Owner {
+    std::int64_t number = 0;
+    ReferencePoint point;
+};
+
+} // namespace
+
+Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_volume(&volume) {
+    if (volume.dimension() != 3)
+        throw Error(volume.path(), "only three-dimensional volumes can be probed");
+    m_evaluator = make_evaluator(volume, options);
+
+    std::vector<double> boxes(6 * volume.n_elements());
+    volume.bounds(0, volume.n_elements(), boxes);
+    std::array<double, 3> lower{};
+    std::array<double, 3> upper{};
+    for (std::size_t d = 0; d < 3 && !boxes.empty(); ++d) {
+        lower[d] = boxes[d];
+        upper[d] = boxes[3 + d];
+        for (std::size_t i = d; i < boxes.size(); i += 6) {
+            lower[d] = std::min(lower[d], boxes[i]);
+            upper[d] = std::max(upper[d], boxes[i + 3]);
+        }
+        // A few units in the last place of the coordinates.
+        m_tolerance = std::max(m_tolerance, 1e-15 * std::max(std::abs(lower[d]), std::abs(upper[d])));
+    }
+    m_hierarchy = Hierarchy(boxes, {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2});
+}
+
+std::vector<ProbedPoint> Prober::probe(std::span<const std::array<double, 3>> positions, std::uint32_t time_step) {
+    if (time_step >= m_volume->times().size())
+        throw UsageError(m_volume->path(), "there is no time step " + std::to_string(time_step) + "; the volume has " +
+                                               std::to_string(m_volume->times().size()));
+    std::vector<ProbedPoint> points(positions.size());
+    std::vector<InversionQuery> queries;
+    std::vector<std::size_t> query_point;
+    std::vector<std::uint32_t> elements;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        points[i].position = positions[i];
+        if (!std::ranges::all_of(positions[i], [](double x) { return std::isfinite(x); }))
+            continue;
+        elements.clear();
+        m_hierarchy.find(positions[i], m_tolerance, elements);
+        for (const std::uint32_t element : elements) {
+            queries.push_back({element, positions[i]});
+            query_point.push_back(i);
+        }
+    }
+
+    const std::vector<Inversion> inversions = m_evaluator->invert(queries);
+    std::vector<std::vector<Owner>> owners(positions.size());
+    for (std::size_t i = 0; i < inversions.size(); ++i) {
+        ProbedPoint& point = points[query_point[i]];
+        point.n_failures += inversions[i].outcome == Inversion::Outcome::failed;
+        if (inversions[i].outcome != Inversion::Outcome::inside)
+            continue;
+        std::int64_t number = 0;
+        m_volume->element_numbers(queries[i].element, 1, {&number, 1});
+        owners[query_point[i]].push_back({number, {queries[i].element, inversions[i].xi}});
+    }
+
+    std::vector<ReferencePoint> found;
+    std::vector<std::size_t> found_point;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (owners[i].empty())
+            continue;
+        std::ranges::sort(owners[i], {}, &Owner::number);
+        points[i].element = owners[i].front().number;
+        points[i].xi = owners[i].front().point.xi;
+        for (std::size_t other = 1; other < owners[i].size(); ++other)
+            points[i].also.push_back(owners[i][other].number);
+        found.push_back(owners[i].front().point);
+        found_point.push_back(i);
+    }
+    for (std::uint32_t field = 0; field < m_volume->fields().size(); ++field) {
+        std::vector<FieldSample> samples = m_evaluator->evaluate(field, time_step, found);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            points[found_point[i]].fields.push_back(std::move(samples[i]));
+    }
+    return points;
+}
+
+} // namespace elvis

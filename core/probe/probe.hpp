@@ -1,0 +1,62 @@
+/**
+ * @file probe.hpp
+ * Fields at points, in double precision.
+ */
+#pragma once
+
+#include <core/hierarchy/hierarchy.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/probe/point_evaluator.hpp>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+struct ProbeOptions {
+    enum class Evaluation {
+        automatic, ///< cpu where the plugin can, else device
+        cpu,
+        device
+    };
+    Evaluation evaluation = Evaluation::automatic;
+    /** For device evaluation, as for choose_device. */
+    std::string device;
+};
+
+struct ProbedPoint {
+    std::array<double, 3> position{};
+    /** Number of the element that contains the point; the lowest if several do. */
+    std::optional<std::int64_t> element;
+    std::array<double, 3> xi{};
+    /** One for each field of the volume; empty if no element contains the point. */
+    std::vector<FieldSample> fields;
+    /** Numbers of the other elements that contain the point, ascending: on shared faces, or where elements overlap. */
+    std::vector<std::int64_t> also;
+    /** Elements for which the inversion failed, so that it is not known whether they contain the point. */
+    std::uint32_t n_failures = 0;
+};
+
+/** Probes one volume, which must outlive it. One thread at a time. */
+class Prober {
+public:
+    /** An Error if the plugin lacks what the options ask for, or the volume is not three-dimensional. */
+    explicit Prober(const RuntimeVolume& volume, const ProbeOptions& options = {});
+
+    /** One answer a position, in the same order. A position that is not finite lies in no element. */
+    std::vector<ProbedPoint> probe(std::span<const std::array<double, 3>> positions, std::uint32_t time_step);
+
+private:
+    const RuntimeVolume* m_volume;
+    std::unique_ptr<PointEvaluator> m_evaluator;
+    Hierarchy m_hierarchy;
+    /** Distance from boxes within which elements are tried: rounding of positions. */
+    double m_tolerance = 0;
+};
+
+} // namespace elvis

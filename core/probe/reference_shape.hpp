@@ -1,0 +1,21 @@
+/**
+ * @file reference_shape.hpp
+ * Where a reference point lies with respect to its shape (elvis/element.h), on the CPU.
+ */
+#pragma once
+
+#include <elvis/element.h>
+
+#include <array>
+
+namespace elvis {
+
+/** Largest violation of a face constraint; <= 0 in the closed shape. Three-dimensional shapes only. */
+double reference_excess(elvis_shape shape, const std::array<double, 3>& xi);
+
+/** A point of the shape near xi; xi itself if it lies in the shape. */
+std::array<double, 3> project_into_shape(elvis_shape shape, const std::array<double, 3>& xi);
+
+std::array<double, 3> reference_centroid(elvis_shape shape);
+
+} // namespace elvis

@@ -1,0 +1,133 @@
+// Probed values and gradients against exact ones.
+#include "meshes.hpp"
+#include "picture.hpp"
+#include "test_files.hpp"
+
+#include <core/plugin_host/plugin.hpp>
+#include <core/probe/probe.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <random>
+
+namespace elvis::oracle {
+namespace {
+
+using native::Shape;
+
+const std::array<Shape, 4> shapes{Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::tetrahedron};
+
+// A polynomial of total degree n with its gradient: sum over k of a power of a linear form.
+struct Polynomial {
+    int degree;
+
+    static Vector form(int k) { return {0.7 - 0.3 * k, 0.2 + 0.25 * k, 0.5 - 0.1 * k * k}; }
+    double operator()(const Vector& x) const {
+        double sum = 0.5;
+        for (int k = 0; k < 3; ++k)
+            sum += std::pow(0.2 + form(k).dot(x), degree);
+        return sum;
+    }
+    Vector gradient(const Vector& x) const {
+        Vector sum = Vector::Zero();
+        for (int k = 0; k < 3 && degree > 0; ++k)
+            sum += degree * std::pow(0.2 + form(k).dot(x), degree - 1) * form(k);
+        return sum;
+    }
+};
+
+struct Errors {
+    double value = 0;
+    double gradient = 0;
+};
+
+// Probes 40 points of the bent or straight cube; errors relative to the largest value and gradient.
+Errors probe_errors(Shape shape, bool is_curved, int order, ProbeOptions::Evaluation evaluation) {
+    const Polynomial polynomial{is_curved ? order / 2 : order};
+    const auto bend = [&](const Vector& x) -> Vector { return is_curved ? quadratic_bend(x) : x; };
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(shape, is_curved ? 2 : 1), space_of(shape, static_cast<std::uint32_t>(order)),
+                                      compose(cube(shape, 2), bend), polynomial));
+    const TemporaryFile file("probe.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    ProbeOptions options;
+    options.evaluation = evaluation;
+    Prober prober(volume, options);
+
+    std::mt19937_64 random(static_cast<std::uint64_t>(order));
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    std::vector<std::array<double, 3>> positions;
+    for (int i = 0; i < 40; ++i) {
+        const Vector x = bend({uniform(random), uniform(random), uniform(random)});
+        positions.push_back({x[0], x[1], x[2]});
+    }
+    const std::vector<ProbedPoint> points = prober.probe(positions, 0);
+    Errors errors;
+    Errors largest{1e-300, 1e-300};
+    for (const ProbedPoint& point : points) {
+        REQUIRE(point.element.has_value());
+        REQUIRE(point.n_failures == 0);
+        const Vector x(point.position[0], point.position[1], point.position[2]);
+        const FieldSample& sample = point.fields.at(0);
+        const Vector gradient(sample.gradients[0], sample.gradients[1], sample.gradients[2]);
+        errors.value = std::max(errors.value, std::abs(sample.values[0] - polynomial(x)));
+        errors.gradient = std::max(errors.gradient, (gradient - polynomial.gradient(x)).norm());
+        largest.value = std::max(largest.value, std::abs(polynomial(x)));
+        largest.gradient = std::max(largest.gradient, polynomial.gradient(x).norm());
+    }
+    return {errors.value / largest.value, polynomial.degree == 0 ? errors.gradient : errors.gradient / largest.gradient};
+}
+
+void check_all_orders(ProbeOptions::Evaluation evaluation, int step) {
+    for (const Shape shape : shapes)
+        for (const bool is_curved : {false, true}) {
+            Errors largest;
+            for (int order = 1; order <= 8; order += step) {
+                const Errors errors = probe_errors(shape, is_curved, order, evaluation);
+                CAPTURE(native::name(shape), is_curved, order, errors.value, errors.gradient);
+                CHECK(errors.value <= 1e-11);
+                CHECK(errors.gradient <= 1e-9);
+                largest.value = std::max(largest.value, errors.value);
+                largest.gradient = std::max(largest.gradient, errors.gradient);
+            }
+            WARN(native::name(shape) << (is_curved ? ", curved" : ", straight") << ": value error " << largest.value
+                                     << ", gradient error " << largest.gradient);
+        }
+}
+
+} // namespace
+
+TEST_CASE("probed polynomials are exact in every shape and order") { check_all_orders(ProbeOptions::Evaluation::cpu, 1); }
+
+TEST_CASE("probing on the device is as exact as on the CPU") { check_all_orders(ProbeOptions::Evaluation::device, 3); }
+
+TEST_CASE("a probed point on shared faces reports the lowest element and the others") {
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 1),
+                                      cube(Shape::hexahedron, 2), [](const Vector& x) { return x.x(); }));
+    // Numbers in the reverse order of positions: the lowest number is not the first element.
+    for (std::size_t i = 0; i < 8; ++i)
+        data.classes[0].numbers[i] = static_cast<std::int64_t>(7 - i);
+    const TemporaryFile file("shared.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    Prober prober(volume);
+    const std::vector<std::array<double, 3>> positions{{0.5, 0.5, 0.5}, {0.25, 0.25, 0.5},     {0.1, 0.2, 0.3},
+                                                       {0, 0, 0},       {1.0000001, 0.5, 0.5}, {std::nan(""), 0, 0}};
+    const auto points = prober.probe(positions, 0);
+    CHECK(points[0].element == 0);
+    CHECK(points[0].also == std::vector<std::int64_t>{1, 2, 3, 4, 5, 6, 7});
+    CHECK(points[1].element == 3);
+    CHECK(points[1].also == std::vector<std::int64_t>{7});
+    CHECK(points[2].element == 7);
+    CHECK(points[2].also.empty());
+    CHECK(points[3].element == 7);
+    CHECK_FALSE(points[4].element.has_value());
+    CHECK(points[4].fields.empty());
+    CHECK_FALSE(points[5].element.has_value());
+    CHECK_THROWS_WITH(prober.probe(positions, 7), Catch::Contains("time step 7"));
+}
+
+} // namespace elvis::oracle
