@@ -26,7 +26,7 @@ std::string compiler_version() {
            version.flavor + "/" + std::to_string(glslang::GetSpirvGeneratorVersion()) + "/" + way_of_compiling;
 }
 
-/** glslang's log as one "file:line: message" a line, without its closing count of errors. */
+/** glslang's log as one "file:line: message" a line, without its closing remarks. */
 std::string readable_log(std::string_view log) {
     std::string text;
     while (!log.empty()) {
@@ -36,7 +36,8 @@ std::string readable_log(std::string_view log) {
         constexpr std::string_view error = "ERROR: ";
         if (line.substr(0, error.size()) == error) {
             line.remove_prefix(error.size());
-            if (line.find("compilation errors.") != std::string_view::npos) {
+            if (line.find("compilation errors.") != std::string_view::npos ||
+                line.find("'' : compilation terminated") != std::string_view::npos) {
                 continue;
             }
         }

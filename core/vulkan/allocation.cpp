@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <fstream>
+#include <limits>
 #include <utility>
 
 namespace elvis {
@@ -20,6 +22,22 @@ Error too_large(const Device::Impl& device, std::uint64_t bytes, const char* pla
                                      mebibytes(device.allocated_bytes) + " are in use)");
 }
 
+/** Bytes that the system can give without swapping; if it does not say, as many as there can be. */
+std::uint64_t available_host_memory() {
+    std::ifstream file("/proc/meminfo");
+    std::string key;
+    for (std::uint64_t kibibytes = 0; file >> key >> kibibytes;
+         file.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
+        if (key == "MemAvailable:") {
+            return kibibytes << 10u;
+        }
+    }
+    return std::numeric_limits<std::uint64_t>::max();
+}
+
+/** Below this, asking how much memory there is takes longer than it is worth. */
+constexpr std::uint64_t large_bytes = 64u << 20u;
+
 } // namespace
 
 Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageFlags usage, const char* place)
@@ -28,6 +46,10 @@ Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageF
     if (bytes > impl.max_allocation_bytes) {
         throw too_large(impl, bytes, place,
                         "the device allocates at most " + mebibytes(impl.max_allocation_bytes) + " at once");
+    }
+    // A driver for CPUs promises any amount, and the system ends the process once that is used.
+    if (impl.summary.type == "cpu" && bytes >= large_bytes && bytes > available_host_memory()) {
+        throw too_large(impl, bytes, place, "the machine has " + mebibytes(available_host_memory()) + " left");
     }
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;

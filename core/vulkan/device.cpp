@@ -2,6 +2,8 @@
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -80,6 +82,8 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
     }
     cache_key = summary.name + "|" + summary.driver + "|" + std::to_string(properties.properties.vendorID) + "|" +
                 std::to_string(properties.properties.deviceID) + "|" + std::to_string(properties.properties.driverVersion);
+    spdlog::debug("device {}: {} ({}, {}), data in {} buffers", summary.index, summary.name, summary.type, summary.driver,
+                 texel_buffers ? "texel" : "storage");
     try {
         create_device();
     } catch (...) {

@@ -3,6 +3,8 @@
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -27,6 +29,7 @@ bool has_validation_layer() {
 
 VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                             const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    spdlog::warn("Vulkan validation: {}", data->pMessage);
     auto* log = static_cast<ValidationLog*>(user);
     const std::lock_guard lock(log->mutex);
     log->messages.emplace_back(data->pMessage);

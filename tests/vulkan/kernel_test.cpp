@@ -6,6 +6,9 @@
 
 #include <array>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <thread>
 
@@ -75,6 +78,39 @@ TEST_CASE("A kernel reads its bindings and push constants, and validation has no
         test.kernel.dispatch(chained, std::as_bytes(std::span(&scale, 1)), 0);
     }
     CHECK(device.validation_messages() == std::vector<std::string>{});
+}
+
+TEST_CASE("Pipelines are cached on disk for the device, and a damaged cache is ignored") {
+    namespace fs = std::filesystem;
+    std::string folder = (fs::temp_directory_path() / "elvis-pipelines-XXXXXX").string();
+    REQUIRE(mkdtemp(folder.data()) != nullptr);
+    setenv("ELVIS_CACHE_PATH", folder.c_str(), 1);
+    const auto use = [] {
+        DeviceOptions options;
+        options.validation = true;
+        const Device device(options);
+        Axpy(device).run(1);
+        return device.validation_messages();
+    };
+    const auto entry = [&] {
+        for (const auto& file : fs::directory_iterator(folder)) {
+            if (file.path().extension() == ".pipelines") {
+                return file.path();
+            }
+        }
+        return fs::path();
+    };
+    CHECK(use().empty());
+    REQUIRE_FALSE(entry().empty());
+    const auto bytes = fs::file_size(entry());
+    CHECK(use().empty());
+    std::fstream(entry(), std::ios::in | std::ios::out | std::ios::binary).seekp(30).put('\x55');
+    CHECK(use().empty());
+    fs::resize_file(entry(), 10);
+    CHECK(use().empty());
+    CHECK(fs::file_size(entry()) == bytes); // Written anew.
+    unsetenv("ELVIS_CACHE_PATH");
+    fs::remove_all(folder);
 }
 
 TEST_CASE("A kernel that exceeds the device's limits says which") {
