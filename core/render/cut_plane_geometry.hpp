@@ -1,0 +1,30 @@
+/**
+ * @file cut_plane_geometry.hpp
+ * A cut plane in one picture, prepared in double precision for the device.
+ *
+ * Rays are anchored near the plane instead of at the eye: the base of a pixel's ray lies on the plane across the view through a
+ * reference point, and is linear in column and row. So single precision rounds numbers of the size of what is seen, not of
+ * the distance to the eye or to the world's origin. See shaders/library/cut_frame.glsl.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+
+#include <array>
+
+namespace elvis {
+
+struct CutPlaneGeometry {
+    /** The uniform block's rows of four, in its order. */
+    std::array<std::array<double, 4>, 9> rows{};
+    /** Unit normal of the plane, towards the viewer's half space. */
+    Vector3 normal{};
+    /** Whether the plane's normal as given points away from the viewer. */
+    bool is_flipped = false;
+};
+
+/** `centre`: what the hierarchies are relative to. */
+CutPlaneGeometry cut_plane_geometry(const CutPlane& plane, const Camera& camera, std::uint32_t width, std::uint32_t height,
+                                    const std::array<double, 3>& centre);
+
+} // namespace elvis

@@ -1,0 +1,26 @@
+/**
+ * @file real_array.hpp
+ * Numbers on their way to and from the device in the precision in use.
+ */
+#pragma once
+
+#include <core/vulkan/buffer.hpp>
+
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+inline std::size_t real_bytes(Precision precision) { return precision == Precision::float64 ? sizeof(double) : sizeof(float); }
+
+/** Writes numbers from the start of a buffer. */
+inline void write_reals(const Buffer& buffer, Precision precision, std::span<const double> numbers) {
+    if (precision == Precision::float64) {
+        buffer.write_items(numbers);
+        return;
+    }
+    const std::vector<float> rounded(numbers.begin(), numbers.end());
+    buffer.write_items(std::span<const float>(rounded));
+}
+
+} // namespace elvis

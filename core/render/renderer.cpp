@@ -1,0 +1,229 @@
+#include <core/render/color_pass.hpp>
+#include <core/render/cut_plane_geometry.hpp>
+#include <core/render/cut_plane_pass.hpp>
+#include <core/render/field_range.hpp>
+#include <core/render/real_array.hpp>
+#include <core/render/renderer.hpp>
+
+#include <core/base/error.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace elvis {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/** Rounding of a float32 field value, relative to the largest: what evaluations of orders up to 10 show (5e-7), doubled. */
+constexpr double float32_value_error = 1e-6;
+/** What a colour channel may be off. */
+constexpr double channel_tolerance = 1e-3;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+FieldRange magnitude_range(const std::vector<FieldRange>& components) {
+    double lower = 0, upper = 0;
+    for (const FieldRange& range : components) {
+        const double near = range.lower > 0 ? range.lower : range.upper < 0 ? -range.upper : 0;
+        const double far = std::max(std::abs(range.lower), std::abs(range.upper));
+        lower += near * near;
+        upper += far * far;
+    }
+    return {std::sqrt(lower), std::sqrt(upper)};
+}
+
+/** One sample as the device writes it (shaders/library/samples.glsl). */
+template <class Real> struct Sample {
+    Real value, depth;
+    std::uint32_t surface, key, number, flags;
+};
+
+} // namespace
+
+struct Renderer::Impl {
+    const Device& device;
+    const RuntimeVolume& volume;
+    Precision precision;
+    DeviceVolume data;
+    ColorPass color_pass;
+    std::optional<CutPlanePass> cut_planes;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::vector<FieldRange>, elvis_certainty>> ranges;
+    std::optional<FieldChoice> selected;
+    std::uint32_t selected_step = 0;
+    RendererTimes times;
+
+    Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* control)
+        : device(on), volume(of), precision(with), data(on, of, with, control), color_pass(on, with) {
+        times.hierarchy_milliseconds = data.hierarchy_milliseconds();
+    }
+
+    const std::pair<std::vector<FieldRange>, elvis_certainty>& component_ranges(std::uint32_t field, std::uint32_t time_step);
+    void select(const FieldChoice& field, std::uint32_t time_step);
+    template <class Real>
+    void read_samples(const Buffer& samples, const Buffer& colors, const std::vector<Vector3>& normals, double offset,
+                      Frame& frame) const;
+    std::uint32_t flags_of_range(const FrameRequest& request, double offset);
+};
+
+const std::pair<std::vector<FieldRange>, elvis_certainty>& Renderer::Impl::component_ranges(std::uint32_t field,
+                                                                                            std::uint32_t time_step) {
+    const auto [found, is_new] = ranges.try_emplace({field, time_step});
+    if (is_new) {
+        elvis_certainty certainty = ELVIS_ESTIMATED;
+        const std::uint32_t n_components = volume.fields()[field].n_components;
+        std::vector<FieldRange> all;
+        if (volume.has_field_ranges()) {
+            all = ranges_from_plugin(volume, field, time_step, certainty);
+        } else {
+            data.select(field, time_step, std::vector<double>(n_components, 0.0));
+            selected.reset();
+            all = ranges_from_samples(device, volume, data, n_components);
+        }
+        found->second = {std::move(all), certainty};
+    }
+    return found->second;
+}
+
+void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
+    const bool is_same =
+        selected && selected->field == field.field && selected->component == field.component && selected_step == time_step;
+    if (is_same) {
+        return;
+    }
+    const std::vector<FieldRange>& components = component_ranges(field.field, time_step).first;
+    std::vector<double> offset(components.size(), 0.0);
+    // The middle of the range, so that small variations of large values keep their digits; a magnitude needs the values
+    // themselves.
+    if (field.component >= 0) {
+        const FieldRange& range = components[static_cast<std::size_t>(field.component)];
+        const double middle = 0.5 * (range.lower + range.upper);
+        offset[static_cast<std::size_t>(field.component)] = std::isfinite(middle) ? middle : 0.0;
+    }
+    // What a field's buffers hold depends on the offset: fill them again for another component.
+    data.select(field.field, time_step, offset);
+    times.upload_milliseconds = data.upload_milliseconds();
+    const Clock::time_point start = Clock::now();
+    cut_planes.emplace(device, volume, data);
+    times.compile_milliseconds = milliseconds_since(start);
+    selected = field;
+    selected_step = time_step;
+}
+
+std::uint32_t Renderer::Impl::flags_of_range(const FrameRequest& request, double offset) {
+    if (precision == Precision::float64 || request.colors.points.size() < 2) {
+        return 0;
+    }
+    const auto& [components, certainty] = component_ranges(request.field.field, request.time_step);
+    const FieldRange range = request.field.component < 0 ? magnitude_range(components)
+                                                         : components[static_cast<std::size_t>(request.field.component)];
+    const double largest = std::max(std::abs(range.lower - offset), std::abs(range.upper - offset));
+    const double extent = request.colors.points.back().value - request.colors.points.front().value;
+    return float32_value_error * largest > channel_tolerance * extent ? pixel_flag::range_too_fine : 0;
+}
+
+template <class Real>
+void Renderer::Impl::read_samples(const Buffer& samples, const Buffer& colors, const std::vector<Vector3>& normals,
+                                  double offset, Frame& frame) const {
+    const std::size_t n_pixels = frame.value.size();
+    const std::vector<Sample<Real>> read = samples.read_items<Sample<Real>>(n_pixels);
+    const std::vector<Real> read_colors = colors.read_items<Real>(4 * n_pixels);
+    std::copy(read_colors.begin(), read_colors.end(), frame.color.begin());
+    for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
+        const Sample<Real>& sample = read[pixel];
+        frame.flags[pixel] = sample.flags;
+        if (sample.surface < normals.size()) {
+            ++frame.counts.hit_pixels;
+            frame.value[pixel] = static_cast<double>(sample.value) + offset;
+            frame.depth[pixel] = static_cast<double>(sample.depth);
+            frame.element[pixel] = sample.number;
+            std::copy_n(normals[sample.surface].begin(), 3, frame.normal.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
+        }
+        frame.counts.undecided_pixels += (sample.flags & pixel_flag::undecided) != 0 ? 1 : 0;
+        frame.counts.nan_pixels += (sample.flags & pixel_flag::nan) != 0 ? 1 : 0;
+        frame.counts.work_limit_pixels += (sample.flags & pixel_flag::work_limit) != 0 ? 1 : 0;
+    }
+}
+
+Renderer::Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control) {
+    if (volume.dimension() != 3) {
+        throw Error(volume.path(), "is a surface of quadrilaterals and triangles, which this version does not draw");
+    }
+    m_impl = std::make_unique<Impl>(device, volume, precision, control);
+}
+
+Renderer::~Renderer() = default;
+
+std::array<double, 6> Renderer::bounds() const { return m_impl->data.bounds(); }
+
+FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {
+    const auto& [components, how_sure] = m_impl->component_ranges(field.field, time_step);
+    if (certainty) {
+        *certainty = how_sure;
+    }
+    return field.component < 0 ? magnitude_range(components) : components[static_cast<std::size_t>(field.component)];
+}
+
+Frame Renderer::render(const FrameRequest& request) {
+    Impl& impl = *m_impl;
+    const std::uint64_t n_pixels = std::uint64_t{request.width} * request.height;
+    if (n_pixels == 0 || n_pixels >= 0x7fffffffu) {
+        throw Error("image", "a picture of " + std::to_string(request.width) + " x " + std::to_string(request.height) +
+                                 " pixels cannot be drawn");
+    }
+    impl.select(request.field, request.time_step);
+    const double offset =
+        request.field.component < 0 ? 0.0 : impl.data.field_offset(static_cast<std::uint32_t>(request.field.component));
+    const std::uint32_t common_flags = impl.flags_of_range(request, offset);
+
+    Frame frame;
+    frame.width = request.width;
+    frame.height = request.height;
+    frame.counts.pixels = n_pixels;
+    frame.color.resize(4 * n_pixels);
+    frame.value.assign(n_pixels, not_a_number);
+    frame.depth.assign(n_pixels, not_a_number);
+    frame.normal.assign(3 * n_pixels, not_a_number);
+    frame.element.assign(n_pixels, -1);
+    frame.flags.assign(n_pixels, 0);
+
+    const Buffer samples(impl.device, n_pixels * sample_bytes(impl.precision));
+    const Buffer colors(impl.device, 4 * n_pixels * real_bytes(impl.precision));
+    const bool is_discontinuous = impl.volume.fields()[request.field.field].continuity != ELVIS_CONTINUITY_CONTINUOUS;
+    std::vector<Vector3> normals;
+    const Clock::time_point start = Clock::now();
+    impl.color_pass.clear(samples, static_cast<std::uint32_t>(n_pixels));
+    for (std::uint32_t surface = 0; surface < request.cut_planes.size(); ++surface) {
+        const CutPlaneGeometry geometry =
+            cut_plane_geometry(request.cut_planes[surface], request.camera, request.width, request.height, impl.data.centre());
+        normals.push_back(geometry.normal);
+        impl.cut_planes->draw(geometry, surface, request.field.component, is_discontinuous,
+                              {samples, request.width, request.height}, frame.counts);
+    }
+    impl.color_pass.draw(samples, colors, static_cast<std::uint32_t>(n_pixels), request.colors, request.background, offset,
+                         common_flags);
+    frame.render_milliseconds = milliseconds_since(start);
+
+    if (impl.precision == Precision::float64) {
+        impl.read_samples<double>(samples, colors, normals, offset, frame);
+    } else {
+        impl.read_samples<float>(samples, colors, normals, offset, frame);
+    }
+    return frame;
+}
+
+const RendererTimes& Renderer::times() const { return m_impl->times; }
+
+RendererMemory Renderer::memory() const {
+    return {m_impl->data.field_bytes(), m_impl->data.geometry_bytes(), m_impl->data.hierarchy_bytes()};
+}
+
+} // namespace elvis

@@ -1,0 +1,52 @@
+// Colours of the samples: a table of (value, r, g, b), piecewise linear, with colours of its own below, above and for NaN.
+
+#include "library/finite.glsl"
+#include "library/samples.glsl"
+
+layout(local_size_x = 32) in;
+layout(set = 0, binding = 0, std430) buffer core_samples_block { core_sample core_samples[]; };
+// Points of the table, then below, above, NaN and background.
+layout(set = 0, binding = 1, std430) readonly buffer core_table_block { elvis_vec4 core_table[]; };
+layout(set = 0, binding = 2, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
+layout(push_constant) uniform core_parameters {
+    uint core_n_pixels;
+    uint core_groups_x;
+    uint core_n_points;
+    // Flags of every pixel that is hit.
+    uint core_common_flags;
+};
+
+elvis_vec4 core_color_of(elvis_real value) {
+    // The last point that is not above the value.
+    uint low = 0u;
+    uint high = core_n_points;
+    while (high - low > 1u) {
+        const uint middle = (low + high) / 2u;
+        const bool is_below = core_table[middle].x <= value;
+        low = is_below ? middle : low;
+        high = is_below ? high : middle;
+    }
+    const elvis_vec4 from = core_table[low];
+    const elvis_vec4 to = core_table[min(low + 1u, core_n_points - 1u)];
+    const elvis_real extent = to.x - from.x;
+    const elvis_real t = extent > elvis_real(0) ? (value - from.x) / extent : elvis_real(0);
+    return elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+}
+
+void main() {
+    const uint pixel = gl_WorkGroupID.y * core_groups_x * 32u + gl_GlobalInvocationID.x;
+    if (pixel >= core_n_pixels) {
+        return;
+    }
+    const core_sample drawn = core_samples[pixel];
+    const elvis_vec4 below = core_table[core_n_points], above = core_table[core_n_points + 1u];
+    const elvis_vec4 not_finite = core_table[core_n_points + 2u], background = core_table[core_n_points + 3u];
+    const bool is_hit = drawn.surface != CORE_NO_SURFACE;
+    const bool is_nan = is_hit && !core_is_finite(drawn.value);
+    elvis_vec4 color = core_color_of(is_nan ? core_table[0].x : drawn.value);
+    color = drawn.value < core_table[0].x ? below : color;
+    color = drawn.value > core_table[core_n_points - 1u].x ? above : color;
+    color = is_nan ? not_finite : color;
+    core_colors[pixel] = is_hit ? color : background;
+    core_samples[pixel].flags = drawn.flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_hit ? core_common_flags : 0u);
+}

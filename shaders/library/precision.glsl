@@ -1,0 +1,7 @@
+// Unit roundoff of elvis_real.
+
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_ROUNDOFF elvis_real(1.1102230246251565e-16LF)
+#else
+#define CORE_ROUNDOFF elvis_real(5.9604644775390625e-8LF)
+#endif

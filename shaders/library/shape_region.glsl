@@ -1,0 +1,50 @@
+// The reference shape as a region: how far a point violates its faces, and the way back in. Included once for each snippet instance.
+
+#if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
+#define CORE_CENTROID elvis_vec3(0, 0, 0)
+#elif ELVIS_SHAPE == ELVIS_SHAPE_PRISM
+#define CORE_CENTROID elvis_vec3(elvis_real(-1) / elvis_real(3), 0, elvis_real(-1) / elvis_real(3))
+#elif ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
+#define CORE_CENTROID elvis_vec3(-0.25, -0.25, -0.5)
+#else
+#define CORE_CENTROID elvis_vec3(-0.5, -0.5, -0.5)
+#endif
+
+// Largest violation of a face constraint; <= 0 inside.
+elvis_real core_excess(elvis_real x, elvis_real y, elvis_real z) {
+#if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
+    return max(max(abs(x), abs(y)), abs(z)) - elvis_real(1);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_PRISM
+    return max(max(abs(y) - elvis_real(1), x + z), max(-x, -z) - elvis_real(1));
+#elif ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
+    return max(max(max(-x, -y), -z) - elvis_real(1), max(x, y) + z);
+#else
+    return max(max(max(-x, -y), -z) - elvis_real(1), x + y + z + elvis_real(1));
+#endif
+}
+
+// A point of the shape near (x, y, z), the point itself if it lies in the shape: where the mapping is evaluated in place of a
+// point outside, because only inside is it known to be one to one.
+void core_project(inout elvis_real x, inout elvis_real y, inout elvis_real z) {
+    const elvis_real one = elvis_real(1);
+#if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
+    x = clamp(x, -one, one);
+    y = clamp(y, -one, one);
+    z = clamp(z, -one, one);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_PRISM
+    y = clamp(y, -one, one);
+    const elvis_real slant = max(x + z, elvis_real(0)) / elvis_real(2);
+    x = clamp(x - slant, -one, one);
+    z = clamp(z - slant, -one, -x);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
+    const elvis_real slant = max(max(x, y) + z, elvis_real(0)) / elvis_real(2);
+    z = clamp(z - slant, -one, one);
+    x = clamp(x, -one, -z);
+    y = clamp(y, -one, -z);
+#else
+    const elvis_real slant = max(x + y + z + one, elvis_real(0)) / elvis_real(3);
+    x = clamp(x - slant, -one, one);
+    y = clamp(y - slant, -one, -x);
+    z = clamp(z - slant, -one, -one - x - y);
+#endif
+}
