@@ -1,7 +1,7 @@
 /**
  * @file commands.hpp
- * The subcommands of `elvis`. Each function adds its command with options and the callback that runs it. Callbacks report failure by
- * throwing elvis::Error; main turns it into one line on stderr and the exit status.
+ * The subcommands of `elvis`. Each function adds its command with options and the callback that runs it. Callbacks report
+ * failure by throwing elvis::Error; main turns it into one line on stderr and the exit status.
  */
 #pragma once
 
@@ -12,5 +12,7 @@ namespace elvis::commands {
 void add_convert(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_plugins(CLI::App& app);
+void add_probe(CLI::App& app);
+void add_render(CLI::App& app);
 
 } // namespace elvis::commands
