@@ -1,245 +1,64 @@
 #include <core/base/error.hpp>
+#include <core/convert/block_projection.hpp>
 #include <core/convert/blocks.hpp>
+#include <core/convert/class_kernel.hpp>
 #include <core/convert/classes.hpp>
 #include <core/convert/convert.hpp>
-#include <core/convert/entities.hpp>
-#include <core/convert/face_points.hpp>
-#include <core/convert/projector.hpp>
+#include <core/convert/field_plan.hpp>
+#include <core/convert/jumps.hpp>
 #include <core/convert/topology.hpp>
 #include <core/plugin_host/plugin.hpp>
 
-#include <algorithm>
+#include <elvis/native/volume_file.hpp>
+
+#include <Eigen/LU>
+
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <mutex>
-#include <optional>
-#include <unordered_map>
 
 namespace elvis {
 
 namespace {
 
-/** Numbers of a block in memory, all fields together. */
-constexpr std::uint64_t block_numbers = 4u << 20;
-constexpr std::uint64_t part_size = 16;
+/** Numbers of a block in memory, all fields together (8 MiB); each processor has one block in work. */
+constexpr std::uint64_t block_numbers = 1u << 20;
+constexpr std::uint64_t faces_at_once = 1u << 18;
+
 /**
  * Residual of an exact conversion, relative to the largest value: rounding in sums over modes, amplified by the projection's
  * condition; three digits above what orders up to 14 show, eight below a wrong space.
  */
 constexpr double round_off = 1e-11;
-/** A jump below this part of the field's range is rounding. */
-constexpr double continuous_jump = 1e-9;
 
-/** Converted fields and where their components stand among the numbers of a sample. */
-struct FieldPlan {
-    std::uint32_t source_index = 0;
-    Eigen::Index first_column = 0;
-    Eigen::Index n_components = 1;
-    bool is_continuous_target = false;
-    elvis_transform transform = ELVIS_TRANSFORM_NONE;
-};
+/** A jump below this part of the field's range, or this part of its largest value, is rounding. */
+constexpr double continuous_part_of_range = 1e-9;
+constexpr double continuous_part_of_size = 1e-12;
 
-std::vector<FieldPlan> plan_fields(const SourceVolume& source, const ConvertOptions& options) {
-    std::vector<FieldPlan> all;
-    Eigen::Index column = 0;
-    for (std::uint32_t index = 0; index < source.fields().size(); ++index) {
-        const SourceField& field = source.fields()[index];
-        const elvis_continuity continuity = options.continuity.value_or(field.continuity);
-        all.push_back({index, column, field.n_components, continuity == ELVIS_CONTINUITY_CONTINUOUS, field.transform});
-        column += field.n_components;
-    }
-    if (options.fields.empty()) {
-        return all;
-    }
-    std::vector<FieldPlan> chosen;
-    for (const std::string& name : options.fields) {
-        const auto found = std::find_if(all.begin(), all.end(),
-                                        [&](const FieldPlan& plan) { return source.fields()[plan.source_index].name == name; });
-        if (found == all.end()) {
-            std::string known;
-            for (const SourceField& field : source.fields()) {
-                known += (known.empty() ? "" : ", ") + field.name;
-            }
-            throw Error(source.paths().front(),
-                        "has no field '" + name + "'; its fields are: " + (known.empty() ? "none" : known));
-        }
-        chosen.push_back(*found);
-    }
-    return chosen;
+std::string utc_now() {
+    char date[32] = {};
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+    return date;
 }
 
-/** What the parts of the work find out about one field; merged in any order with the same result. */
-struct FieldMeasure {
-    double largest_error = 0;
-    double lower = std::numeric_limits<double>::infinity();
-    double upper = -std::numeric_limits<double>::infinity();
-    double largest_jump = 0;
-    std::uint64_t n_not_finite = 0;
-
-    void merge(const FieldMeasure& other) {
-        largest_error = std::max(largest_error, other.largest_error);
-        lower = std::min(lower, other.lower);
-        upper = std::max(upper, other.upper);
-        largest_jump = std::max(largest_jump, other.largest_jump);
-        n_not_finite += other.n_not_finite;
-    }
-};
-
-struct Measures {
-    double largest_distance = 0;
-    std::vector<FieldMeasure> fields;
-};
-
-/** Everything that is the same for all elements of a class. */
-class ClassKernel {
-public:
-    ClassKernel(const TargetClass& target, const std::vector<FieldPlan>& plans) {
-        const native::Shape shape = target.geometry.shape;
-        std::array<std::uint32_t, 3> n{2, 2, 2};
-        std::uint32_t highest = 1;
-        const auto include = [&](const native::Space& space) {
-            const std::array<std::uint32_t, 3> order = native::collapsed_order(space);
-            for (std::size_t direction = 0; direction < 3; ++direction) {
-                n[direction] = std::max(n[direction], order[direction] + 2);
-                highest = std::max(highest, order[direction]);
-            }
-        };
-        include(target.geometry);
-        for (const native::Space& space : target.fields) {
-            include(space);
-        }
-        const GaussPoints gauss = gauss_points(shape, n);
-        const PointList checks = check_points(shape, highest + 2);
-        m_points = gauss.xi;
-        m_n_gauss = static_cast<Eigen::Index>(gauss.weights.size());
-        m_points.insert(m_points.end(), checks.begin(), checks.end());
-        m_n_checks = static_cast<Eigen::Index>(checks.size() / 3);
-        m_geometry = {projection_matrix(target.geometry, gauss), mode_matrix(target.geometry, checks), std::nullopt, 0};
-        for (std::size_t field = 0; field < plans.size(); ++field) {
-            const native::Space& space = target.fields[field];
-            FieldKernel kernel;
-            kernel.to_checks = mode_matrix(space, checks);
-            if (plans[field].is_continuous_target && !target.is_contained[field] && space.basis == native::Basis::modified) {
-                kernel.entities.emplace(space);
-                kernel.first_point = static_cast<Eigen::Index>(m_points.size() / 3);
-                m_points.insert(m_points.end(), kernel.entities->points().begin(), kernel.entities->points().end());
-            } else {
-                kernel.project = projection_matrix(space, gauss);
-            }
-            m_fields.push_back(std::move(kernel));
-        }
-    }
-
-    const PointList& points() const { return m_points; }
-    Eigen::Index n_points() const { return static_cast<Eigen::Index>(m_points.size() / 3); }
-
-    /** Coefficients (modes x 3) of positions given at points(), and their largest error at the check points. */
-    Eigen::MatrixXd project_geometry(const Eigen::MatrixXd& positions, double& largest_distance) const {
-        Eigen::MatrixXd coefficients = m_geometry.project * positions.topRows(m_n_gauss);
-        const Eigen::MatrixXd error = m_geometry.to_checks * coefficients - positions.middleRows(m_n_gauss, m_n_checks);
-        largest_distance = std::max(largest_distance, error.rowwise().norm().maxCoeff());
-        return coefficients;
-    }
-
-    /** Coefficients (modes x components) of a field given at points(), with its measures. */
-    Eigen::MatrixXd project_field(std::size_t field, const Eigen::Ref<const Eigen::MatrixXd>& values,
-                                  FieldMeasure& measure) const {
-        const FieldKernel& kernel = m_fields[field];
-        Eigen::MatrixXd coefficients;
-        if (kernel.entities) {
-            coefficients = kernel.entities->project(
-                values.middleRows(kernel.first_point, static_cast<Eigen::Index>(kernel.entities->points().size() / 3)));
-        } else {
-            coefficients = kernel.project * values.topRows(m_n_gauss);
-        }
-        const auto checked = values.middleRows(m_n_gauss, m_n_checks);
-        const Eigen::MatrixXd projected = kernel.to_checks * coefficients;
-        for (Eigen::Index component = 0; component < checked.cols(); ++component) {
-            for (Eigen::Index point = 0; point < checked.rows(); ++point) {
-                const double value = checked(point, component);
-                if (!std::isfinite(value)) {
-                    ++measure.n_not_finite;
-                    continue;
-                }
-                measure.lower = std::min(measure.lower, value);
-                measure.upper = std::max(measure.upper, value);
-                const double error = std::abs(projected(point, component) - value);
-                // Coefficients of an element with values that are not finite are not finite: counted above, no error of
-                // projection.
-                measure.largest_error = std::isfinite(error) ? std::max(measure.largest_error, error) : measure.largest_error;
-            }
-        }
-        return coefficients;
-    }
-
-private:
-    struct FieldKernel {
-        Eigen::MatrixXd project;
-        Eigen::MatrixXd to_checks;
-        std::optional<EntityProjector> entities;
-        Eigen::Index first_point = 0;
-    };
-    PointList m_points;
-    Eigen::Index m_n_gauss = 0;
-    Eigen::Index m_n_checks = 0;
-    FieldKernel m_geometry;
-    std::vector<FieldKernel> m_fields;
-};
-
-/** Compares the two sides of every shared face: the first to come leaves its values for the second. */
-class JumpMeter {
-public:
-    explicit JumpMeter(const Topology& topology) : m_topology(topology) {}
-
-    /** Values (points x components) of one field on faces of one element. */
-    void add(const std::vector<std::pair<std::uint32_t, Eigen::MatrixXd>>& of_faces, FieldMeasure& measure) {
-        for (const auto& [face, values] : of_faces) {
-            if (m_topology.faces[face].neighbour < 0) {
-                continue;
-            }
-            const auto [found, is_first] = m_open.try_emplace(face, values);
-            if (!is_first) {
-                const double jump = (found->second - values).cwiseAbs().maxCoeff();
-                measure.largest_jump = std::isfinite(jump) ? std::max(measure.largest_jump, jump) : measure.largest_jump;
-                m_open.erase(found);
-            }
-        }
-    }
-
-private:
-    const Topology& m_topology;
-    std::unordered_map<std::uint32_t, Eigen::MatrixXd> m_open;
-};
-
-/** Mode values at the points of a face, for every way its corners may be numbered; filled as they are met. */
-class FaceModes {
-public:
-    explicit FaceModes(const native::Space& space) : m_space(space) {}
-
-    const Eigen::MatrixXd& at(int local_face, const OrientedFace& face) {
-        std::uint32_t code = static_cast<std::uint32_t>(local_face);
-        for (const int corner : face.corners) {
-            code = code * 9 + static_cast<std::uint32_t>(corner + 1);
-        }
-        const auto [found, is_new] = m_matrices.try_emplace(code);
-        if (is_new) {
-            const auto points = face_points(m_space.shape, face);
-            found->second = mode_matrix(m_space, PointList(points.front().data(), points.front().data() + 3 * n_face_points));
-        }
-        return found->second;
-    }
-
-private:
-    native::Space m_space;
-    std::unordered_map<std::uint32_t, Eigen::MatrixXd> m_matrices;
+/** Part of a class that is converted at once. */
+struct Block {
+    std::size_t element_class = 0;
+    std::uint64_t first = 0;
+    std::uint64_t count = 0;
 };
 
 class Conversion {
 public:
     Conversion(const SourceVolume& source, const ConvertOptions& options, const TaskControl& control)
-        : m_source(source), m_options(options), m_control(control), m_plans(plan_fields(source, options)) {
+        : m_source(source), m_options(options), m_control(control), m_plans(plan_fields(source, options)),
+          m_points(all_face_points()) {
+        if (source.info().dimension != 3) {
+            throw Error(source.paths().front(), "is two-dimensional; only three-dimensional data sets can be converted");
+        }
         std::vector<std::uint32_t> indices;
         for (const FieldPlan& plan : m_plans) {
             indices.push_back(plan.source_index);
@@ -247,61 +66,95 @@ public:
         m_classes = target_classes(source, indices, options, control);
         std::vector<elvis_shape> shapes(source.info().n_elements);
         for (const TargetClass& target : m_classes) {
-            native::check(target.geometry);
-            for (const native::Space& space : target.fields) {
-                native::check(space);
-            }
             for (const std::uint64_t element : target.elements) {
                 shapes[element] = static_cast<elvis_shape>(target.geometry.shape);
             }
         }
-        m_topology = find_topology(source, shapes, control);
-        m_total.fields.resize(m_plans.size());
+        m_topology = find_topology(source, std::move(shapes), control);
+        m_measures.resize(m_plans.size());
+        prepare();
     }
 
     ConvertReport run(const std::string& output) {
         native::Writer writer(output, describe());
         for (std::size_t index = 0; index < m_classes.size(); ++index) {
-            std::vector<std::int64_t> numbers(m_classes[index].elements.begin(), m_classes[index].elements.end());
+            const std::vector<std::int64_t> numbers(m_classes[index].elements.begin(), m_classes[index].elements.end());
             writer.write_numbers(index, 0, numbers.size(), numbers);
         }
-        writer.write_faces(0, m_topology.faces.size(), m_topology.faces);
+        write_faces(writer);
         for (std::uint32_t step = 0; step < m_source.times().size(); ++step) {
-            std::vector<JumpMeter> meters(m_plans.size(), JumpMeter(m_topology));
-            for (std::size_t index = 0; index < m_classes.size(); ++index) {
-                convert_class(writer, index, step, meters);
-            }
+            convert_step(writer, step);
         }
-        ConvertReport report = make_report();
+        const ConvertReport report = make_report();
         for (std::size_t field = 0; field < m_plans.size(); ++field) {
             writer.set_max_jump(field, report.fields[field].max_jump);
             writer.set_continuity(field, static_cast<native::Continuity>(report.fields[field].continuity));
         }
         m_control.progress(1, "finishing the file");
+        m_control.check();
         writer.commit();
         return report;
     }
 
 private:
+    void prepare();
     native::Description describe() const;
-    void convert_class(native::Writer& writer, std::size_t index, std::uint32_t step, std::vector<JumpMeter>& meters);
-    void measure_jumps(const TargetClass& target, std::uint64_t first, std::uint64_t count, std::size_t field,
-                       const std::vector<double>& coefficients, FaceModes& modes, JumpMeter& meter);
+    void write_faces(native::Writer& writer) const;
+    void convert_step(native::Writer& writer, std::uint32_t step);
+    void commit(native::Writer& writer, const Block& block, std::uint32_t step, const BlockResult& result);
+    void measure_jumps(const Block& block, std::size_t field, const BlockResult& result);
+    std::vector<double> face_gradients(const Block& block, std::size_t field, std::uint64_t at,
+                                       const BlockResult& result) const;
     ConvertReport make_report() const;
+    FieldReport make_field_report(std::size_t index, bool geometry_exact) const;
 
     const SourceVolume& m_source;
     const ConvertOptions& m_options;
     const TaskControl& m_control;
     std::vector<FieldPlan> m_plans;
+    std::array<FacePoints, 4> m_points;
     std::vector<TargetClass> m_classes;
     Topology m_topology;
-    Measures m_total;
+    std::vector<ClassKernel> m_kernels;
+    std::vector<Block> m_blocks;
+    std::vector<FieldMeasure> m_measures;
+    std::vector<JumpMeter> m_meters;
+    double m_largest_distance = 0;
+    std::uint64_t m_n_coefficients = 0;
     std::uint64_t m_n_done = 0;
 };
 
+void Conversion::prepare() {
+    m_control.progress(-1, "preparing projections");
+    std::vector<bool> is_continuous;
+    for (const FieldPlan& plan : m_plans) {
+        is_continuous.push_back(plan.continuity == ELVIS_CONTINUITY_CONTINUOUS && plan.transform == ELVIS_TRANSFORM_NONE);
+        m_meters.emplace_back(m_topology);
+    }
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        m_control.check();
+        const TargetClass& target = m_classes[index];
+        m_kernels.emplace_back(target, is_continuous, m_points[static_cast<std::size_t>(target.geometry.shape)]);
+        const ClassKernel& kernel = m_kernels.back();
+        std::uint64_t numbers = 3 * static_cast<std::uint64_t>(kernel.geometry.project.rows());
+        for (std::size_t field = 0; field < m_plans.size(); ++field) {
+            const ProjectionKernel& of_field = kernel.fields[field];
+            numbers +=
+                m_plans[field].n_components * static_cast<std::uint64_t>(of_field.project.rows() + of_field.to_faces.rows());
+        }
+        // Small volumes are cut finer than memory asks for, to keep all processors at work.
+        const std::uint64_t n_elements = target.elements.size();
+        const std::uint64_t share = (n_elements + 4 * n_workers() - 1) / (4 * n_workers());
+        const std::uint64_t size = std::max<std::uint64_t>(1, std::min(share, block_numbers / numbers));
+        for (std::uint64_t first = 0; first < n_elements; first += size) {
+            m_blocks.push_back({index, first, std::min(size, n_elements - first)});
+        }
+    }
+}
+
 native::Description Conversion::describe() const {
     native::Description description;
-    description.dimension = static_cast<int>(m_source.info().dimension);
+    description.dimension = 3;
     for (const TargetClass& target : m_classes) {
         description.classes.push_back({target.geometry, target.fields, target.elements.size()});
     }
@@ -311,158 +164,190 @@ native::Description Conversion::describe() const {
         field.name = source.name;
         field.unit = source.unit;
         field.n_components = source.n_components;
-        field.continuity = static_cast<native::Continuity>(m_options.continuity.value_or(source.continuity));
+        field.continuity = static_cast<native::Continuity>(plan.continuity);
         field.transform = static_cast<native::Transform>(source.transform);
         description.fields.push_back(field);
     }
     description.times = m_source.times();
     description.boundary_groups = m_source.boundary_groups();
-    description.n_faces = m_topology.faces.size();
-    std::string files;
+    description.n_faces = m_topology.n_faces;
     for (const std::string& path : m_source.paths()) {
-        files += (files.empty() ? "" : "\n") + path;
+        description.notes.emplace_back(
+            m_source.paths().size() == 1 ? "source file" : "source file " + std::to_string(description.notes.size() + 1), path);
     }
-    char date[32] = {};
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
-    description.notes = {{"source", files},
-                         {"converter", m_source.plugin().id()},
-                         {"converter version", m_source.plugin().version()},
-                         {"written by", "ElVis " + m_options.program_version},
-                         {"date", date}};
+    description.notes.emplace_back("converter", m_source.plugin().id());
+    description.notes.emplace_back("converter version", m_source.plugin().version());
+    description.notes.emplace_back("written by", "ElVis " + m_options.program_version);
+    description.notes.emplace_back("created", utc_now());
     return description;
 }
 
-void Conversion::convert_class(native::Writer& writer, std::size_t index, std::uint32_t step, std::vector<JumpMeter>& meters) {
-    const TargetClass& target = m_classes[index];
-    const ClassKernel kernel(target, m_plans);
-    const auto n_values = static_cast<Eigen::Index>(m_source.n_values());
-    std::uint64_t numbers_an_element = 3 * native::n_modes(target.geometry);
-    std::vector<std::uint64_t> field_size;
-    std::vector<FaceModes> face_modes;
-    for (std::size_t field = 0; field < m_plans.size(); ++field) {
-        field_size.push_back(native::n_modes(target.fields[field]) * static_cast<std::uint64_t>(m_plans[field].n_components));
-        numbers_an_element += field_size.back();
-        face_modes.emplace_back(target.fields[field]);
-    }
-    const std::uint64_t geometry_size = 3 * native::n_modes(target.geometry);
-    const std::uint64_t block_size = std::max<std::uint64_t>(1, block_numbers / numbers_an_element);
-    const double n_all = static_cast<double>(m_source.info().n_elements * m_source.times().size());
-
-    for (std::uint64_t first = 0; first < target.elements.size(); first += block_size) {
-        const std::uint64_t count = std::min<std::uint64_t>(block_size, target.elements.size() - first);
-        std::vector<double> geometry(step == 0 ? count * geometry_size : 0);
-        std::vector<std::vector<double>> fields;
-        for (const std::uint64_t size : field_size) {
-            fields.emplace_back(count * size);
-        }
-        std::mutex mutex;
-        for_each_part(count, part_size, [&](unsigned, std::uint64_t part_first, std::uint64_t part_last) {
+void Conversion::write_faces(native::Writer& writer) const {
+    std::vector<native::Face> faces;
+    std::vector<elvis_source_element> elements;
+    std::uint64_t n_written = 0;
+    const auto flush = [&] {
+        writer.write_faces(n_written, faces.size(), faces);
+        n_written += faces.size();
+        faces.clear();
+    };
+    const std::uint64_t n_elements = m_topology.shapes.size();
+    for (std::uint64_t element = 0; element < n_elements; ++element) {
+        constexpr std::uint64_t elements_at_once = 16384;
+        if (element % elements_at_once == 0) {
             m_control.check();
-            Measures measures;
-            measures.fields.resize(m_plans.size());
-            Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> positions(kernel.n_points(), 3);
-            Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(kernel.n_points(), n_values);
-            for (std::uint64_t at = part_first; at < part_last; ++at) {
-                const std::uint64_t element = target.elements[first + at];
-                if (step == 0) {
-                    m_source.evaluate_mapping(element, kernel.points(),
-                                              std::span<double>(positions.data(), static_cast<std::size_t>(positions.size())));
-                    const Eigen::MatrixXd coefficients = kernel.project_geometry(positions, measures.largest_distance);
-                    std::copy_n(coefficients.data(), geometry_size,
-                                geometry.begin() + static_cast<std::ptrdiff_t>(at * geometry_size));
-                }
-                if (!m_plans.empty()) {
-                    m_source.sample(step, element, kernel.points(),
-                                    std::span<double>(values.data(), static_cast<std::size_t>(values.size())));
-                }
-                for (std::size_t field = 0; field < m_plans.size(); ++field) {
-                    const Eigen::MatrixXd of_field =
-                        values.middleCols(m_plans[field].first_column, m_plans[field].n_components);
-                    const Eigen::MatrixXd coefficients = kernel.project_field(field, of_field, measures.fields[field]);
-                    std::copy_n(coefficients.data(), field_size[field],
-                                fields[field].begin() + static_cast<std::ptrdiff_t>(at * field_size[field]));
-                }
-            }
-            const std::lock_guard lock(mutex);
-            m_total.largest_distance = std::max(m_total.largest_distance, measures.largest_distance);
-            for (std::size_t field = 0; field < m_plans.size(); ++field) {
-                m_total.fields[field].merge(measures.fields[field]);
-            }
-            m_n_done += part_last - part_first;
-            m_control.progress(static_cast<double>(m_n_done) / n_all, "projecting");
-        });
-        if (step == 0) {
-            writer.write_geometry(index, first, count, geometry);
+            elements.resize(std::min(elements_at_once, n_elements - element));
+            m_source.elements(element, elements.size(), elements);
         }
-        for (std::size_t field = 0; field < m_plans.size(); ++field) {
-            writer.write_field(field, step, index, first, count, fields[field]);
-            if (m_plans[field].transform == ELVIS_TRANSFORM_NONE) {
-                measure_jumps(target, first, count, field, fields[field], face_modes[field], meters[field]);
+        for (int local = 0; local < native::n_faces(static_cast<native::Shape>(m_topology.shapes[element])); ++local) {
+            native::Face face;
+            face.element = static_cast<std::int64_t>(element);
+            face.local_face = local;
+            face.group = elements[element % elements_at_once].face_groups[local];
+            const auto at = static_cast<std::size_t>(local);
+            if (m_topology.is_shared(element, local)) {
+                if (m_topology.other_side(element, local) < face_side(element, local)) {
+                    continue;
+                }
+                face.neighbour = m_topology.neighbour[element][at];
+                face.neighbour_local_face = m_topology.neighbour_face[element][at];
+            } else {
+                const bool is_boundary = m_topology.neighbour[element][at] == Topology::no_neighbour;
+                face.neighbour = is_boundary ? ELVIS_NEIGHBOUR_NONE : ELVIS_NEIGHBOUR_UNKNOWN;
             }
+            faces.push_back(face);
         }
+        if (faces.size() >= faces_at_once) {
+            flush();
+        }
+    }
+    flush();
+}
+
+void Conversion::convert_step(native::Writer& writer, std::uint32_t step) {
+    std::vector<BlockResult> results(n_workers());
+    for_each_block(
+        m_blocks.size(),
+        [&](std::uint64_t index, unsigned worker) {
+            const Block& block = m_blocks[index];
+            const BlockProjection projection(m_source, m_plans, m_classes[block.element_class], m_kernels[block.element_class]);
+            projection.run(block.first, block.count, step, step == 0, m_control, results[worker]);
+        },
+        [&](std::uint64_t index, unsigned worker) { commit(writer, m_blocks[index], step, results[worker]); });
+}
+
+void Conversion::commit(native::Writer& writer, const Block& block, std::uint32_t step, const BlockResult& result) {
+    m_control.check();
+    if (step == 0) {
+        writer.write_geometry(block.element_class, block.first, block.count, result.geometry);
+        m_n_coefficients += result.geometry.size();
+        m_largest_distance = std::max(m_largest_distance, result.largest_distance);
+    }
+    for (std::size_t field = 0; field < m_plans.size(); ++field) {
+        writer.write_field(field, step, block.element_class, block.first, block.count, result.fields[field]);
+        m_n_coefficients += result.fields[field].size();
+        m_measures[field].merge(result.measures[field]);
+        if (m_plans[field].transform == ELVIS_TRANSFORM_NONE) {
+            measure_jumps(block, field, result);
+        }
+    }
+    m_n_done += block.count;
+    const auto n_all = static_cast<double>(m_source.info().n_elements * m_source.times().size());
+    m_control.progress(static_cast<double>(m_n_done) / n_all, "projecting");
+}
+
+void Conversion::measure_jumps(const Block& block, std::size_t field, const BlockResult& result) {
+    const std::size_t numbers = result.at_faces[field].size() / block.count;
+    for (std::uint64_t at = 0; at < block.count; ++at) {
+        const std::uint64_t element = m_classes[block.element_class].elements[block.first + at];
+        const std::span<const double> values(result.at_faces[field].data() + at * numbers, numbers);
+        const bool with_gradients = m_meters[field].needs_gradients(element);
+        m_meters[field].add(element, m_plans[field].n_components, values,
+                            with_gradients ? face_gradients(block, field, at, result) : std::vector<double>());
     }
 }
 
-void Conversion::measure_jumps(const TargetClass& target, std::uint64_t first, std::uint64_t count, std::size_t field,
-                               const std::vector<double>& coefficients, FaceModes& modes, JumpMeter& meter) {
-    const native::Space& space = target.fields[field];
-    const auto n_modes = static_cast<Eigen::Index>(native::n_modes(space));
-    for (std::uint64_t at = 0; at < count; ++at) {
-        const std::uint64_t element = target.elements[first + at];
-        const Eigen::Map<const Eigen::MatrixXd> of_element(
-            coefficients.data() + at * static_cast<std::uint64_t>(n_modes * m_plans[field].n_components), n_modes,
-            m_plans[field].n_components);
-        std::vector<std::pair<std::uint32_t, Eigen::MatrixXd>> of_faces;
-        for (int local = 0; local < native::n_faces(space.shape); ++local) {
-            const std::uint32_t face = m_topology.of_element[element][static_cast<std::size_t>(local)];
-            if (face != Topology::no_face && m_topology.faces[face].neighbour >= 0) {
-                const OrientedFace oriented = oriented_face(space.shape, local, m_topology.corners.of_element[element]);
-                of_faces.emplace_back(face, modes.at(local, oriented) * of_element);
+/** World gradients at the points of all faces of one element of a block, laid out as JumpMeter::add asks for. */
+std::vector<double> Conversion::face_gradients(const Block& block, std::size_t field, std::uint64_t at,
+                                               const BlockResult& result) const {
+    const TargetClass& target = m_classes[block.element_class];
+    const std::uint64_t element = target.elements[block.first + at];
+    const FacePoints& points = m_points[static_cast<std::size_t>(target.geometry.shape)];
+    const std::size_t n_components = m_plans[field].n_components;
+    const std::size_t n_modes = native::n_modes(target.fields[field]);
+    std::vector<double> gradients(3 * n_components * points.n_points());
+    for (std::size_t point = 0; point < points.n_points(); ++point) {
+        const double* xi = points.xi().data() + 3 * point;
+        // Rows of J^T by central differences: the product with a step within the tolerance needs few digits.
+        constexpr double h = 1e-5;
+        std::array<double, 18> around;
+        std::array<double, 18> x;
+        for (std::size_t direction = 0; direction < 3; ++direction) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double step = axis == direction ? h : 0;
+                around[6 * direction + axis] = xi[axis] - step;
+                around[6 * direction + 3 + axis] = xi[axis] + step;
             }
         }
-        meter.add(of_faces, m_total.fields[field]);
+        m_source.evaluate_mapping(element, around, x);
+        Eigen::Matrix3d transposed;
+        for (Eigen::Index direction = 0; direction < 3; ++direction) {
+            for (Eigen::Index axis = 0; axis < 3; ++axis) {
+                const auto low = static_cast<std::size_t>(6 * direction + axis);
+                transposed(direction, axis) = (x[low + 3] - x[low]) / (2 * h);
+            }
+        }
+        const Eigen::PartialPivLU<Eigen::Matrix3d> solver(transposed);
+        for (std::size_t component = 0; component < n_components; ++component) {
+            native::Point in_xi{};
+            const double* coefficients = result.fields[field].data() + (at * n_components + component) * n_modes;
+            native::evaluate(target.fields[field], {coefficients, n_modes}, {xi[0], xi[1], xi[2]}, in_xi);
+            const Eigen::Vector3d in_x = solver.solve(Eigen::Vector3d(in_xi[0], in_xi[1], in_xi[2]));
+            std::copy_n(in_x.data(), 3, gradients.data() + 3 * (component * points.n_points() + point));
+        }
     }
+    return gradients;
+}
+
+FieldReport Conversion::make_field_report(std::size_t index, bool geometry_exact) const {
+    const FieldMeasure& measure = m_measures[index];
+    const SourceField& source = m_source.fields()[m_plans[index].source_index];
+    FieldReport field;
+    field.name = source.name;
+    field.mantissa_bits = m_source.info().mantissa_bits;
+    field.lower = measure.lower;
+    field.upper = measure.upper;
+    field.n_not_finite = measure.n_not_finite;
+    const double size = std::max(std::abs(measure.lower), std::abs(measure.upper));
+    const double range = measure.upper - measure.lower;
+    field.residual = measure.largest_error / (range > 0 ? range : size > 0 ? size : 1);
+    field.exact = geometry_exact && measure.n_not_finite == 0 && measure.largest_error <= round_off * size &&
+                  std::ranges::all_of(m_classes, [&](const TargetClass& target) { return target.is_contained[index]; });
+    if (m_plans[index].transform == ELVIS_TRANSFORM_NONE) {
+        field.max_jump = m_meters[index].largest();
+        const double rounding = std::max(continuous_part_of_range * range, continuous_part_of_size * size);
+        field.continuity = field.max_jump <= rounding ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
+    } else {
+        field.max_jump = std::numeric_limits<double>::quiet_NaN();
+        field.continuity = source.continuity;
+    }
+    return field;
 }
 
 ConvertReport Conversion::make_report() const {
     ConvertReport report;
+    report.geometry_residual = m_topology.corners.extent > 0 ? m_largest_distance / m_topology.corners.extent : 0;
+    report.geometry_exact = m_largest_distance <= round_off * m_topology.corners.largest_coordinate;
     for (std::size_t index = 0; index < m_plans.size(); ++index) {
-        const FieldMeasure& measure = m_total.fields[index];
-        FieldReport field;
-        field.name = m_source.fields()[m_plans[index].source_index].name;
-        field.mantissa_bits = m_source.info().mantissa_bits;
-        field.lower = measure.lower;
-        field.upper = measure.upper;
-        field.n_not_finite = measure.n_not_finite;
-        const double size = std::max(std::abs(measure.lower), std::abs(measure.upper));
-        const double range = measure.upper - measure.lower;
-        const double scale = range > 0 ? range : size > 0 ? size : 1;
-        field.residual = measure.largest_error / scale;
-        field.exact = measure.largest_error <= round_off * size;
-        for (const TargetClass& target : m_classes) {
-            field.exact = field.exact && target.is_contained[index];
-        }
-        if (m_plans[index].transform == ELVIS_TRANSFORM_NONE) {
-            field.max_jump = measure.largest_jump;
-            field.continuity =
-                measure.largest_jump <= continuous_jump * scale ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
-        } else {
-            field.max_jump = std::numeric_limits<double>::quiet_NaN();
-            field.continuity = m_source.fields()[m_plans[index].source_index].continuity;
-        }
-        report.fields.push_back(field);
+        report.fields.push_back(make_field_report(index, report.geometry_exact));
     }
-    report.geometry_residual = m_topology.corners.extent > 0 ? m_total.largest_distance / m_topology.corners.extent : 0;
     for (const TargetClass& target : m_classes) {
         report.elements[std::string(native::name(target.geometry.shape))] += target.elements.size();
     }
-    report.n_faces = m_topology.faces.size();
+    report.n_faces = m_topology.n_faces;
+    report.n_boundary_faces = m_topology.n_boundary;
     report.n_unknown_faces = m_topology.n_unknown;
-    report.n_boundary_faces = static_cast<std::uint64_t>(
-        std::count_if(m_topology.faces.begin(), m_topology.faces.end(),
-                      [](const native::Face& face) { return face.neighbour == ELVIS_NEIGHBOUR_NONE; }));
+    report.n_coefficients = m_n_coefficients;
     return report;
 }
 

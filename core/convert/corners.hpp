@@ -13,12 +13,18 @@
 
 namespace elvis {
 
+/** Corner numbers of an element in the order of its shape; those a shape does not have are no_corner. */
+using CornerNumbers = std::array<std::uint32_t, 8>;
+inline constexpr std::uint32_t no_corner = 0xffffffffu;
+
 struct Corners {
-    /** Corner numbers of each element, in the order of its shape; unused ones are -1. */
-    std::vector<std::array<std::int64_t, 8>> of_element;
+    /** By source element. */
+    std::vector<CornerNumbers> of_element;
     /** Largest extent of the box around all corners. */
     double extent = 0;
-    /** Distance below which two corners count as one. */
+    /** Largest absolute value of a coordinate of a corner. */
+    double largest_coordinate = 0;
+    /** Distance below which two positions count as one. */
     double tolerance = 0;
 };
 

@@ -1,7 +1,5 @@
 #include <core/convert/entities.hpp>
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <set>
 
@@ -38,89 +36,115 @@ std::set<std::pair<int, int>> edges(native::Shape shape) {
     return result;
 }
 
-/** Gauss points on a face; a triangle is collapsed at its last corner, where the shape's own coordinates collapse. */
-GaussPoints face_gauss(native::Shape shape, int face, std::uint32_t n) {
-    std::vector<double> z(n), weights(n);
-    native::gauss_legendre(z, weights);
-    const std::span<const int> corners = native::face_corners(shape, face);
-    const bool is_triangle = corners.size() == 3;
-    GaussPoints points;
-    for (std::size_t j = 0; j < n; ++j) {
-        for (std::size_t i = 0; i < n; ++i) {
+/** Gauss points of a quadrilateral, unchanged by its symmetries. */
+void append_quadrilateral(GaussPoints& points, const std::array<native::Point, 4>& corners, const std::vector<double>& z,
+                          const std::vector<double>& weights) {
+    for (std::size_t j = 0; j < z.size(); ++j) {
+        for (std::size_t i = 0; i < z.size(); ++i) {
             const double u = 0.5 * (1 + z[i]), v = 0.5 * (1 + z[j]);
-            const native::Point bottom = combine(native::corner(shape, corners[0]), native::corner(shape, corners[1]), u);
-            const native::Point top = is_triangle
-                                          ? native::corner(shape, corners[2])
-                                          : combine(native::corner(shape, corners[3]), native::corner(shape, corners[2]), u);
-            append(points, combine(bottom, top, v), weights[i] * weights[j] * (is_triangle ? 1 - v : 1));
+            append(points, combine(combine(corners[0], corners[1], u), combine(corners[3], corners[2], u), v),
+                   weights[i] * weights[j]);
         }
     }
-    return points;
 }
+
+/** Gauss points of a triangle, collapsed at each of its corners in turn: a neighbour may have another collapsed corner. */
+void append_triangle(GaussPoints& points, const std::array<native::Point, 4>& corners, const std::vector<double>& z,
+                     const std::vector<double>& weights) {
+    for (std::size_t top = 0; top < 3; ++top) {
+        for (std::size_t j = 0; j < z.size(); ++j) {
+            for (std::size_t i = 0; i < z.size(); ++i) {
+                const double u = 0.5 * (1 + z[i]), v = 0.5 * (1 + z[j]);
+                append(points, combine(combine(corners[(top + 1) % 3], corners[(top + 2) % 3], u), corners[top], v),
+                       weights[i] * weights[j] * (1 - v));
+            }
+        }
+    }
+}
+
+/** Builds the projection one entity after the other. */
+class Builder {
+public:
+    explicit Builder(const native::Space& space)
+        : m_space(space), m_is_taken(native::n_modes(space), false), m_blocks(static_cast<Eigen::Index>(m_is_taken.size()), 0) {
+    }
+
+    /** Lets the modes that are new on an entity (all that are left, in the interior) fit what is left of the data there. */
+    void add(const GaussPoints& points, bool takes_all) {
+        const Eigen::MatrixXd at_points = mode_matrix(m_space, points.xi);
+        std::vector<Eigen::Index> modes;
+        for (Eigen::Index mode = 0; mode < at_points.cols(); ++mode) {
+            const auto taken = m_is_taken.begin() + mode;
+            if (!*taken && (takes_all || at_points.col(mode).cwiseAbs().maxCoeff() > vanishing)) {
+                modes.push_back(mode);
+                *taken = true;
+            }
+        }
+        if (modes.empty()) {
+            return;
+        }
+        const Eigen::Index n_points = at_points.rows();
+        const Eigen::MatrixXd fit = fit_matrix(at_points(Eigen::all, modes), points.weights);
+
+        // Data at the new points, less what the modes before make of the data before: [ -at_points * before | identity ].
+        const Eigen::Index n_before = m_blocks.cols();
+        Eigen::MatrixXd left(n_points, n_before + n_points);
+        left.leftCols(n_before) = -at_points * m_blocks;
+        left.rightCols(n_points).setIdentity();
+        const Eigen::MatrixXd coefficients = fit * left;
+        m_blocks.conservativeResize(Eigen::NoChange, n_before + n_points);
+        m_blocks.rightCols(n_points).setZero();
+        for (std::size_t index = 0; index < modes.size(); ++index) {
+            m_blocks.row(modes[index]) = coefficients.row(static_cast<Eigen::Index>(index));
+        }
+        m_points.insert(m_points.end(), points.xi.begin(), points.xi.end());
+    }
+
+    PointProjection result() && { return {std::move(m_points), std::move(m_blocks)}; }
+
+private:
+    native::Space m_space;
+    std::vector<bool> m_is_taken;
+    PointList m_points;
+    Eigen::MatrixXd m_blocks;
+};
 
 } // namespace
 
-EntityProjector::EntityProjector(const native::Space& space) : m_n_modes(static_cast<Eigen::Index>(native::n_modes(space))) {
+PointProjection entity_projection(const native::Space& space) {
     const native::Shape shape = space.shape;
-    const std::uint32_t n = *std::max_element(space.order.begin(), space.order.end()) + 2;
-    std::vector<bool> is_taken(static_cast<std::size_t>(m_n_modes), false);
-    for (int corner = 0; corner < native::n_corners(shape); ++corner) {
-        GaussPoints point;
-        append(point, native::corner(shape, corner), 1);
-        add_entity(space, point, is_taken, false);
-    }
+    const std::array<std::uint32_t, 3> collapsed = native::collapsed_order(space);
+    const std::uint32_t n = *std::max_element(collapsed.begin(), collapsed.end()) + 2;
     std::vector<double> z(n), weights(n);
     native::gauss_legendre(z, weights);
+
+    Builder builder(space);
+    for (int corner = 0; corner < native::n_corners(shape); ++corner) {
+        GaussPoints points;
+        append(points, native::corner(shape, corner), 1);
+        builder.add(points, false);
+    }
     for (const auto& [a, b] : edges(shape)) {
         GaussPoints points;
         for (std::size_t i = 0; i < n; ++i) {
             append(points, combine(native::corner(shape, a), native::corner(shape, b), 0.5 * (1 + z[i])), weights[i]);
         }
-        add_entity(space, points, is_taken, false);
+        builder.add(points, false);
     }
-    if (native::dimension(shape) == 3) {
-        for (int face = 0; face < native::n_faces(shape); ++face) {
-            add_entity(space, face_gauss(shape, face, n), is_taken, false);
+    for (int face = 0; face < native::n_faces(shape); ++face) {
+        const std::span<const int> local = native::face_corners(shape, face);
+        std::array<native::Point, 4> corners{};
+        std::transform(local.begin(), local.end(), corners.begin(), [&](int k) { return native::corner(shape, k); });
+        GaussPoints points;
+        if (local.size() == 4) {
+            append_quadrilateral(points, corners, z, weights);
+        } else {
+            append_triangle(points, corners, z, weights);
         }
+        builder.add(points, false);
     }
-    add_entity(space, gauss_points(shape, {n, n, n}), is_taken, true);
-}
-
-void EntityProjector::add_entity(const native::Space& space, const GaussPoints& points, std::vector<bool>& is_taken,
-                                 bool takes_all) {
-    Entity entity;
-    entity.first_point = static_cast<Eigen::Index>(m_points.size() / 3);
-    entity.n_points = static_cast<Eigen::Index>(points.weights.size());
-    entity.at_points = mode_matrix(space, points.xi);
-    for (Eigen::Index mode = 0; mode < m_n_modes; ++mode) {
-        const auto taken = is_taken.begin() + mode;
-        if (!*taken && (takes_all || entity.at_points.col(mode).cwiseAbs().maxCoeff() > vanishing)) {
-            entity.modes.push_back(mode);
-            *taken = true;
-        }
-    }
-    if (entity.modes.empty()) {
-        return;
-    }
-    m_points.insert(m_points.end(), points.xi.begin(), points.xi.end());
-    const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(points.weights.data(), entity.n_points).cwiseSqrt();
-    const Eigen::MatrixXd own = root.asDiagonal() * entity.at_points(Eigen::all, entity.modes);
-    entity.to_modes =
-        Eigen::MatrixXd(own.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(entity.n_points, entity.n_points))) *
-        root.asDiagonal();
-    m_entities.push_back(std::move(entity));
-}
-
-Eigen::MatrixXd EntityProjector::project(const Eigen::Ref<const Eigen::MatrixXd>& values) const {
-    Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(m_n_modes, values.cols());
-    for (const Entity& entity : m_entities) {
-        const Eigen::MatrixXd left = values.middleRows(entity.first_point, entity.n_points) - entity.at_points * coefficients;
-        const Eigen::MatrixXd own = entity.to_modes * left;
-        for (std::size_t index = 0; index < entity.modes.size(); ++index) {
-            coefficients.row(entity.modes[index]) = own.row(static_cast<Eigen::Index>(index));
-        }
-    }
-    return coefficients;
+    builder.add(gauss_points(shape, {n, n, n}), true);
+    return std::move(builder).result();
 }
 
 } // namespace elvis

@@ -1,34 +1,56 @@
 /**
  * @file face_points.hpp
- * Points on a face that both of its elements agree on, so that either can be evaluated there without knowing the other.
+ * Points on faces at which the two sides of a face are compared.
+ *
+ * Each face has the same points whatever element it is seen from: the set is mapped onto itself by every symmetry of the face,
+ * and an order of the points that depends only on the numbers of the face's corners says which point of one side is which of
+ * the other. So either side can be evaluated without knowing the other, and always at the same reference points.
  */
 #pragma once
 
+#include <core/convert/corners.hpp>
 #include <elvis/native/space.hpp>
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace elvis {
 
-/** Corner numbers of a face, ascending, -1 in front for a triangle: the same from both sides. */
-using FaceKey = std::array<std::int64_t, 4>;
+/** Points of a quadrilateral: corners, centre, and the eight images of a point without symmetry; of a triangle three, one, six.
+ */
+inline constexpr std::size_t n_quadrilateral_points = 13;
+inline constexpr std::size_t n_triangle_points = 10;
 
-/** A face of an element, with its corners in an order that depends on their numbers alone: two ends of an edge in two
- * dimensions. */
-struct OrientedFace {
-    FaceKey key{};
-    /** Local corners of the element: of a quadrilateral round the face, from the lowest number towards its lower neighbour. */
-    std::array<int, 4> corners{-1, -1, -1, -1};
-    int n_corners = 0;
+/** Sorted corner numbers, no_corner at the end for a triangle: the same from both sides. */
+using FaceKey = std::array<std::uint32_t, 4>;
+FaceKey face_key(native::Shape shape, int local_face, const CornerNumbers& corners);
+
+/** The points of all faces of a shape, face after face. */
+class FacePoints {
+public:
+    explicit FacePoints(native::Shape shape);
+
+    /** Reference coordinates, three numbers a point. */
+    const std::vector<double>& xi() const { return m_xi; }
+    std::size_t n_points() const { return m_xi.size() / 3; }
+    std::size_t first_point(int local_face) const { return m_first[static_cast<std::size_t>(local_face)]; }
+    std::size_t n_points(int local_face) const { return first_point(local_face + 1) - first_point(local_face); }
+
+    /**
+     * The order that both sides agree on: entry p is the point, among those of the local face, that comes at place p. Points 0
+     * .. (number of corners) - 1 are corners; the next one is the centre.
+     */
+    std::span<const std::uint8_t> order(int local_face, const CornerNumbers& corners) const;
+
+private:
+    native::Shape m_shape;
+    std::vector<double> m_xi;
+    std::vector<std::size_t> m_first;
 };
 
-OrientedFace oriented_face(native::Shape shape, int local_face, const std::array<std::int64_t, 8>& corner_numbers);
-
-inline constexpr std::size_t n_face_points = 5;
-
-/** Reference coordinates of the face's points: inside it, without symmetry that could hide a wrong orientation. */
-std::array<native::Point, n_face_points> face_points(native::Shape shape, const OrientedFace& face);
+/** By shape, hexahedron to tetrahedron. */
+std::array<FacePoints, 4> all_face_points();
 
 } // namespace elvis

@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 
 namespace elvis {
@@ -61,19 +62,24 @@ GaussPoints gauss_points(native::Shape shape, const std::array<std::uint32_t, 3>
     return points;
 }
 
-PointList check_points(native::Shape shape, std::uint32_t n) {
-    std::vector<double> equidistant(n);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        equidistant[i] = -1 + 2.0 * i / (n - 1);
-    }
-    std::array<std::vector<double>, 3> along = {equidistant, equidistant, equidistant};
-    if (native::dimension(shape) == 2) {
-        along[2] = {0.0};
-    }
+PointList check_points(native::Shape shape, std::size_t n) {
     PointList points;
-    for_each_point(along, [&](const native::Point& eta, std::size_t, std::size_t, std::size_t) {
+    for (int corner = 0; corner < native::n_corners(shape); ++corner) {
+        append(points, native::corner(shape, corner));
+    }
+    // The root of g^4 = g + 1, whose powers spread most evenly in three dimensions.
+    constexpr double g = 1.22074408460575947536;
+    for (std::size_t index = 0; index < n; ++index) {
+        native::Point eta{};
+        double step = 1;
+        for (double& coordinate : eta) {
+            step /= g;
+            // Stretched a little and cut off, so that faces and edges get points too.
+            const double spread = std::fmod(0.5 + step * static_cast<double>(index + 1), 1.0);
+            coordinate = std::clamp(1.15 * (2 * spread - 1), -1.0, 1.0);
+        }
         append(points, native::expand(shape, eta));
-    });
+    }
     return points;
 }
 
@@ -89,13 +95,122 @@ Eigen::MatrixXd mode_matrix(const native::Space& space, const PointList& xi) {
     return modes;
 }
 
-Eigen::MatrixXd projection_matrix(const native::Space& space, const GaussPoints& points) {
-    const Eigen::VectorXd root =
-        Eigen::Map<const Eigen::VectorXd>(points.weights.data(), static_cast<Eigen::Index>(points.weights.size())).cwiseSqrt();
-    const Eigen::MatrixXd weighted = root.asDiagonal() * mode_matrix(space, points.xi);
-    const Eigen::Index n_points = weighted.rows();
-    return Eigen::MatrixXd(weighted.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n_points, n_points))) *
-           root.asDiagonal();
+Eigen::MatrixXd fit_matrix(const Eigen::MatrixXd& modes, std::span<const double> weights) {
+    const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(weights.data(), modes.rows()).cwiseSqrt();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(root.asDiagonal() * modes);
+    const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(modes.rows(), modes.cols());
+    const Eigen::MatrixXd inverse = qr.matrixQR().topRows(modes.cols()).triangularView<Eigen::Upper>().solve(q.transpose());
+    return inverse * root.asDiagonal();
+}
+
+namespace {
+
+/**
+ * Fit of the functions A_0 .. A_order of one direction at its Gauss points, weighted by l(z)^collapse. They are the first modes
+ * of a hexahedron where the other two factors are A_0(-1) = 1.
+ */
+Eigen::MatrixXd line_fit(std::uint32_t order, std::uint32_t n, int collapse) {
+    std::vector<double> z(n), weights(n);
+    native::gauss_legendre(z, weights);
+    PointList xi;
+    for (std::size_t i = 0; i < n; ++i) {
+        append(xi, {z[i], -1, -1});
+        weights[i] *= std::pow(0.5 * (1 - z[i]), collapse);
+    }
+    const native::Space space{native::Shape::hexahedron, native::Basis::modified, {order, 1, 1}};
+    return fit_matrix(mode_matrix(space, xi).leftCols(static_cast<Eigen::Index>(order) + 1), weights);
+}
+
+/** Matrix of a product of three fits. Modes with the first index fastest, or the last; points with the first index fastest. */
+Eigen::MatrixXd product(const std::array<Eigen::MatrixXd, 3>& fits, bool first_mode_is_fastest) {
+    const auto& [a, b, c] = fits;
+    Eigen::MatrixXd result(a.rows() * b.rows() * c.rows(), a.cols() * b.cols() * c.cols());
+    for (Eigen::Index k = 0; k < c.cols(); ++k) {
+        for (Eigen::Index j = 0; j < b.cols(); ++j) {
+            for (Eigen::Index i = 0; i < a.cols(); ++i) {
+                double* column = result.col(i + a.cols() * (j + b.cols() * k)).data();
+                for (Eigen::Index p = 0; p < a.rows(); ++p) {
+                    for (Eigen::Index q = 0; q < b.rows(); ++q) {
+                        for (Eigen::Index r = 0; r < c.rows(); ++r) {
+                            const Eigen::Index mode =
+                                first_mode_is_fastest ? p + a.rows() * (q + b.rows() * r) : r + c.rows() * (q + b.rows() * p);
+                            column[mode] = a(p, i) * b(q, j) * c(r, k);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    return result;
+}
+
+/** The triangles (xi1, xi3) of a prism times its axis xi2. Modes p, q, r <= R - p; points with the first index fastest. */
+Eigen::MatrixXd prism_product(const native::Space& space, const std::array<std::uint32_t, 3>& n) {
+    const Eigen::MatrixXd axis = line_fit(space.order[1], n[1], 0);
+    std::vector<double> z1(n[0]), w1(n[0]), z3(n[2]), w3(n[2]);
+    native::gauss_legendre(z1, w1);
+    native::gauss_legendre(z3, w3);
+    PointList xi;
+    std::vector<double> weights;
+    for (std::size_t k = 0; k < n[2]; ++k) {
+        for (std::size_t i = 0; i < n[0]; ++i) {
+            append(xi, native::expand(native::Shape::prism, {z1[i], -1, z3[k]}));
+            weights.push_back(w1[i] * w3[k] * 0.5 * (1 - z3[k]));
+        }
+    }
+    // Modes with q = 0 of a prism of order 1 along its axis, where A_0(-1) = 1.
+    const native::Space thin{space.shape, space.basis, {space.order[0], 1, space.order[2]}};
+    const Eigen::MatrixXd all = mode_matrix(thin, xi);
+    std::vector<Eigen::Index> triangle_modes;
+    std::vector<Eigen::Index> run_lengths;
+    Eigen::Index at = 0;
+    for (std::uint32_t p = 0; p <= space.order[0]; ++p) {
+        run_lengths.push_back(space.order[2] - p + 1);
+        for (Eigen::Index r = 0; r < run_lengths.back(); ++r) {
+            triangle_modes.push_back(at + r);
+        }
+        at += 2 * run_lengths.back();
+    }
+    const Eigen::MatrixXd triangle = fit_matrix(all(Eigen::all, triangle_modes), weights);
+
+    Eigen::MatrixXd result(static_cast<Eigen::Index>(native::n_modes(space)), n[0] * n[1] * n[2]);
+    Eigen::Index mode = 0;
+    Eigen::Index first = 0;
+    for (const Eigen::Index length : run_lengths) {
+        for (Eigen::Index q = 0; q < axis.rows(); ++q) {
+            for (Eigen::Index r = 0; r < length; ++r, ++mode) {
+                for (Eigen::Index k = 0; k < n[2]; ++k) {
+                    for (Eigen::Index j = 0; j < n[1]; ++j) {
+                        for (Eigen::Index i = 0; i < n[0]; ++i) {
+                            result(mode, i + n[0] * (j + n[1] * k)) = triangle(first + r, i + n[0] * k) * axis(q, j);
+                        }
+                    }
+                }
+            }
+        }
+        first += length;
+    }
+    return result;
+}
+
+} // namespace
+
+PointProjection element_projection(const native::Space& space, const std::array<std::uint32_t, 3>& n) {
+    GaussPoints points = gauss_points(space.shape, n);
+    const auto& order = space.order;
+    const bool is_modified = space.basis == native::Basis::modified && order[0] > 0;
+    PointProjection result;
+    if (space.shape == native::Shape::hexahedron && is_modified) {
+        result.matrix = product({line_fit(order[0], n[0], 0), line_fit(order[1], n[1], 0), line_fit(order[2], n[2], 0)}, true);
+    } else if (space.shape == native::Shape::prism && is_modified) {
+        result.matrix = prism_product(space, n);
+    } else if (space.basis == native::Basis::tensor && order[0] > 0) {
+        result.matrix = product({line_fit(order[0], n[0], 0), line_fit(order[1], n[1], 0), line_fit(order[2], n[2], 2)}, false);
+    } else {
+        result.matrix = fit_matrix(mode_matrix(space, points.xi), points.weights);
+    }
+    result.xi = std::move(points.xi);
+    return result;
 }
 
 } // namespace elvis

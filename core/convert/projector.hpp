@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <span>
 #include <vector>
 
 namespace elvis {
@@ -17,8 +19,8 @@ using PointList = std::vector<double>;
 
 /**
  * Tensor Gauss-Legendre points of the collapsed cube, mapped to the shape: `n` in each direction, all inside. The weights are
- * those of the reference measure. In the collapsed direction of a space of order P, n = P + 2 integrates its products well
- * enough for a projection that is exact on the space (which any unisolvent points give) and near the best fit elsewhere.
+ * those of the reference measure. For a space of collapsed order P, n = P + 1 determines each of its functions; one more point
+ * brings the projection of other functions close to the best fit.
  */
 struct GaussPoints {
     PointList xi;
@@ -26,16 +28,32 @@ struct GaussPoints {
 };
 GaussPoints gauss_points(native::Shape shape, const std::array<std::uint32_t, 3>& n);
 
-/** Equidistant points of the collapsed cube with its boundary, `n` >= 2 in each direction: where a projection is compared. */
-PointList check_points(native::Shape shape, std::uint32_t n);
+/**
+ * Where a projection is compared with its source: the corners, and `n` points scattered over the shape, boundary included,
+ * without the symmetries and nodes of any basis (R. Roberts' R3 sequence in collapsed coordinates).
+ */
+PointList check_points(native::Shape shape, std::size_t n);
 
 /** Modes of a space at points: one row a point. */
 Eigen::MatrixXd mode_matrix(const native::Space& space, const PointList& xi);
 
 /**
- * Matrix (modes x points) of the weighted least-squares projection: argmin over c of sum_k w_k (f(xi_k) - sum_m c_m
- * phi_m(xi_k))^2, by QR of the weighted mode matrix.
+ * Matrix (modes x points) of the weighted least-squares fit: argmin over c of sum_k w_k (f(xi_k) - sum_m M_km c_m)^2, for mode
+ * values M of full rank.
  */
-Eigen::MatrixXd projection_matrix(const native::Space& space, const GaussPoints& points);
+Eigen::MatrixXd fit_matrix(const Eigen::MatrixXd& modes, std::span<const double> weights);
+
+/** A linear projection: coefficients = matrix * values at points. */
+struct PointProjection {
+    PointList xi;
+    /** modes x points */
+    Eigen::MatrixXd matrix;
+};
+
+/**
+ * The fit over a whole element, from n Gauss points in each direction. Modified hexahedra and prisms and tensor pyramids are
+ * products of smaller fits, which keeps orders above ten cheap to prepare.
+ */
+PointProjection element_projection(const native::Space& space, const std::array<std::uint32_t, 3>& n);
 
 } // namespace elvis

@@ -32,15 +32,16 @@ std::string to_json(const ConvertReport& report) {
                                   {"max_jump", number(field.max_jump)},
                                   {"continuity", continuity_name(field.continuity)},
                                   {"range", {number(field.lower), number(field.upper)}},
-                                  {"not_finite", field.n_not_finite}});
+                                  {"elements_not_finite", field.n_not_finite}});
     }
-    root["geometry_residual"] = number(report.geometry_residual);
+    root["geometry"] = {{"exact", report.geometry_exact}, {"residual", number(report.geometry_residual)}};
     root["elements"] = nlohmann::ordered_json::object();
     for (const auto& [shape, count] : report.elements) {
         root["elements"][shape] = count;
     }
     root["faces"] = {
         {"total", report.n_faces}, {"boundary", report.n_boundary_faces}, {"unknown_neighbour", report.n_unknown_faces}};
+    root["coefficients"] = report.n_coefficients;
     root["seconds"] = report.seconds;
     return root.dump(2);
 }

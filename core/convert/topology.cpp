@@ -1,103 +1,200 @@
 #include <core/base/error.hpp>
-#include <core/convert/face_points.hpp>
+#include <core/convert/blocks.hpp>
+#include <core/convert/hanging_faces.hpp>
 #include <core/convert/topology.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace elvis {
 
 namespace {
 
-constexpr std::uint64_t block_size = 16384;
-using Positions = std::array<double, 3 * n_face_points>;
+constexpr std::uint64_t block_size = 8192;
 
-struct KeyHash {
-    std::size_t operator()(const FaceKey& key) const {
-        std::uint64_t value = 0;
-        for (const std::int64_t number : key) {
-            value = (value ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
-            value ^= value >> 31;
+/** Rounding of positions: below this part of the largest coordinate two maps are the same. */
+constexpr double round_off = 1e-13;
+
+struct Record {
+    FaceKey key;
+    FaceSide side;
+};
+
+/** Pairs faces with the same corners. */
+void pair_by_corners(Topology& topology) {
+    std::vector<Record> records;
+    std::size_t n_sides = 0;
+    for (const elvis_shape shape : topology.shapes) {
+        n_sides += static_cast<std::size_t>(native::n_faces(static_cast<native::Shape>(shape)));
+    }
+    records.reserve(n_sides);
+    for (std::uint64_t element = 0; element < topology.shapes.size(); ++element) {
+        const auto shape = static_cast<native::Shape>(topology.shapes[element]);
+        for (int local = 0; local < native::n_faces(shape); ++local) {
+            records.push_back({face_key(shape, local, topology.corners.of_element[element]), face_side(element, local)});
         }
-        return value;
     }
+    std::ranges::sort(records,
+                      [](const Record& a, const Record& b) { return a.key != b.key ? a.key < b.key : a.side < b.side; });
+    for (std::size_t first = 0, last = 0; first < records.size(); first = last) {
+        while (last < records.size() && records[last].key == records[first].key) {
+            ++last;
+        }
+        for (std::size_t index = first; index < last && last - first > 1; ++index) {
+            const FaceSide side = records[index].side;
+            std::uint32_t& neighbour = topology.neighbour[side / 8][side % 8];
+            if (last - first > 2) {
+                neighbour = Topology::unknown_neighbour;
+                continue;
+            }
+            const FaceSide other = records[first + last - 1 - index].side;
+            neighbour = static_cast<std::uint32_t>(other / 8);
+            topology.neighbour_face[side / 8][side % 8] = static_cast<std::uint8_t>(other % 8);
+        }
+    }
+}
+
+/** Checks that paired faces have the same map. Sides are compared as they come; the first waits for the second. */
+class PairCheck {
+public:
+    PairCheck(const SourceVolume& source, Topology& topology, const TaskControl& control)
+        : m_source(source), m_topology(topology), m_control(control), m_points(all_face_points()) {}
+
+    void run() {
+        const std::uint64_t n_elements = m_topology.shapes.size();
+        std::vector<std::vector<std::vector<double>>> positions(n_workers());
+        const auto last = [&](std::uint64_t block) { return std::min((block + 1) * block_size, n_elements); };
+        for_each_block((n_elements + block_size - 1) / block_size,
+                       [&](std::uint64_t block, unsigned worker) {
+                           m_control.check();
+                           positions[worker].resize(block_size);
+                           for (std::uint64_t element = block * block_size; element < last(block); ++element) {
+                               std::vector<double>& of_element = positions[worker][element - block * block_size];
+                               const std::vector<double>& xi = m_points[m_topology.shapes[element]].xi();
+                               of_element.resize(xi.size());
+                               m_source.evaluate_mapping(element, xi, of_element);
+                           }
+                       },
+                       [&](std::uint64_t block, unsigned worker) {
+                           m_control.progress(static_cast<double>(last(block)) / static_cast<double>(n_elements),
+                                              "matching faces");
+                           for (std::uint64_t element = block * block_size; element < last(block); ++element) {
+                               add(element, positions[worker][element - block * block_size]);
+                           }
+                       });
+    }
+
+private:
+    void add(std::uint64_t element, const std::vector<double>& positions) {
+        const FacePoints& points = m_points[m_topology.shapes[element]];
+        const int n_faces = native::n_faces(static_cast<native::Shape>(m_topology.shapes[element]));
+        for (int local = 0; local < n_faces; ++local) {
+            if (!m_topology.is_shared(element, local)) {
+                continue;
+            }
+            std::vector<double> of_face;
+            for (const std::uint8_t point : points.order(local, m_topology.corners.of_element[element])) {
+                const double* x = positions.data() + 3 * (points.first_point(local) + point);
+                of_face.insert(of_face.end(), x, x + 3);
+            }
+            const FaceSide side = face_side(element, local);
+            const FaceSide other = m_topology.other_side(element, local);
+            if (other > side) {
+                m_waiting.emplace(side, std::move(of_face));
+                continue;
+            }
+            const auto found = m_waiting.find(other);
+            compare(side, of_face, other, found->second);
+            m_waiting.erase(found);
+        }
+    }
+
+    void compare(FaceSide side, const std::vector<double>& here, FaceSide other, const std::vector<double>& there) {
+        double distance = 0;
+        double size = 0;
+        std::vector<double> steps(here.size());
+        for (std::size_t at = 0; at < here.size(); at += 3) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                steps[at + axis] = there[at + axis] - here[at + axis];
+            }
+            distance = std::max(distance, std::hypot(steps[at], steps[at + 1], steps[at + 2]));
+            size = std::max(size, std::hypot(here[at] - here[0], here[at + 1] - here[1], here[at + 2] - here[2]));
+        }
+        if (distance <= round_off * m_topology.corners.largest_coordinate) {
+            return;
+        }
+        if (distance <= 10 * m_topology.corners.tolerance) {
+            m_topology.steps.emplace(side, std::move(steps));
+            return;
+        }
+        const std::size_t centre = here.size() == 3 * n_quadrilateral_points ? 12 : 9;
+        const double apart = std::hypot(steps[centre], steps[centre + 1], steps[centre + 2]);
+        const std::uint32_t code = apart > 0.5 * size ? Topology::no_neighbour : Topology::unknown_neighbour;
+        m_topology.neighbour[side / 8][side % 8] = code;
+        m_topology.neighbour[other / 8][other % 8] = code;
+    }
+
+    const SourceVolume& m_source;
+    Topology& m_topology;
+    const TaskControl& m_control;
+    std::array<FacePoints, 4> m_points;
+    std::unordered_map<FaceSide, std::vector<double>> m_waiting;
 };
 
-struct OpenFace {
-    std::uint32_t face = 0;
-    int n_sides = 1;
-    Positions positions{};
-};
-
-double largest_distance(const Positions& a, const Positions& b) {
-    double largest = 0;
-    for (std::size_t at = 0; at < a.size(); at += 3) {
-        largest = std::max(largest, std::hypot(a[at] - b[at], a[at + 1] - b[at + 1], a[at + 2] - b[at + 2]));
+/** Sides without neighbour that belong to no boundary group. */
+std::vector<FaceSide> unexplained(const SourceVolume& source, const Topology& topology) {
+    std::vector<FaceSide> sides;
+    std::vector<elvis_source_element> elements;
+    const std::uint64_t n_elements = topology.shapes.size();
+    for (std::uint64_t first = 0; first < n_elements; first += block_size) {
+        elements.resize(std::min(block_size, n_elements - first));
+        source.elements(first, elements.size(), elements);
+        for (std::uint64_t element = first; element < first + elements.size(); ++element) {
+            for (int local = 0; local < native::n_faces(static_cast<native::Shape>(topology.shapes[element])); ++local) {
+                if (topology.neighbour[element][static_cast<std::size_t>(local)] == Topology::no_neighbour &&
+                    elements[element - first].face_groups[local] < 0) {
+                    sides.push_back(face_side(element, local));
+                }
+            }
+        }
     }
-    return largest;
+    return sides;
+}
+
+void count_faces(Topology& topology) {
+    std::uint64_t n_shared_sides = 0;
+    for (std::uint64_t element = 0; element < topology.shapes.size(); ++element) {
+        for (int local = 0; local < native::n_faces(static_cast<native::Shape>(topology.shapes[element])); ++local) {
+            const std::uint32_t neighbour = topology.neighbour[element][static_cast<std::size_t>(local)];
+            topology.n_boundary += neighbour == Topology::no_neighbour ? 1 : 0;
+            topology.n_unknown += neighbour == Topology::unknown_neighbour ? 1 : 0;
+            n_shared_sides += neighbour < Topology::unknown_neighbour ? 1 : 0;
+        }
+    }
+    topology.n_faces = topology.n_boundary + topology.n_unknown + n_shared_sides / 2;
 }
 
 } // namespace
 
-Topology find_topology(const SourceVolume& source, const std::vector<elvis_shape>& shapes, const TaskControl& control) {
-    const std::uint64_t n_elements = shapes.size();
-    Topology topology;
-    topology.corners = number_corners(source, shapes, control);
-    const double tolerance = 10 * topology.corners.tolerance;
-    std::array<std::uint32_t, 6> none{};
-    none.fill(Topology::no_face);
-    topology.of_element.assign(n_elements, none);
-
-    std::unordered_map<FaceKey, OpenFace, KeyHash> open;
-    std::vector<elvis_source_element> elements;
-    for (std::uint64_t first = 0; first < n_elements; first += block_size) {
-        control.check();
-        control.progress(static_cast<double>(first) / static_cast<double>(n_elements), "matching faces");
-        elements.resize(std::min(block_size, n_elements - first));
-        source.elements(first, elements.size(), elements);
-        for (std::uint64_t element = first; element < first + elements.size(); ++element) {
-            const auto shape = static_cast<native::Shape>(shapes[element]);
-            for (int local = 0; local < native::n_faces(shape); ++local) {
-                const OrientedFace oriented = oriented_face(shape, local, topology.corners.of_element[element]);
-                const auto points = face_points(shape, oriented);
-                Positions positions{};
-                source.evaluate_mapping(element, std::span<const double>(points.front().data(), positions.size()), positions);
-
-                const auto index = static_cast<std::uint32_t>(topology.faces.size());
-                const auto [found, is_new] = open.try_emplace(oriented.key, OpenFace{index, 1, positions});
-                OpenFace& other = found->second;
-                const bool is_partner =
-                    !is_new && ++other.n_sides == 2 && largest_distance(positions, other.positions) <= tolerance;
-                if (is_partner) {
-                    native::Face& face = topology.faces[other.face];
-                    face.neighbour = static_cast<std::int64_t>(element);
-                    face.neighbour_local_face = local;
-                    topology.of_element[element][static_cast<std::size_t>(local)] = other.face;
-                    continue;
-                }
-                native::Face face;
-                face.element = static_cast<std::int64_t>(element);
-                face.local_face = local;
-                face.neighbour = is_new ? ELVIS_NEIGHBOUR_NONE : ELVIS_NEIGHBOUR_UNKNOWN;
-                face.group = elements[element - first].face_groups[local];
-                if (!is_new) {
-                    native::Face& first_side = topology.faces[other.face];
-                    first_side.neighbour = ELVIS_NEIGHBOUR_UNKNOWN;
-                    first_side.neighbour_local_face = -1;
-                }
-                if (index == Topology::no_face) {
-                    throw Error(source.paths().front(), "has more faces than can be counted");
-                }
-                topology.faces.push_back(face);
-                topology.of_element[element][static_cast<std::size_t>(local)] = index;
-            }
-        }
+Topology find_topology(const SourceVolume& source, std::vector<elvis_shape> shapes, const TaskControl& control) {
+    if (shapes.size() >= Topology::unknown_neighbour) {
+        throw Error(source.paths().front(), "has more than 4294967293 elements");
     }
-    topology.n_unknown =
-        static_cast<std::uint64_t>(std::count_if(topology.faces.begin(), topology.faces.end(), [](const native::Face& face) {
-            return face.neighbour == ELVIS_NEIGHBOUR_UNKNOWN;
-        }));
+    Topology topology;
+    topology.shapes = std::move(shapes);
+    control.progress(-1, "finding corners");
+    topology.corners = number_corners(source, topology.shapes, control);
+    std::array<std::uint32_t, 6> none;
+    none.fill(Topology::no_neighbour);
+    topology.neighbour.assign(topology.shapes.size(), none);
+    topology.neighbour_face.assign(topology.shapes.size(), {});
+    control.check();
+    pair_by_corners(topology);
+    PairCheck(source, topology, control).run();
+    control.check();
+    const std::vector<FaceSide> unpaired = unexplained(source, topology);
+    mark_hanging_faces(source, unpaired, topology, control);
+    count_faces(topology);
     return topology;
 }
 
