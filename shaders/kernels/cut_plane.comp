@@ -106,8 +106,8 @@ void main() {
         const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
         const elvis_vec3 target = shift + point.position;
         const elvis_real position_error = point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
-        const elvis_vec3 centroid = CORE_CENTROID;
-        core_newton state = core_newton_begin(centroid.x, centroid.y, centroid.z, false);
+        const elvis_vec3 middle = CORE_CENTROID;
+        core_newton state = core_newton_begin(middle.x, middle.y, middle.z, false);
         core_inverse inverse_jacobian;
         elvis_real error = elvis_real(0);
         elvis_real towards_x = elvis_real(0), towards_y = elvis_real(0), towards_z = elvis_real(0);
