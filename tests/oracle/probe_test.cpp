@@ -103,6 +103,73 @@ TEST_CASE("probed polynomials are exact in every shape and order") { check_all_o
 
 TEST_CASE("probing on the device is as exact as on the CPU") { check_all_orders(ProbeOptions::Evaluation::device, 3); }
 
+TEST_CASE("generated polynomials are probed exactly from the order that holds them") {
+    // Sum of x^i y^j z^k / (1 + i + 2j + 3k), i + j + k <= degree, and its gradient.
+    const auto exact = [](int degree, const Vector& x) {
+        std::array<double, 4> result{};
+        for (int i = 0; i <= degree; ++i)
+            for (int j = 0; i + j <= degree; ++j)
+                for (int k = 0; i + j + k <= degree; ++k) {
+                    const double c = 1.0 / (1 + i + 2 * j + 3 * k);
+                    const double px = std::pow(x.x(), i);
+                    const double py = std::pow(x.y(), j);
+                    const double pz = std::pow(x.z(), k);
+                    result[0] += c * px * py * pz;
+                    result[1] += i == 0 ? 0 : c * i * std::pow(x.x(), i - 1) * py * pz;
+                    result[2] += j == 0 ? 0 : c * j * px * std::pow(x.y(), j - 1) * pz;
+                    result[3] += k == 0 ? 0 : c * k * px * py * std::pow(x.z(), k - 1);
+                }
+        return result;
+    };
+    for (const Shape shape : shapes)
+        for (const bool is_curved : {false, true}) {
+            Errors largest;
+            for (int order = 1; order <= 8; ++order) {
+                const int geometry_order = is_curved ? 2 : 1;
+                const int degree = order / geometry_order;
+                if (degree == 0)
+                    continue;
+                const auto text = [&](int chosen_order) {
+                    return std::string(R"({"generator":1,"elements":2,"field":"polynomial","mesh":")") +
+                           (is_curved ? "ball" : "box") + R"(","shape":")" + std::string(native::name(shape)) +
+                           R"(","geometry_order":)" + std::to_string(geometry_order) + R"(,"degree":)" +
+                           std::to_string(degree) + R"(,"order":)" + std::to_string(chosen_order) + "}";
+                };
+                const TemporaryFile file("generated.h5");
+                CAPTURE(text(order));
+                if (const int lower = degree * geometry_order - 1; lower > 0)
+                    CHECK_FALSE(generate(text(lower), file.path()).fields[0].exact);
+                CHECK(generate(text(order), file.path()).fields[0].exact);
+                const RuntimeVolume volume = open_volume(file.path());
+                std::mt19937_64 random(static_cast<std::uint64_t>(order));
+                std::uniform_real_distribution<double> uniform(-0.57, 0.57);
+                std::vector<std::array<double, 3>> positions(40);
+                for (auto& position : positions)
+                    position = {uniform(random), uniform(random), uniform(random)};
+                Errors errors;
+                Errors scale{1e-300, 1e-300};
+                for (const ProbedPoint& point : Prober(volume).probe(positions, 0)) {
+                    REQUIRE(point.element.has_value());
+                    const Vector x(point.position[0], point.position[1], point.position[2]);
+                    const auto expected = exact(degree, x);
+                    const FieldSample& sample = point.fields.at(0);
+                    const Vector gradient(sample.gradients[0], sample.gradients[1], sample.gradients[2]);
+                    const Vector expected_gradient(expected[1], expected[2], expected[3]);
+                    errors.value = std::max(errors.value, std::abs(sample.values[0] - expected[0]));
+                    errors.gradient = std::max(errors.gradient, (gradient - expected_gradient).norm());
+                    scale.value = std::max(scale.value, std::abs(expected[0]));
+                    scale.gradient = std::max(scale.gradient, expected_gradient.norm());
+                }
+                CHECK(errors.value <= 1e-11 * scale.value);
+                CHECK(errors.gradient <= 1e-9 * scale.gradient);
+                largest.value = std::max(largest.value, errors.value / scale.value);
+                largest.gradient = std::max(largest.gradient, errors.gradient / scale.gradient);
+            }
+            WARN("generated, " << native::name(shape) << (is_curved ? ", ball" : ", box") << ": value error " << largest.value
+                               << ", gradient error " << largest.gradient);
+        }
+}
+
 TEST_CASE("a probed point on shared faces reports the lowest element and the others") {
     VolumeData data;
     data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 1),
