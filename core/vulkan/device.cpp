@@ -83,7 +83,7 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
     cache_key = summary.name + "|" + summary.driver + "|" + std::to_string(properties.properties.vendorID) + "|" +
                 std::to_string(properties.properties.deviceID) + "|" + std::to_string(properties.properties.driverVersion);
     spdlog::debug("device {}: {} ({}, {}), data in {} buffers", summary.index, summary.name, summary.type, summary.driver,
-                 texel_buffers ? "texel" : "storage");
+                  texel_buffers ? "texel" : "storage");
     try {
         create_device();
     } catch (...) {
