@@ -73,7 +73,7 @@ void main() {
         float(point.error) * 2.0 + 1.2e-7 * max(max(abs(in_hierarchy.x), abs(in_hierarchy.y)), abs(in_hierarchy.z));
 
     uint stack[CORE_STACK_SIZE];
-    uint depth_of_stack = is_active ? 1u : 0u;
+    uint depth_of_stack = is_active && core_contains(core_fetch_node(0u), in_hierarchy, box_tolerance) ? 1u : 0u;
     stack[0] = 0u;
     uint work = 0u;
     uint iterations = 0u;
@@ -89,14 +89,18 @@ void main() {
         while (depth_of_stack > 0u && element == CORE_NO_NODE) {
             ++work;
             depth_of_stack -= 1u;
+            // Nodes on the stack contain the point: one step for each of them, none for their siblings.
             const core_node node = core_fetch_node(stack[depth_of_stack]);
-            if (core_contains(node, in_hierarchy, box_tolerance)) {
-                if (node.is_leaf) {
-                    element = node.child;
-                } else {
+            if (node.is_leaf) {
+                element = node.child;
+            } else {
+                if (core_contains(core_fetch_node(node.child + 1u), in_hierarchy, box_tolerance)) {
                     stack[depth_of_stack] = node.child + 1u;
-                    stack[depth_of_stack + 1u] = node.child;
-                    depth_of_stack += 2u;
+                    depth_of_stack += 1u;
+                }
+                if (core_contains(core_fetch_node(node.child), in_hierarchy, box_tolerance)) {
+                    stack[depth_of_stack] = node.child;
+                    depth_of_stack += 1u;
                 }
             }
         }
