@@ -130,7 +130,7 @@ void Inverter::subdivide(std::size_t element, const Vector& x, double tolerance,
                 if (!enclosure.is_folded)
                     return;
             } else if (converged && !enclosure.is_folded && size < one_to_one &&
-                       (solution.xi - xi).lpNorm<Eigen::Infinity>() < 2 * size) {
+                       (solution.xi - xi).lpNorm<Eigen::Infinity>() < 2 * (size + margin)) {
                 // The only solution that the neighbourhood of this box can have lies too far outside.
                 continue;
             }
