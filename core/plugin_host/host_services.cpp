@@ -76,10 +76,10 @@ HostServices::HostServices(std::string plugin_id, const TaskControl* control)
 void HostServices::clear_error() { last_error = {}; }
 
 void HostServices::check(elvis_result result, const char* function, const std::string& place) const {
+    const PluginError said = std::exchange(last_error, {});
     if (result == ELVIS_OK) {
         return;
     }
-    const PluginError said = std::exchange(last_error, {});
     if (result == ELVIS_ERROR_CANCELLED) {
         throw Cancelled();
     }

@@ -52,6 +52,12 @@ struct RuntimeVolume::Impl {
     void check(elvis_result result, const char* function) const { services->check(result, function, path); }
     [[noreturn]] void refuse(const char* function, const std::string& what) const { services->refuse(function, path, what); }
 
+    void check_certainty(elvis_certainty certainty, const char* function) const {
+        if (certainty != ELVIS_CERTIFIED && certainty != ELVIS_ESTIMATED) {
+            refuse(function, "the unknown certainty " + std::to_string(certainty));
+        }
+    }
+
     void read_info();
     void read_classes();
     void read_fields();
@@ -80,6 +86,9 @@ void RuntimeVolume::Impl::read_info() {
     }
     if (info.n_faces > 0 && !table->get_faces) {
         refuse("get_info", "faces, but get_faces is missing");
+    }
+    if (info.n_faces > 6 * info.n_elements) {
+        refuse("get_info", std::to_string(info.n_faces) + " faces, which is more than the elements have");
     }
 }
 
@@ -116,6 +125,9 @@ void RuntimeVolume::Impl::read_fields() {
         check(table->get_field(volume, index, &theirs), "get_field");
         if (!theirs.name || !*theirs.name || theirs.n_components == 0 || theirs.n_components > 1024) {
             refuse("get_field", "a field without name or with " + std::to_string(theirs.n_components) + " components");
+        }
+        if (theirs.transform > ELVIS_TRANSFORM_CONTRAVARIANT || theirs.continuity > ELVIS_CONTINUITY_DISCONTINUOUS) {
+            refuse("get_field", "an unknown transform or continuity");
         }
         for (const FieldInfo& other : fields) {
             if (other.name == theirs.name) {
@@ -269,6 +281,7 @@ elvis_certainty RuntimeVolume::bounds(std::uint64_t first, std::uint64_t count, 
     elvis_certainty certainty = ELVIS_ESTIMATED;
     HostServices::clear_error();
     m_impl->check(m_impl->table->get_bounds(m_impl->volume, first, count, out.data(), &certainty), "get_bounds");
+    m_impl->check_certainty(certainty, "get_bounds");
     for (std::uint64_t element = 0; element < count; ++element) {
         for (std::uint64_t axis = 0; axis < 3; ++axis) {
             const double lower = out[6 * element + axis];
@@ -311,8 +324,8 @@ void RuntimeVolume::faces(std::uint64_t first, std::uint64_t count, std::span<el
     const auto n = static_cast<std::int64_t>(n_elements());
     for (const elvis_face& face : out) {
         if (face.element < 0 || face.element >= n || face.neighbour >= n || face.neighbour < ELVIS_NEIGHBOUR_UNKNOWN ||
-            face.local_face < 0 || face.local_face > 5 || face.group < ELVIS_GROUP_NONE ||
-            face.group >= static_cast<std::int32_t>(m_impl->info.n_boundary_groups)) {
+            face.local_face < 0 || face.local_face > 5 || face.neighbour_local_face < -1 || face.neighbour_local_face > 5 ||
+            face.group < ELVIS_GROUP_NONE || face.group >= static_cast<std::int32_t>(m_impl->info.n_boundary_groups)) {
             m_impl->refuse("get_faces", "a face of element " + std::to_string(face.element) + " with numbers out of range");
         }
     }
@@ -329,6 +342,7 @@ elvis_certainty RuntimeVolume::field_ranges(std::uint32_t field, std::uint32_t t
     m_impl->check(m_impl->table->get_field_ranges(m_impl->volume, field, time_step, first, count,
                                                   reinterpret_cast<double*>(out.data()), &certainty),
                   "get_field_ranges");
+    m_impl->check_certainty(certainty, "get_field_ranges");
     for (const FieldRange& range : out) {
         if (!(range.lower <= range.upper)) {
             m_impl->refuse("get_field_ranges", "a range whose ends are in the wrong order or NaN");

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint32_t max_order = 30;
 constexpr int corner_count[] = {8, 6, 5, 4, 4, 3};
+constexpr int face_count[] = {6, 5, 5, 4, 4, 3};
 
 } // namespace
 
@@ -155,8 +156,9 @@ void SourceVolume::elements(std::uint64_t first, std::uint64_t count, std::span<
                 m_impl->refuse("get_elements", "corner id " + std::to_string(id) + which);
             }
         }
-        for (const std::int32_t group : element.face_groups) {
-            if (group >= static_cast<std::int32_t>(m_impl->info.n_boundary_groups)) {
+        for (int face = 0; face < face_count[element.shape]; ++face) {
+            const std::int32_t group = element.face_groups[face];
+            if (group < ELVIS_GROUP_NONE || group >= static_cast<std::int32_t>(m_impl->info.n_boundary_groups)) {
                 m_impl->refuse("get_elements", "boundary group " + std::to_string(group) + which);
             }
         }
