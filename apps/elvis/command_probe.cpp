@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <fstream>
@@ -119,6 +120,8 @@ void print_json(const RuntimeVolume& volume, const std::vector<ProbedPoint>& poi
         answer["fields"] = std::move(values);
         answer["gradients"] = std::move(gradients);
         answer["also"] = point.also;
+        answer["gradients_estimated"] =
+            std::ranges::any_of(point.fields, [](const FieldSample& sample) { return sample.gradient_is_estimated; });
         answer["newton_failures"] = point.n_failures;
         answers.push_back(std::move(answer));
     }
@@ -145,9 +148,10 @@ void print_table(const RuntimeVolume& volume, const std::vector<ProbedPoint>& po
                 std::string component;
                 if (sample.values.size() > 1)
                     component.append("[").append(std::to_string(c)).append("]");
-                std::printf("  %s%s = %.17g%s%s, gradient (%.17g, %.17g, %.17g)\n", field.name.c_str(), component.c_str(),
+                std::printf("  %s%s = %.17g%s%s, gradient (%.17g, %.17g, %.17g)%s\n", field.name.c_str(), component.c_str(),
                             sample.values[c], field.unit.empty() ? "" : " ", field.unit.c_str(), sample.gradients[3 * c],
-                            sample.gradients[3 * c + 1], sample.gradients[3 * c + 2]);
+                            sample.gradients[3 * c + 1], sample.gradients[3 * c + 2],
+                            sample.gradient_is_estimated ? ", estimated" : "");
             }
         }
     }

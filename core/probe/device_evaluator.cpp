@@ -100,6 +100,7 @@ std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uin
     for_each_class(m_volume->classes(), points, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
         const DeviceClass on_device(m_device, *m_volume, c, field, time_step);
         const ClassInfo& info = m_volume->classes()[c];
+        const bool is_estimated = (m_volume->snippet(c).capabilities & ELVIS_SNIPPET_FIELD_GRADIENT) == 0;
         for (std::size_t first = 0; first < indices.size(); first += block_size) {
             const std::size_t count = std::min(block_size, indices.size() - first);
             std::vector<DevicePoint> inputs(count);
@@ -116,6 +117,7 @@ std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uin
             const auto numbers = output.read_items<double>(n_numbers);
             for (std::size_t i = 0; i < count; ++i) {
                 FieldSample& sample = samples[indices[first + i]];
+                sample.gradient_is_estimated = is_estimated;
                 for (std::size_t component = 0; component < n_components; ++component) {
                     const double* at = &numbers[4 * (i * n_components + component)];
                     sample.values.push_back(at[0]);

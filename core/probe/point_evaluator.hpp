@@ -38,6 +38,8 @@ struct ReferencePoint {
 struct FieldSample {
     std::vector<double> values;
     std::vector<double> gradients;
+    /** The gradient rests on differences of values, because the plugin gives none. */
+    bool gradient_is_estimated = false;
 };
 
 class PointEvaluator {

@@ -170,6 +170,35 @@ TEST_CASE("generated polynomials are probed exactly from the order that holds th
         }
 }
 
+TEST_CASE("a plugin with nothing but the required snippet functions is probed on the device") {
+    const RuntimeVolume volume = open_volume(ELVIS_ANALYTIC_SAMPLE);
+    REQUIRE_FALSE(volume.has_evaluation());
+    Prober prober(volume);
+    const std::uint32_t wave = volume.field_index("wave");
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> uniform(-0.6, 0.6);
+    std::vector<std::array<double, 3>> positions(60);
+    for (auto& position : positions)
+        position = {uniform(random), uniform(random), uniform(random)};
+    Errors largest;
+    for (const ProbedPoint& point : prober.probe(positions, 0)) {
+        REQUIRE(point.element.has_value());
+        const auto [x, y, z] = point.position;
+        const double first = 3 * x + 2 * y + z + 0.5;
+        const double second = -x + 5 * y + 2 * z;
+        const Vector gradient = std::cos(first) * Vector(3, 2, 1) + 0.25 * std::cos(second) * Vector(-1, 5, 2);
+        const FieldSample& sample = point.fields.at(wave);
+        REQUIRE(sample.gradient_is_estimated);
+        largest.value = std::max(largest.value, std::abs(sample.values[0] - std::sin(first) - 0.25 * std::sin(second)));
+        largest.gradient = std::max(largest.gradient,
+                                    (Vector(sample.gradients[0], sample.gradients[1], sample.gradients[2]) - gradient).norm());
+    }
+    WARN("analytic plugin: value error " << largest.value << ", gradient error " << largest.gradient);
+    CHECK(largest.value < 1e-13);
+    // Differences of sixth order, see shaders/library/gradient_default.glsl.
+    CHECK(largest.gradient < 1e-9);
+}
+
 TEST_CASE("a probed point on shared faces reports the lowest element and the others") {
     VolumeData data;
     data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 1),
