@@ -1,0 +1,2 @@
+// The same assertions in C++: both languages see one layout.
+#include "layout.c"
