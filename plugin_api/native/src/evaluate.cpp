@@ -34,8 +34,7 @@ constexpr std::size_t n_plain_rows = max_order + 1;
 constexpr std::size_t n_inner_rows = n_plain_rows + 2 * max_order; // second set: modified_b with power m - 1, m < 2 max_order
 
 // Outer and mid factors: slot 0 of row 0 is the constant 1, slot 1 + index the functions of row m.
-template <std::size_t rows>
-struct OuterTable {
+template <std::size_t rows> struct OuterTable {
     double value[rows * row_size];
     double own[rows * row_size];
     double later[rows * row_size];
@@ -182,9 +181,7 @@ void scaled_uncollapsed(Kind kind, std::uint32_t order, double low, double high,
     }
 }
 
-double orthogonal_norm(Kind kind, int m, int index) {
-    return std::sqrt(m + index + (kind == Kind::orthogonal_b ? 1.0 : 1.5));
-}
+double orthogonal_norm(Kind kind, int m, int index) { return std::sqrt(m + index + (kind == Kind::orthogonal_b ? 1.0 : 1.5)); }
 
 int orthogonal_a_of(Kind kind, int m) { return 2 * m + (kind == Kind::orthogonal_b ? 1 : 2); }
 
@@ -233,22 +230,19 @@ void scaled_collapsed_row(Kind kind, int m, int count, double low, double high, 
     }
 }
 
-template <std::size_t rows>
-void fill_uncollapsed(OuterTable<rows>& table, Kind kind, std::uint32_t order, double z) {
+template <std::size_t rows> void fill_uncollapsed(OuterTable<rows>& table, Kind kind, std::uint32_t order, double z) {
     uncollapsed(kind, order, z, table.value + 1, table.own + 1);
     std::fill_n(table.later + 1, order + 1, 0.0);
 }
 
 // Functions of eta_d for rational pyramids; derivatives still to be divided by t.
-template <std::size_t rows>
-void fill_rational(OuterTable<rows>& table, Kind kind, std::uint32_t order, double eta) {
+template <std::size_t rows> void fill_rational(OuterTable<rows>& table, Kind kind, std::uint32_t order, double eta) {
     uncollapsed(kind, order, eta, table.value + 1, table.own + 1);
     for (std::size_t p = 1; p <= order + 1; ++p)
         table.later[p] = table.own[p] * (1 + eta) / 2;
 }
 
-template <std::size_t rows>
-void fill_scaled(OuterTable<rows>& table, Kind kind, std::uint32_t order, double low, double high) {
+template <std::size_t rows> void fill_scaled(OuterTable<rows>& table, Kind kind, std::uint32_t order, double low, double high) {
     scaled_uncollapsed(kind, order, low, high, table.value + 1, table.own + 1, table.later + 1);
 }
 
@@ -270,7 +264,7 @@ void fill_modified_pyramid(InnerTable& table, int order, double xi3) {
     const double t = (1 - xi3) / 2;
     double values[row_size];
     double slopes[row_size];
-    double low_power = 1;  // t^(m-1)
+    double low_power = 1;   // t^(m-1)
     double lower_power = 0; // t^(m-2); the only function with m = 1 in the second set is that of the apex, which needs none
     for (int m = 1; m < std::max(2 * order, 2); ++m) {
         const int count = order - std::min(m, order) + 1;

@@ -75,8 +75,8 @@ void scaled_jacobi(int a, int b, int count, double x, double t, double* values, 
         const double square = row.c * t * t;
         values[n] = factor * values[n - 1] - square * values[n - 2];
         own[n] = row.b * values[n - 1] + factor * own[n - 1] - square * own[n - 2];
-        later[n] = (row.b - row.a) / 2 * values[n - 1] + factor * later[n - 1] + row.c * t * values[n - 2] -
-                   square * later[n - 2];
+        later[n] =
+            (row.b - row.a) / 2 * values[n - 1] + factor * later[n - 1] + row.c * t * values[n - 2] - square * later[n - 2];
     }
 }
 

@@ -1,9 +1,10 @@
 /*
- * Certified ranges: a polynomial lies between its smallest and largest Bernstein coefficient (Farin, Curves and Surfaces for CAGD).
+ * Certified ranges: a polynomial lies between its smallest and largest Bernstein coefficient (Farin, Curves and Surfaces for
+ * CAGD).
  *
- * Per run, inner factors are summed first, then mid, then outer ones. The computed coefficients differ from the exact ones by at
- * most gamma_K sum_m |c_m| w_m, w_m being the product of the largest Bernstein coefficients of the mode's three factors and K the
- * number of roundings on the way of a term: its products, the additions of the three sums, the matrices' own error
+ * Per run, inner factors are summed first, then mid, then outer ones. The computed coefficients differ from the exact ones by
+ * at most gamma_K sum_m |c_m| w_m, w_m being the product of the largest Bernstein coefficients of the mode's three factors and
+ * K the number of roundings on the way of a term: its products, the additions of the three sums, the matrices' own error
  * (Higham, Accuracy and Stability of Numerical Algorithms, 3.1).
  */
 #include "bernstein.hpp"
@@ -31,7 +32,8 @@ struct RangeBounder::Tables {
     std::size_t size_outer = 1, size_mid = 1, size_inner = 1; // Bernstein coefficients a direction
     std::vector<Group> groups;
     std::vector<double> matrices;
-    std::vector<double> weights; // w_m gamma_K, rounded up
+    std::vector<double> weights; // w_m
+    double gamma = 0;            // gamma_K, rounded up
     bool convex = false;         // modes are >= 0 and sum to 1: the range is that of the coefficients
 
     explicit Tables(const Space& space);
@@ -40,7 +42,6 @@ struct RangeBounder::Tables {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
 
 // Computes each factor once.
 class MatrixBuilder {
@@ -57,7 +58,8 @@ public:
             entry.first = m_values.size();
             m_values.resize(entry.first + count * m_size);
             for (std::size_t i = 0; i < count; ++i, ++factor.index)
-                entry.second.push_back(bernstein(factor, m_order, std::span(m_values).subspan(entry.first + i * m_size, m_size)));
+                entry.second.push_back(
+                    bernstein(factor, m_order, std::span(m_values).subspan(entry.first + i * m_size, m_size)));
         }
         bounds = position->second.second;
         return position->second.first;
@@ -120,11 +122,9 @@ RangeBounder::Tables::Tables(const Space& space) {
     // for the roundings of the bound itself.
     const auto n_roundings = static_cast<double>(longest + largest_group + groups.size() + 3 + 3 + 2 + 8);
     constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
-    const double gamma = n_roundings * unit / (1 - n_roundings * unit);
     // The sum of n terms |c| w is itself low by at most n units.
-    const double sum_slack = 1 + static_cast<double>(weights.size() + 4) * 2 * unit;
-    for (double& weight : weights)
-        weight *= gamma * sum_slack;
+    const double slack = 1 + static_cast<double>(weights.size() + 4) * 2 * unit;
+    gamma = n_roundings * unit / (1 - n_roundings * unit) * slack;
 }
 
 RangeBounder::RangeBounder(const Space& space) : m_tables(tables_of(space)) {
@@ -145,11 +145,16 @@ Range RangeBounder::operator()(std::span<const double> coefficients) {
         return sum == 0 ? result : Range{-infinity, infinity};
     }
     assert(coefficients.size() == t.weights.size());
-    double error = 0;
+    double magnitude = 0;
     for (std::size_t mode = 0; mode < coefficients.size(); ++mode)
-        error += std::abs(coefficients[mode]) * t.weights[mode];
-    if (error == 0 && std::all_of(coefficients.begin(), coefficients.end(), [](double c) { return c == 0; }))
+        magnitude += std::abs(coefficients[mode]) * t.weights[mode];
+    // Infinity and NaN, and numbers so large that an intermediate result could overflow (no matrix entry reaches 1e100).
+    if (!(magnitude < 1e200))
+        return {-infinity, infinity};
+    if (magnitude == 0)
         return {0, 0};
+    // Underflow costs each product at most the smallest subnormal number, 5e-324, times the matrices that follow.
+    const double error = t.gamma * magnitude + 1e-200;
 
     const std::size_t n = t.size_inner;
     const std::size_t plane = t.size_mid * n;
@@ -179,13 +184,7 @@ Range RangeBounder::operator()(std::span<const double> coefficients) {
     }
     for (std::size_t k = 0; k < t.size_outer * plane; ++k)
         result = {std::min(result.lower, sum[k]), std::max(result.upper, sum[k])};
-    // Products that underflow lose at most the smallest normal number each, far below one of it in all after the matrices.
-    error += static_cast<double>(coefficients.size()) * std::numeric_limits<double>::min();
-    result = {result.lower - error, result.upper + error};
-    // Overflow anywhere shows as infinity or NaN in `error` or in the sums.
-    if (!std::isfinite(error) || !std::isfinite(result.lower) || !std::isfinite(result.upper))
-        return {-infinity, infinity};
-    return result;
+    return {result.lower - error, result.upper + error};
 }
 
 Range range(const Space& space, std::span<const double> coefficients) { return RangeBounder(space)(coefficients); }

@@ -67,8 +67,7 @@ inline bool is_constant(const Space& space) { return space.order == std::array<s
 namespace detail {
 
 // Numbers the runs while they are emitted.
-template <class Visit>
-class Emitter {
+template <class Visit> class Emitter {
 public:
     explicit Emitter(Visit& visit) : m_visit(visit) {}
 
@@ -97,8 +96,7 @@ private:
 } // namespace detail
 
 /** Calls visit(run) for all runs of a valid space in storage order. */
-template <class Visit>
-void for_each_run(const Space& space, Visit&& visit) {
+template <class Visit> void for_each_run(const Space& space, Visit&& visit) {
     detail::Emitter<Visit> emit(visit);
     const Factor one;
     if (is_constant(space)) {

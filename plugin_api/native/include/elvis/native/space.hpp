@@ -93,7 +93,7 @@ bool is_inside(Shape shape, const Point& xi, double tolerance = 0);
 /** Values of all modes at xi, in the order of coefficients. values.size() == n_modes(space). */
 void evaluate_modes(const Space& space, const Point& xi, std::span<double> values);
 
-/** Values and gradients with respect to xi: gradients[3*mode + direction]; finite at collapsed vertices for smooth modes. */
+/** Values and gradients with respect to xi: gradients[3*mode + direction], 0 for the third in two dimensions. */
 void evaluate_modes(const Space& space, const Point& xi, std::span<double> values, std::span<double> gradients);
 
 /** Sum of coefficients times modes. */
