@@ -11,6 +11,7 @@ namespace elvis::commands {
 
 void add_convert(CLI::App& app);
 void add_devices(CLI::App& app);
+void add_info(CLI::App& app);
 void add_plugins(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_render(CLI::App& app);

@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
 
     elvis::commands::add_convert(app);
     elvis::commands::add_devices(app);
+    elvis::commands::add_info(app);
     elvis::commands::add_plugins(app);
     elvis::commands::add_probe(app);
     elvis::commands::add_render(app);
