@@ -1,0 +1,165 @@
+// The program as a user runs it: answers, exit status, and what it says about bad input.
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+struct Outcome {
+    int status = -1;
+    std::string out;
+    std::string err;
+};
+
+/** A folder of the test's own, with a small curved volume in it. */
+class Workplace {
+public:
+    Workplace() : m_folder(fs::temp_directory_path() / ("elvis-app-" + std::to_string(::getpid()))) {
+        fs::create_directories(m_folder);
+        write(
+            "ball.json",
+            R"({"generator": 1, "mesh": "ball", "elements": [2, 2, 2], "geometry_order": 2, "fields": ["sphere", "taylor-green"]})");
+        const Outcome converted = run("convert ball.json -o ball.h5 --report report.json");
+        INFO(converted.err);
+        REQUIRE(converted.status == 0);
+    }
+    ~Workplace() {
+        std::error_code ignored;
+        fs::remove_all(m_folder, ignored);
+    }
+
+    void write(const std::string& name, const std::string& text) const { std::ofstream(m_folder / name) << text; }
+    fs::path path(const std::string& name) const { return m_folder / name; }
+
+    Outcome run(const std::string& arguments) const {
+        const std::string command =
+            "cd '" + m_folder.string() + "' && '" ELVIS_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(m_folder / "out.txt"), read_file(m_folder / "err.txt")};
+    }
+
+private:
+    fs::path m_folder;
+};
+
+} // namespace
+
+TEST_CASE("A volume is converted, described, probed and drawn") {
+    const Workplace place;
+    const auto report = nlohmann::json::parse(read_file(place.path("report.json")));
+    CHECK(report["fields"][0]["name"] == "sphere");
+    CHECK(report["fields"][0]["exact"] == true);
+    CHECK(report["fields"][1]["exact"] == false);
+    CHECK(report["fields"][0]["residual"].get<double>() < 1e-11);
+
+    const Outcome info = place.run("info ball.h5 --json");
+    REQUIRE(info.status == 0);
+    CHECK(nlohmann::json::parse(info.out)["negative_jacobians"]["n_elements"] == 0);
+
+    const Outcome probe = place.run("probe ball.h5 --point 0.1,-0.2,0.3 --point 2,0,0 --json");
+    REQUIRE(probe.status == 0);
+    const auto points = nlohmann::json::parse(probe.out)["points"];
+    CHECK(std::abs(points[0]["fields"]["sphere"][0].get<double>() - 0.14) < 1e-12);
+    CHECK(std::abs(points[0]["gradients"]["sphere"][0][1].get<double>() + 0.4) < 1e-10);
+    CHECK(points[1]["element"].is_null());
+
+    for (const std::string precision : {"float32", "float64"}) {
+        const Outcome render = place.run("render ball.h5 --field sphere --cut-plane 0,0,1,0 --size 64x64 --precision " +
+                                         precision + " --validation -o ball.png --buffers ball.buffers.h5 --stats stats.json");
+        INFO(render.err);
+        REQUIRE(render.status == 0);
+        CHECK(read_file(place.path("ball.png")).substr(1, 3) == "PNG");
+        const auto counts = nlohmann::json::parse(read_file(place.path("stats.json")))["counts"];
+        CHECK(counts["pixels"] == 64 * 64);
+        CHECK(counts["hit_pixels"].get<int>() > 1000);
+        CHECK(counts["newton_failures"] == 0);
+        CHECK(counts["nan_pixels"] == 0);
+    }
+}
+
+TEST_CASE("A scene file and the same options give the same picture") {
+    const Workplace place;
+    place.write("scene.json",
+                R"({"version": 1, "volume": {"path": "ball.h5"}, "field": "taylor-green[0]", "image": {"size": [80, 60]},
+                                  "color_map": {"name": "coolwarm", "range": [-1, 1]},
+                                  "surfaces": [{"type": "plane", "plane": [1, 0, 0.5, 0]}]})");
+    REQUIRE(place.run("render scene.json -o scene.png").status == 0);
+    REQUIRE(
+        place
+            .run(
+                "render ball.h5 --field 'taylor-green[0]' --size 80x60 --color-map coolwarm --range -1,1 --cut-plane 1,0,0.5,0 "
+                "-o options.png")
+            .status == 0);
+    CHECK(read_file(place.path("scene.png")) == read_file(place.path("options.png")));
+}
+
+TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
+    const Workplace place;
+    place.write("unknown_key.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "colour_map": {"name": "viridis"}})");
+    place.write("broken.json", "{\"version\": 1,\n \"volume\": }");
+    place.write("bad_field.json", R"({"generator": 1, "mesh": "box", "fields": "sphere", "shpae": "prism"})");
+    place.write("not_a_volume.h5", "this is no HDF5 file");
+    const struct {
+        const char* arguments;
+        int status;
+        const char* says;
+    } cases[] = {
+        {"render missing.h5 -o x.png", 1, "missing.h5"},
+        {"render not_a_volume.h5 -o x.png", 1, "not_a_volume.h5"},
+        {"render ball.json -o x.png", 1, "elvis convert"},
+        {"render ball.h5 --field pressure -o x.png", 1, "sphere"},
+        {"render ball.h5 --field 'sphere[3]' -o x.png", 1, "components"},
+        {"render unknown_key.json -o x.png", 1, "color_map"},
+        {"render broken.json -o x.png", 1, "broken.json:2"},
+        {"render ball.h5 --size 0x10 -o x.png", 2, "--size"},
+        {"render ball.h5 --cut-plane 0,0,0,1 -o x.png", 2, "--cut-plane"},
+        {"render ball.h5 --cut-plane 1,0,x,1 -o x.png", 2, "--cut-plane"},
+        {"render ball.h5 --device nonsense -o x.png", 1, "nonsense"},
+        {"render ball.h5 --time-step 7 -o x.png", 1, "time step"},
+        {"render ball.h5 --color-map nonsense -o x.png", 1, "viridis"},
+        {"render ball.h5 --size 16x16 -o no/such/folder/x.png", 1, "no/such/folder/x.png"},
+        {"convert missing.dat -o x.h5", 1, "missing.dat"},
+        {"convert bad_field.json -o x.h5", 1, "shape"},
+        {"convert ball.json -o no/such/folder/x.h5", 1, "no/such/folder/x.h5"},
+        {"convert ball.json -o x.h5 --fields nothing", 1, "nothing"},
+        {"info not_a_volume.h5", 1, "not_a_volume.h5"},
+        {"nonsense", 2, ""},
+    };
+    for (const auto& bad : cases) {
+        INFO(bad.arguments);
+        const Outcome outcome = place.run(bad.arguments);
+        INFO(outcome.err);
+        CHECK(outcome.status == bad.status);
+        CHECK_THAT(outcome.err, Catch::Contains(bad.says));
+        CHECK_FALSE(fs::exists(place.path("x.png")));
+        CHECK_FALSE(fs::exists(place.path("x.h5")));
+    }
+}
+
+TEST_CASE("A plane that misses the volume is a stated empty picture") {
+    const Workplace place;
+    const Outcome outcome = place.run("render ball.h5 --cut-plane 0,0,1,-9 --size 16x16 -o empty.png --stats stats.json");
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.err, Catch::Contains("nothing is hit"));
+    CHECK(nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["hit_pixels"] == 0);
+}
