@@ -5,3 +5,6 @@
 #else
 #define CORE_ROUNDOFF elvis_real(5.9604644775390625e-8LF)
 #endif
+
+// Of the single precision that boxes are kept in.
+#define CORE_FLOAT_ROUNDOFF 5.9604644775390625e-8
