@@ -1,5 +1,4 @@
 #include <core/base/error.hpp>
-#include <core/probe/device_class.hpp>
 #include <core/probe/device_evaluator.hpp>
 #include <core/probe/reference_shape.hpp>
 
@@ -12,6 +11,8 @@ namespace {
 
 // Points handed to the device at once: bounds memory and the time of one dispatch.
 constexpr std::size_t block_size = 1u << 16;
+// local_size_x of the kernels.
+constexpr std::size_t group_size = 32;
 
 // As in shaders/kernels/probe_invert.comp and probe_evaluate.comp.
 struct DevicePoint {
@@ -42,25 +43,53 @@ void for_each_class(const std::vector<ClassInfo>& classes, std::span<const Item>
             action(c, indices[c]);
 }
 
-} // namespace
-
-DeviceEvaluator::DeviceEvaluator(const RuntimeVolume& volume, const std::string& device) : m_device(device), m_volume(&volume) {
-    if (!m_device.summary().has_float64)
-        throw Error(m_device.summary().name, "the device has no double precision, which probing needs");
+const RuntimeVolume& require_fields(const RuntimeVolume& volume) {
     if (volume.fields().empty())
         throw Error(volume.path(), "a volume without fields cannot be probed on the device");
+    return volume;
+}
+
+const Device& require_float64(const Device& device) {
+    if (!device.summary().has_float64)
+        throw Error(device.summary().name, "the device has no double precision, which probing needs");
+    return device;
+}
+
+} // namespace
+
+DeviceEvaluator::DeviceEvaluator(const RuntimeVolume& volume, const std::string& device)
+    : m_device(device), m_volume(&require_fields(volume)),
+      m_on_device(require_float64(m_device), volume, Precision::float64, nullptr) {
     std::vector<double> boxes(6 * volume.n_elements());
     volume.bounds(0, volume.n_elements(), boxes);
     for (const double coordinate : boxes)
         m_position_error = std::max(m_position_error, std::numeric_limits<double>::epsilon() * std::abs(coordinate));
 }
 
-DeviceEvaluator::~DeviceEvaluator() = default;
+void DeviceEvaluator::run(const std::string& kernel, std::uint32_t element_class, std::span<const std::byte> parameters,
+                          const Buffer& input, const Buffer& output, std::size_t n_items) const {
+    const auto count = static_cast<std::uint32_t>(n_items);
+    std::vector<std::byte> constants(parameters.begin(), parameters.end());
+    const auto tail = std::as_bytes(std::span(&count, 1));
+    constants.insert(constants.end(), tail.begin(), tail.end());
+
+    KernelRequest request;
+    request.name = "probe class " + std::to_string(element_class);
+    request.kernel = kernel;
+    request.precision = Precision::float64;
+    request.instances = {m_on_device.instance(element_class)};
+    request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
+    request.push_constant_bytes = static_cast<std::uint32_t>(constants.size());
+    const std::array<const Buffer*, 2> bindings{&input, &output};
+    const auto n_groups = static_cast<std::uint32_t>((n_items + group_size - 1) / group_size);
+    ComposedKernel(m_device, request).dispatch(bindings, constants, n_groups);
+}
 
 std::vector<Inversion> DeviceEvaluator::invert(std::span<const InversionQuery> queries) {
     std::vector<Inversion> inversions(queries.size());
+    // Only the mapping is needed; a snippet always comes with a field.
+    m_on_device.select(0, 0, std::vector<double>(m_volume->fields()[0].n_components, 0.0));
     for_each_class(m_volume->classes(), queries, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
-        const DeviceClass on_device(m_device, *m_volume, c, 0, 0);
         const ClassInfo& info = m_volume->classes()[c];
         for (std::size_t first = 0; first < indices.size(); first += block_size) {
             const std::size_t count = std::min(block_size, indices.size() - first);
@@ -74,8 +103,7 @@ std::vector<Inversion> DeviceEvaluator::invert(std::span<const InversionQuery> q
             const Buffer input(m_device, count * sizeof(DevicePoint));
             const Buffer output(m_device, count * sizeof(DeviceAnswer));
             input.write_items(std::span<const DevicePoint>(points));
-            on_device.run("kernels/probe_invert.comp", std::as_bytes(std::span(&m_position_error, 1)), input, output,
-                          static_cast<std::uint32_t>(count));
+            run("kernels/probe_invert.comp", c, std::as_bytes(std::span(&m_position_error, 1)), input, output, count);
             const auto answers = output.read_items<DeviceAnswer>(count);
             for (std::size_t i = 0; i < count; ++i) {
                 const DeviceAnswer& answer = answers[i];
@@ -97,8 +125,9 @@ std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uin
                                                    std::span<const ReferencePoint> points) {
     const std::size_t n_components = m_volume->fields()[field].n_components;
     std::vector<FieldSample> samples(points.size());
+    // Double precision has digits enough for any offset.
+    m_on_device.select(field, time_step, std::vector<double>(n_components, 0.0));
     for_each_class(m_volume->classes(), points, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
-        const DeviceClass on_device(m_device, *m_volume, c, field, time_step);
         const ClassInfo& info = m_volume->classes()[c];
         const bool is_estimated = (m_volume->snippet(c).capabilities & ELVIS_SNIPPET_FIELD_GRADIENT) == 0;
         for (std::size_t first = 0; first < indices.size(); first += block_size) {
@@ -113,7 +142,7 @@ std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uin
             const Buffer input(m_device, count * sizeof(DevicePoint));
             const Buffer output(m_device, n_numbers * sizeof(double));
             input.write_items(std::span<const DevicePoint>(inputs));
-            on_device.run("kernels/probe_evaluate.comp", {}, input, output, static_cast<std::uint32_t>(count));
+            run("kernels/probe_evaluate.comp", c, {}, input, output, count);
             const auto numbers = output.read_items<double>(n_numbers);
             for (std::size_t i = 0; i < count; ++i) {
                 FieldSample& sample = samples[indices[first + i]];

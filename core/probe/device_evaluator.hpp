@@ -6,9 +6,9 @@
 
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/probe/point_evaluator.hpp>
+#include <core/volume/device_volume.hpp>
 #include <core/vulkan/device.hpp>
 
-#include <memory>
 #include <string>
 
 namespace elvis {
@@ -18,15 +18,22 @@ class DeviceEvaluator : public PointEvaluator {
 public:
     /** `device` as for choose_device. An Error if the device has no double precision or the volume no field. */
     DeviceEvaluator(const RuntimeVolume& volume, const std::string& device);
-    ~DeviceEvaluator() override;
 
     std::vector<Inversion> invert(std::span<const InversionQuery> queries) override;
     std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step,
                                       std::span<const ReferencePoint> points) override;
 
 private:
+    /**
+     * Runs a kernel of one class with two storage buffers, input and output, over n_items invocations; its push constants end
+     * with n_items (uint).
+     */
+    void run(const std::string& kernel, std::uint32_t element_class, std::span<const std::byte> parameters, const Buffer& input,
+             const Buffer& output, std::size_t n_items) const;
+
     Device m_device;
     const RuntimeVolume* m_volume;
+    DeviceVolume m_on_device;
     /** Rounding of positions in world coordinates. */
     double m_position_error = 0;
 };

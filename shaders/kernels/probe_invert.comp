@@ -4,7 +4,7 @@
 
 layout(local_size_x = 32) in;
 
-// `x`, `y`, `z`: position in the snippet's coordinates of the element.
+// `x`, `y`, `z`: position in world coordinates.
 struct core_query {
     double x, y, z;
     uint element;
@@ -33,7 +33,8 @@ void main() {
         return;
     }
     const uint element = core_queries[index].element;
-    const elvis_vec3 target = elvis_vec3(core_queries[index].x, core_queries[index].y, core_queries[index].z);
+    const elvis_vec3 target =
+        elvis_vec3(core_queries[index].x, core_queries[index].y, core_queries[index].z) - elvis_origin(element);
     const elvis_vec3 start = CORE_CENTROID;
     core_newton state = core_newton_begin(start.x, start.y, start.z, false);
     core_inverse inverse_jacobian;
