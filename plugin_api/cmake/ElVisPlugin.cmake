@@ -35,6 +35,9 @@ function(elvis_add_plugin name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} MODULE ${ARG_SOURCES})
   set_target_properties(${name} PROPERTIES PREFIX "" C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden)
+  if(NOT CMAKE_CXX_STANDARD)
+    set_target_properties(${name} PROPERTIES CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON)
+  endif()
   target_link_libraries(${name} PRIVATE ElVis::plugin_api ${ARG_LINK})
   # Nothing else is exported, static libraries linked in included: symbols that the C++ library declares unique in the process
   # would keep the plugin in memory after it has been unloaded.
