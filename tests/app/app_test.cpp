@@ -100,14 +100,14 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
 TEST_CASE("A scene file and the same options give the same picture") {
     const Workplace place;
     place.write("scene.json",
-                R"({"version": 1, "volume": {"path": "ball.h5"}, "field": "taylor-green[0]", "image": {"size": [80, 60]},
+                R"({"version": 1, "volume": {"path": "ball.h5"}, "field": "velocity[0]", "image": {"size": [80, 60]},
                                   "color_map": {"name": "coolwarm", "range": [-1, 1]},
                                   "surfaces": [{"type": "plane", "plane": [1, 0, 0.5, 0]}]})");
     REQUIRE(place.run("render scene.json -o scene.png").status == 0);
     REQUIRE(
         place
             .run(
-                "render ball.h5 --field 'taylor-green[0]' --size 80x60 --color-map coolwarm --range -1,1 --cut-plane 1,0,0.5,0 "
+                "render ball.h5 --field 'velocity[0]' --size 80x60 --color-map coolwarm --range -1,1 --cut-plane 1,0,0.5,0 "
                 "-o options.png")
             .status == 0);
     CHECK(read_file(place.path("scene.png")) == read_file(place.path("options.png")));
@@ -127,7 +127,7 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
         {"render missing.h5 -o x.png", 1, "missing.h5"},
         {"render not_a_volume.h5 -o x.png", 1, "not_a_volume.h5"},
         {"render ball.json -o x.png", 1, "elvis convert"},
-        {"render ball.h5 --field pressure -o x.png", 1, "sphere"},
+        {"render ball.h5 --field temperature -o x.png", 1, "sphere"},
         {"render ball.h5 --field 'sphere[3]' -o x.png", 1, "components"},
         {"render unknown_key.json -o x.png", 1, "color_map"},
         {"render broken.json -o x.png", 1, "broken.json:2"},
