@@ -9,6 +9,7 @@
 
 namespace elvis::commands {
 
+void add_bench(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_info(CLI::App& app);

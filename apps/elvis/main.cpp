@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
         elvis::set_up_log(verbose ? elvis::Verbosity::verbose : quiet ? elvis::Verbosity::quiet : elvis::Verbosity::normal);
     });
 
+    elvis::commands::add_bench(app);
     elvis::commands::add_convert(app);
     elvis::commands::add_devices(app);
     elvis::commands::add_info(app);

@@ -99,8 +99,10 @@ struct Frame {
     std::vector<double> normal;        ///< 3 a pixel, unit, towards the viewer; NaN where nothing was hit
     std::vector<std::uint32_t> flags;
     FrameCounts counts;
-    /** Device time of this frame, without upload, hierarchy and compilation. */
+    /** Wall time of this frame, without upload, hierarchy and compilation. */
     double render_milliseconds = 0;
+    /** What render_milliseconds would be on a machine with nothing else to do (DeviceTimer). */
+    double device_milliseconds = 0;
 };
 
 } // namespace elvis

@@ -1,6 +1,7 @@
 #include <core/render/color_pass.hpp>
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/cut_plane_pass.hpp>
+#include <core/render/device_time.hpp>
 #include <core/render/field_range.hpp>
 #include <core/render/real_array.hpp>
 #include <core/render/renderer.hpp>
@@ -199,7 +200,7 @@ Frame Renderer::render(const FrameRequest& request) {
     const Buffer colors(impl.device, 4 * n_pixels * real_bytes(impl.precision));
     const bool is_discontinuous = impl.volume.fields()[request.field.field].continuity != ELVIS_CONTINUITY_CONTINUOUS;
     std::vector<Vector3> normals;
-    const Clock::time_point start = Clock::now();
+    const DeviceTimer timer(impl.device);
     impl.color_pass.clear(samples, static_cast<std::uint32_t>(n_pixels));
     for (std::uint32_t surface = 0; surface < request.cut_planes.size(); ++surface) {
         const CutPlaneGeometry geometry =
@@ -210,7 +211,8 @@ Frame Renderer::render(const FrameRequest& request) {
     }
     impl.color_pass.draw(samples, colors, static_cast<std::uint32_t>(n_pixels), request.colors, request.background, offset,
                          common_flags);
-    frame.render_milliseconds = milliseconds_since(start);
+    frame.render_milliseconds = timer.wall_milliseconds();
+    frame.device_milliseconds = timer.milliseconds();
 
     if (impl.precision == Precision::float64) {
         impl.read_samples<double>(samples, colors, normals, offset, frame);

@@ -1,0 +1,110 @@
+#include "commands.hpp"
+
+#include <core/base/error.hpp>
+#include <core/bench/bench.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace elvis::commands {
+
+namespace {
+
+struct Arguments {
+    std::string suite;
+    std::string device;
+    std::string data;
+    std::vector<std::uint32_t> elements{16, 32};
+    std::vector<std::uint32_t> orders{3, 6, 8};
+    std::vector<std::uint32_t> sizes{512, 1024};
+    bool json = false;
+};
+
+nlohmann::ordered_json to_json(const CutPlaneResult& result) {
+    return {{"elements_a_side", result.elements_a_side},
+            {"order", result.order},
+            {"size", result.size},
+            {"milliseconds", result.milliseconds},
+            {"wall_milliseconds", result.wall_milliseconds},
+            {"ratio_to_prototype", result.ratio_to_prototype},
+            {"evaluations_a_pixel", result.evaluations_a_pixel},
+            {"newton_steps_a_pixel", result.newton_steps_a_pixel},
+            {"field_bytes", result.memory.field_bytes},
+            {"geometry_bytes", result.memory.geometry_bytes},
+            {"hierarchy_bytes", result.memory.hierarchy_bytes},
+            {"field_overhead", result.field_overhead},
+            {"geometry_overhead", result.geometry_overhead},
+            {"hierarchy_bytes_an_element", result.hierarchy_bytes_an_element}};
+}
+
+void print(const CutPlaneResult& result, double unit) {
+    std::printf("%2u^3  p%-2u %4u^2  %8.1f ms %9.3g U  %5.2f of the prototype   wall %7.1f ms   a pixel: %.2f values, %.2f "
+                "steps   bytes: field x %.2f, geometry x %.2f, hierarchy %.0f an element\n",
+                result.elements_a_side, result.order, result.size, result.milliseconds, 1e6 * result.milliseconds / unit,
+                result.ratio_to_prototype, result.wall_milliseconds, result.evaluations_a_pixel, result.newton_steps_a_pixel,
+                result.field_overhead, result.geometry_overhead, result.hierarchy_bytes_an_element);
+    std::fflush(stdout);
+}
+
+void run(const Arguments& arguments) {
+    nlohmann::ordered_json root;
+    const bool all = arguments.suite == "all";
+    if (all || arguments.suite == "hierarchy") {
+        const HierarchyResult result = bench_hierarchy(2000000);
+        root["hierarchy"] = {{"n_items", result.n_items},
+                             {"wall_milliseconds", result.wall_milliseconds},
+                             {"depth", result.depth},
+                             {"boxes_a_query", result.boxes_a_query}};
+        if (!arguments.json) {
+            std::printf("hierarchy of %llu boxes: %.0f ms, depth %u, %.2f boxes at a point\n",
+                        static_cast<unsigned long long>(result.n_items), result.wall_milliseconds, result.depth,
+                        result.boxes_a_query);
+        }
+    }
+    if (all || arguments.suite == "unit" || arguments.suite == "cut-plane") {
+        const PluginRegistry registry;
+        const BenchFolder folder(arguments.data);
+        const Device device(arguments.device);
+        const double unit = bench_unit(device, registry, folder).nanoseconds;
+        root["device"] = device.summary().name;
+        root["unit_nanoseconds"] = unit;
+        if (!arguments.json) {
+            std::printf("%s\nU = %.0f ns: eight values of an order-6 hexahedron on one core\n", device.summary().name.c_str(),
+                        unit);
+        }
+        if (arguments.suite != "unit") {
+            root["cut_plane"] = nlohmann::ordered_json::array();
+            bench_cut_plane(device, registry, folder, arguments.elements, arguments.orders, arguments.sizes, unit,
+                            [&](const CutPlaneResult& result) {
+                                root["cut_plane"].push_back(to_json(result));
+                                if (!arguments.json) {
+                                    print(result, unit);
+                                }
+                            });
+        }
+    }
+    if (arguments.json) {
+        std::printf("%s\n", root.dump(2).c_str());
+    }
+}
+
+} // namespace
+
+void add_bench(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bench", "Measure speed and memory on scenes that anyone can repeat");
+    auto arguments = std::make_shared<Arguments>();
+    command->add_option("suite", arguments->suite, "unit, cut-plane, hierarchy or all")
+        ->check(CLI::IsMember({"unit", "cut-plane", "hierarchy", "all"}))
+        ->default_val("all");
+    command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
+    command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
+    command->add_option("--elements", arguments->elements, "Elements along each side")->delimiter(',');
+    command->add_option("--orders", arguments->orders, "Orders of the field")->delimiter(',');
+    command->add_option("--sizes", arguments->sizes, "Sides of the picture in pixels")->delimiter(',');
+    command->add_flag("--json", arguments->json, "Answer in JSON");
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace elvis::commands

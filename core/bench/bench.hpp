@@ -1,0 +1,59 @@
+/**
+ * @file bench.hpp
+ * Measurements that anyone can repeat. Times are compared across machines and days in the unit U: the core-nanoseconds of one
+ * order-6 hexahedron field value (343 coefficients) for a full subgroup of eight lanes, measured in the same run.
+ *
+ * Times of the device are processor time of this process over the number of processors, what an idle machine would show; where
+ * the device is no processor, wall time.
+ */
+#pragma once
+
+#include <core/bench/waves.hpp>
+#include <core/render/renderer.hpp>
+#include <core/vulkan/device.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace elvis {
+
+struct UnitResult {
+    /** Nanoseconds of one processor core for eight values (of the whole device, if it is no processor). */
+    double nanoseconds = 0;
+    std::uint64_t n_values = 0;
+};
+UnitResult bench_unit(const Device& device, const PluginRegistry& registry, const BenchFolder& folder);
+
+struct CutPlaneResult {
+    std::uint32_t elements_a_side = 0;
+    std::uint32_t order = 0;
+    std::uint32_t size = 0;
+    double milliseconds = 0;
+    double wall_milliseconds = 0;
+    /** In the same unit, over the prototype's with U = 550 ns; 0 where the prototype has no figure. */
+    double ratio_to_prototype = 0;
+    double evaluations_a_pixel = 0;
+    double newton_steps_a_pixel = 0;
+    RendererMemory memory;
+    /** On the device over what the coefficients alone take in single precision; bytes an element for the hierarchy. */
+    double field_overhead = 0;
+    double geometry_overhead = 0;
+    double hierarchy_bytes_an_element = 0;
+};
+/** Calls `report` after each scene. */
+void bench_cut_plane(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
+                     const std::vector<std::uint32_t>& elements_a_side, const std::vector<std::uint32_t>& orders,
+                     const std::vector<std::uint32_t>& sizes, double unit_nanoseconds,
+                     const std::function<void(const CutPlaneResult&)>& report);
+
+struct HierarchyResult {
+    std::uint64_t n_items = 0;
+    double wall_milliseconds = 0;
+    std::uint32_t depth = 0;
+    /** Boxes that a query at a random point of the volume finds, on average. */
+    double boxes_a_query = 0;
+};
+HierarchyResult bench_hierarchy(std::uint64_t n_items);
+
+} // namespace elvis

@@ -1,0 +1,65 @@
+#include <core/bench/waves.hpp>
+
+#include <core/base/error.hpp>
+#include <core/convert/convert.hpp>
+#include <core/plugin_host/source_volume.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+namespace elvis {
+
+BenchFolder::BenchFolder(const std::string& kept) : m_path(kept), m_is_kept(!kept.empty()) {
+    if (m_is_kept) {
+        std::filesystem::create_directories(m_path);
+        return;
+    }
+    std::string pattern = (std::filesystem::temp_directory_path() / "elvis-bench-XXXXXX").string();
+    if (!::mkdtemp(pattern.data())) {
+        throw Error(pattern, "the folder for the benchmark's volumes cannot be created");
+    }
+    m_path = pattern;
+}
+
+BenchFolder::~BenchFolder() {
+    if (!m_is_kept) {
+        std::error_code ignored;
+        std::filesystem::remove_all(m_path, ignored);
+    }
+}
+
+RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& folder, std::uint32_t n, std::uint32_t order) {
+    const std::string name = "waves-" + std::to_string(n) + "-order-" + std::to_string(order);
+    const std::string description = (folder.path() / (name + ".json")).string();
+    const std::string path = (folder.path() / (name + ".h5")).string();
+    if (!std::filesystem::exists(path)) {
+        std::ofstream file(description);
+        file << R"({"generator":1,"mesh":"waves","shape":"hexahedron","geometry_order":2,"field":"waves","elements":)" << n
+             << R"(,"order":)" << order << "}\n";
+        file.close();
+        if (!file) {
+            throw Error(description, "cannot be written");
+        }
+        const SourceVolume source(registry.converter_for(description), {description});
+        convert(source, path, {}, {});
+    }
+    return RuntimeVolume(registry.runtime_for(path), path);
+}
+
+FrameRequest waves_cut_plane(std::uint32_t size) {
+    FrameRequest request;
+    request.width = size;
+    request.height = size;
+    request.camera.eye = {2.9, 2.3, 1.7};
+    request.camera.up = {0, 0, 1};
+    request.camera.field_of_view = 40;
+    request.background = {1, 1, 1, 1};
+    request.colors.points = {{-2, {0, 0, 1}}, {0, {1, 1, 1}}, {2, {1, 0, 0}}};
+    request.colors.below = {0, 0, 0.5, 1};
+    request.colors.above = {0.5, 0, 0, 1};
+    request.cut_planes = {{{0.3, 0.25, 1, -0.05 * std::sqrt(0.3 * 0.3 + 0.25 * 0.25 + 1)}}};
+    return request;
+}
+
+} // namespace elvis
