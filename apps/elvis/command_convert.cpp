@@ -35,23 +35,29 @@ struct Arguments {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-/** Ctrl-C asks the task to stop instead of ending the process, as long as this lives. */
+/** Ctrl-C and a polite kill ask the task to stop instead of ending the process, as long as this lives. */
 class InterruptGuard {
 public:
     explicit InterruptGuard(TaskControl& control)
-        : m_previous(std::signal(SIGINT, [](int) { interrupted = true; })),
-          m_watcher([this, &control](const std::stop_token& stop) {
+        : m_previous_interrupt(std::signal(SIGINT, on_signal)), m_previous_terminate(std::signal(SIGTERM, on_signal)),
+          m_watcher([&control](const std::stop_token& stop) {
               while (!stop.stop_requested()) {
                   control.cancelled = interrupted.load();
                   std::this_thread::sleep_for(std::chrono::milliseconds(20));
               }
           }) {}
-    ~InterruptGuard() { std::signal(SIGINT, m_previous); }
+    ~InterruptGuard() {
+        std::signal(SIGINT, m_previous_interrupt);
+        std::signal(SIGTERM, m_previous_terminate);
+    }
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
 private:
-    void (*m_previous)(int);
+    static void on_signal(int) { interrupted = true; }
+
+    void (*m_previous_interrupt)(int);
+    void (*m_previous_terminate)(int);
     std::jthread m_watcher;
 };
 

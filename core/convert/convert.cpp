@@ -326,7 +326,9 @@ FieldReport Conversion::make_field_report(std::size_t index, bool geometry_exact
     if (m_plans[index].transform == ELVIS_TRANSFORM_NONE) {
         field.max_jump = m_meters[index].largest();
         const double rounding = std::max(continuous_part_of_range * range, continuous_part_of_size * size);
-        field.continuity = field.max_jump <= rounding ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
+        const bool may_be_continuous = m_plans[index].continuity != ELVIS_CONTINUITY_DISCONTINUOUS;
+        field.continuity =
+            may_be_continuous && field.max_jump <= rounding ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
     } else {
         field.max_jump = std::numeric_limits<double>::quiet_NaN();
         field.continuity = source.continuity;

@@ -40,7 +40,10 @@ struct FieldReport {
     std::uint32_t mantissa_bits = 53;
     /** Largest jump across shared faces, in the field's unit; NaN for fields with a transform, which is not measured. */
     double max_jump = 0;
-    /** As the jump shows it; for fields with a transform what the source says. */
+    /**
+     * Discontinuous if that was declared or if the jump is more than rounding; else continuous. For fields with a transform
+     * what the source says.
+     */
     elvis_continuity continuity = ELVIS_CONTINUITY_UNKNOWN;
     /** Smallest and largest value among all samples of all components. */
     double lower = 0;

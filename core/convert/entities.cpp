@@ -66,55 +66,76 @@ void append_triangle(GaussPoints& points, const std::array<native::Point, 4>& co
 class Builder {
 public:
     explicit Builder(const native::Space& space)
-        : m_space(space), m_is_taken(native::n_modes(space), false), m_blocks(static_cast<Eigen::Index>(m_is_taken.size()), 0) {
-    }
+        : m_space(space), m_matrix(static_cast<Eigen::Index>(native::n_modes(space)), 0) {}
 
-    /** Lets the modes that are new on an entity (all that are left, in the interior) fit what is left of the data there. */
-    void add(const GaussPoints& points, bool takes_all) {
+    /** Lets the modes that are new on a corner, edge or face fit what is left of the data there. */
+    void add(const GaussPoints& points) {
         const Eigen::MatrixXd at_points = mode_matrix(m_space, points.xi);
         std::vector<Eigen::Index> modes;
-        for (Eigen::Index mode = 0; mode < at_points.cols(); ++mode) {
-            const auto taken = m_is_taken.begin() + mode;
-            if (!*taken && (takes_all || at_points.col(mode).cwiseAbs().maxCoeff() > vanishing)) {
+        for (const Eigen::Index mode : others(m_done)) {
+            if (at_points.col(mode).cwiseAbs().maxCoeff() > vanishing) {
                 modes.push_back(mode);
-                *taken = true;
             }
         }
+        if (!modes.empty()) {
+            add(points.xi, at_points, modes, fit_matrix(at_points(Eigen::all, modes), points.weights));
+        }
+    }
+
+    /** The same in the interior, where all modes that are left are new. */
+    void add_interior(const GaussPoints& points, const std::array<std::uint32_t, 3>& n) {
+        const std::vector<Eigen::Index> modes = others(m_done);
         if (modes.empty()) {
             return;
         }
-        const Eigen::Index n_points = at_points.rows();
-        const Eigen::MatrixXd fit = fit_matrix(at_points(Eigen::all, modes), points.weights);
-
-        // Data at the new points, less what the modes before make of the data before: [ -at_points * before | identity ].
-        const Eigen::Index n_before = m_blocks.cols();
-        Eigen::MatrixXd left(n_points, n_before + n_points);
-        left.leftCols(n_before) = -at_points * m_blocks;
-        left.rightCols(n_points).setIdentity();
-        const Eigen::MatrixXd coefficients = fit * left;
-        m_blocks.conservativeResize(Eigen::NoChange, n_before + n_points);
-        m_blocks.rightCols(n_points).setZero();
-        for (std::size_t index = 0; index < modes.size(); ++index) {
-            m_blocks.row(modes[index]) = coefficients.row(static_cast<Eigen::Index>(index));
-        }
-        m_points.insert(m_points.end(), points.xi.begin(), points.xi.end());
+        const Eigen::MatrixXd at_points = mode_matrix(m_space, points.xi);
+        const bool is_product = m_space.shape == native::Shape::hexahedron;
+        add(points.xi, at_points, modes,
+            is_product ? bubble_projection(m_space, n) : fit_matrix(at_points(Eigen::all, modes), points.weights));
     }
 
-    PointProjection result() && { return {std::move(m_points), std::move(m_blocks)}; }
+    PointProjection result() && { return {std::move(m_points), std::move(m_matrix)}; }
 
 private:
+    /** Modes that are not in a list, ascending. */
+    std::vector<Eigen::Index> others(const std::vector<Eigen::Index>& list) const {
+        std::vector<Eigen::Index> result;
+        for (Eigen::Index mode = 0; mode < m_matrix.rows(); ++mode) {
+            if (std::ranges::find(list, mode) == list.end()) {
+                result.push_back(mode);
+            }
+        }
+        return result;
+    }
+
+    void add(const PointList& xi, const Eigen::MatrixXd& at_points, const std::vector<Eigen::Index>& modes,
+             const Eigen::MatrixXd& fit) {
+        // The fit of the data at the new points, less that of what the modes before make of the data before.
+        const Eigen::Index n_before = m_matrix.cols();
+        m_matrix.conservativeResize(Eigen::NoChange, n_before + at_points.rows());
+        m_matrix.rightCols(at_points.rows()).setZero();
+        const Eigen::MatrixXd of_modes_before = fit * at_points(Eigen::all, m_done);
+        const Eigen::MatrixXd of_data_before = -of_modes_before * m_matrix(m_done, Eigen::seqN(0, n_before));
+        for (std::size_t index = 0; index < modes.size(); ++index) {
+            m_matrix.row(modes[index]) << of_data_before.row(static_cast<Eigen::Index>(index)),
+                fit.row(static_cast<Eigen::Index>(index));
+        }
+        m_done.insert(m_done.end(), modes.begin(), modes.end());
+        m_points.insert(m_points.end(), xi.begin(), xi.end());
+    }
+
     native::Space m_space;
-    std::vector<bool> m_is_taken;
+    std::vector<Eigen::Index> m_done;
     PointList m_points;
-    Eigen::MatrixXd m_blocks;
+    Eigen::MatrixXd m_matrix;
 };
 
 } // namespace
 
 PointProjection entity_projection(const native::Space& space) {
     const native::Shape shape = space.shape;
-    const std::array<std::uint32_t, 3> collapsed = native::collapsed_order(space);
-    const std::uint32_t n = *std::max_element(collapsed.begin(), collapsed.end()) + 2;
+    // The same number on a face whatever shape it belongs to, for elements of the same order.
+    const std::uint32_t n = *std::max_element(space.order.begin(), space.order.end()) + 2;
     std::vector<double> z(n), weights(n);
     native::gauss_legendre(z, weights);
 
@@ -122,14 +143,14 @@ PointProjection entity_projection(const native::Space& space) {
     for (int corner = 0; corner < native::n_corners(shape); ++corner) {
         GaussPoints points;
         append(points, native::corner(shape, corner), 1);
-        builder.add(points, false);
+        builder.add(points);
     }
     for (const auto& [a, b] : edges(shape)) {
         GaussPoints points;
         for (std::size_t i = 0; i < n; ++i) {
             append(points, combine(native::corner(shape, a), native::corner(shape, b), 0.5 * (1 + z[i])), weights[i]);
         }
-        builder.add(points, false);
+        builder.add(points);
     }
     for (int face = 0; face < native::n_faces(shape); ++face) {
         const std::span<const int> local = native::face_corners(shape, face);
@@ -141,9 +162,13 @@ PointProjection entity_projection(const native::Space& space) {
         } else {
             append_triangle(points, corners, z, weights);
         }
-        builder.add(points, false);
+        builder.add(points);
     }
-    builder.add(gauss_points(shape, {n, n, n}), true);
+    std::array<std::uint32_t, 3> inside = native::collapsed_order(space);
+    for (std::uint32_t& direction : inside) {
+        direction += 2;
+    }
+    builder.add_interior(gauss_points(shape, inside), inside);
     return std::move(builder).result();
 }
 

@@ -106,10 +106,10 @@ Eigen::MatrixXd fit_matrix(const Eigen::MatrixXd& modes, std::span<const double>
 namespace {
 
 /**
- * Fit of the functions A_0 .. A_order of one direction at its Gauss points, weighted by l(z)^collapse. They are the first modes
- * of a hexahedron where the other two factors are A_0(-1) = 1.
+ * Fit of the functions A_first .. A_order of one direction at its Gauss points, weighted by l(z)^collapse. They are the first
+ * modes of a hexahedron where the other two factors are A_0(-1) = 1.
  */
-Eigen::MatrixXd line_fit(std::uint32_t order, std::uint32_t n, int collapse) {
+Eigen::MatrixXd line_fit(std::uint32_t order, std::uint32_t n, int collapse, std::uint32_t first = 0) {
     std::vector<double> z(n), weights(n);
     native::gauss_legendre(z, weights);
     PointList xi;
@@ -118,7 +118,7 @@ Eigen::MatrixXd line_fit(std::uint32_t order, std::uint32_t n, int collapse) {
         weights[i] *= std::pow(0.5 * (1 - z[i]), collapse);
     }
     const native::Space space{native::Shape::hexahedron, native::Basis::modified, {order, 1, 1}};
-    return fit_matrix(mode_matrix(space, xi).leftCols(static_cast<Eigen::Index>(order) + 1), weights);
+    return fit_matrix(mode_matrix(space, xi).middleCols(first, order + 1 - first), weights);
 }
 
 /** Matrix of a product of three fits. Modes with the first index fastest, or the last; points with the first index fastest. */
@@ -211,6 +211,13 @@ PointProjection element_projection(const native::Space& space, const std::array<
     }
     result.xi = std::move(points.xi);
     return result;
+}
+
+Eigen::MatrixXd bubble_projection(const native::Space& space, const std::array<std::uint32_t, 3>& n) {
+    constexpr std::uint32_t first = 2;
+    return product({line_fit(space.order[0], n[0], 0, first), line_fit(space.order[1], n[1], 0, first),
+                    line_fit(space.order[2], n[2], 0, first)},
+                   true);
 }
 
 } // namespace elvis

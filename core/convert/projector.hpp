@@ -56,4 +56,8 @@ struct PointProjection {
  */
 PointProjection element_projection(const native::Space& space, const std::array<std::uint32_t, 3>& n);
 
+/** The fit (interior modes x points) of the interior modes alone of a modified hexahedron, from n Gauss points in each
+ * direction. */
+Eigen::MatrixXd bubble_projection(const native::Space& space, const std::array<std::uint32_t, 3>& n);
+
 } // namespace elvis
