@@ -1,3 +1,4 @@
+#include <core/base/float_rounding.hpp>
 #include <core/render/cut_plane_geometry.hpp>
 
 #include <cmath>
@@ -38,7 +39,7 @@ CutPlaneGeometry cut_plane_geometry(const CutPlane& plane, const Camera& camera,
     const double distance = to_plane > 0.1 * to_look_at && to_plane < 10 * to_look_at ? to_plane : to_look_at;
     Vector3 reference = plus(camera.eye, axis, distance);
     for (double& coordinate : reference) {
-        coordinate = static_cast<double>(static_cast<float>(coordinate));
+        coordinate = exact_in_float(coordinate);
     }
 
     // Picture coordinates s and v (both over half the height) as functions of column and row.

@@ -1,3 +1,4 @@
+#include <core/base/float_rounding.hpp>
 #include <core/volume/device_volume.hpp>
 
 #include <algorithm>
@@ -16,8 +17,6 @@ using Clock = std::chrono::steady_clock;
 double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-double exact_in_float(double x) { return static_cast<double>(static_cast<float>(x)); }
 
 } // namespace
 
