@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 # Debian 12 packages. Tools, then libraries, then what only the tests use.
 packages=(
     cmake ninja-build g++ pkg-config
-    libvulkan-dev mesa-vulkan-drivers glslang-dev spirv-tools
+    libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
     libboost-filesystem-dev libeigen3-dev libhdf5-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libpng-dev
     libpugixml-dev
 )
