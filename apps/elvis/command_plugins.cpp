@@ -48,8 +48,14 @@ void print_json(const PluginRegistry& registry) {
 
 void print_table(const PluginRegistry& registry) {
     for (const auto& plugin : registry.plugins()) {
-        std::printf("%s %s (%s)\n    %s\n    %s\n", plugin->id().c_str(), plugin->version().c_str(),
-                    capabilities(*plugin).c_str(), plugin->description().c_str(), plugin->library().c_str());
+        std::printf("%s %s (%s)\n", plugin->id().c_str(), plugin->version().c_str(), capabilities(*plugin).c_str());
+        const std::string vendor = plugin->vendor().empty() ? "" : ", by " + plugin->vendor();
+        std::printf("    %s%s, plugin interface %s\n", plugin->name().c_str(), vendor.c_str(),
+                    version_text(plugin->abi_version()).c_str());
+        if (!plugin->description().empty()) {
+            std::printf("    %s\n", plugin->description().c_str());
+        }
+        std::printf("    %s\n", plugin->library().c_str());
     }
     for (const RefusedPlugin& refused : registry.refused()) {
         std::printf("refused: %s\n    %s\n", refused.library.c_str(), refused.reason.c_str());

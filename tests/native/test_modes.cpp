@@ -173,6 +173,25 @@ TEST_CASE("Vertex modes are 1 at their corner and 0 at the others") {
         }
 }
 
+TEST_CASE("At order 1 coefficients are corner values in the order that format.md lists") {
+    const std::vector<std::pair<Shape, std::vector<int>>> orders{{Shape::hexahedron, {0, 1, 3, 2, 4, 5, 7, 6}},
+                                                                 {Shape::prism, {0, 4, 3, 5, 1, 2}},
+                                                                 {Shape::pyramid, {0, 4, 3, 1, 2}},
+                                                                 {Shape::tetrahedron, {0, 3, 2, 1}},
+                                                                 {Shape::quadrilateral, {0, 1, 3, 2}},
+                                                                 {Shape::triangle, {0, 2, 1}}};
+    for (const auto& [shape, corners] : orders) {
+        const Space space{shape, Basis::modified, {1, 1, dimension(shape) == 3 ? 1U : 0U}};
+        CAPTURE(text(space));
+        std::vector<double> values(n_modes(space));
+        REQUIRE(values.size() == corners.size());
+        for (std::size_t mode = 0; mode < values.size(); ++mode) {
+            evaluate_modes(space, corner(shape, corners[mode]), values);
+            CHECK(values[mode] == 1.0);
+        }
+    }
+}
+
 TEST_CASE("Edge and face modes vanish on the faces that do not hold them") {
     struct Entity {
         Shape shape;

@@ -60,9 +60,9 @@ TestVolume::TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field
     m_description.times = std::move(times);
     m_description.boundary_groups = {"wall", "inflow"};
     m_description.notes = {{"source file", "random"}};
-    m_description.n_faces = 1;
     for (const ClassPlan& plan : classes)
         m_description.classes.push_back({plan.geometry, plan.fields, plan.n_elements});
+    m_description.n_faces = m_description.n_elements() > static_cast<std::uint64_t>(example_face().element) ? 1 : 0;
 
     Random random(11);
     for (const ClassPlan& plan : classes) {
@@ -101,8 +101,10 @@ TestVolume::TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field
                 writer.write_field(field, time, i, 0, classes[i].n_elements,
                                    m_fields[(field * m_description.times.size() + time) * classes.size() + i]);
     }
-    const native::Face face = example_face();
-    writer.write_faces(0, 1, std::span(&face, 1));
+    if (m_description.n_faces == 1) {
+        const native::Face face = example_face();
+        writer.write_faces(0, 1, std::span(&face, 1));
+    }
     writer.commit();
 }
 

@@ -1,7 +1,10 @@
 #include "hdf5.hpp"
 
+#include "description.hpp"
+
 #include <algorithm>
 #include <cstring>
+#include <exception>
 
 namespace elvis::native::h5 {
 
@@ -11,7 +14,6 @@ namespace {
 constexpr std::size_t chunk_bytes = 128 * 1024;
 /** Fast, and on shuffled coefficients within a few percent of the best. */
 constexpr unsigned deflate_level = 1;
-constexpr std::size_t longest_text = 1u << 20;
 
 herr_t keep_innermost(unsigned, const H5E_error2_t* error, void* text) {
     auto& message = *static_cast<std::string*>(text);
@@ -43,12 +45,17 @@ std::size_t checked_text_length(hid_t type, const Place& place) {
     return length;
 }
 
+std::string type_name(hid_t type) {
+    const char* kind = H5Tget_class(type) == H5T_FLOAT ? "float" : H5Tget_sign(type) == H5T_SGN_NONE ? "unsigned int" : "int";
+    return "little-endian " + std::string(kind) + std::to_string(8 * H5Tget_size(type));
+}
+
 std::string shape_text(const std::vector<hsize_t>& shape) {
     std::string text;
     for (const hsize_t extent : shape) {
-        text += (text.empty() ? "(" : ", ") + std::to_string(extent);
+        text += (text.empty() ? "" : ", ") + std::to_string(extent);
     }
-    return text + ")";
+    return "(" + text + ")";
 }
 
 void transfer(const Handle& dataset, hid_t type, const std::vector<hsize_t>& start, const std::vector<hsize_t>& count,
@@ -70,11 +77,24 @@ void transfer(const Handle& dataset, hid_t type, const std::vector<hsize_t>& sta
 
 } // namespace
 
-std::unique_lock<std::mutex> lock() {
+namespace {
+
+std::mutex& process_mutex() {
     static std::mutex mutex;
-    std::unique_lock guard(mutex);
+    return mutex;
+}
+
+} // namespace
+
+Lock::Lock() : m_guard(process_mutex()) {
+    H5Eget_auto2(H5E_DEFAULT, &m_printer, &m_printer_data);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    return guard;
+}
+
+Lock::~Lock() {
+    if (std::uncaught_exceptions() == 0) {
+        H5Eset_auto2(H5E_DEFAULT, m_printer, m_printer_data);
+    }
 }
 
 void Place::fail(const std::string& what) const { throw FileError(file, (object.empty() ? "/" : object) + " " + what); }
@@ -106,15 +126,18 @@ void write_attribute_raw(const Handle& object, const char* name, hid_t in_file, 
     check(H5Awrite(attribute.id(), in_memory, data), here, "cannot be written");
 }
 
-void read_attribute_raw(const Handle& object, const char* name, hid_t in_memory, void* data, hsize_t count,
+void read_attribute_raw(const Handle& object, const char* name, hid_t in_file, hid_t in_memory, void* data, hsize_t count,
                         const Place& place) {
     const Place here = place.child(name);
     const Handle attribute(check(H5Aopen(object.id(), name, H5P_DEFAULT), here, "is missing or damaged"), H5Aclose);
     const Handle type(check(H5Aget_type(attribute.id()), here, "has no type"), H5Tclose);
     const Handle space(check(H5Aget_space(attribute.id()), here, "has no shape"), H5Sclose);
-    if (H5Tget_class(type.id()) != H5Tget_class(in_memory) ||
-        H5Sget_simple_extent_npoints(space.id()) != static_cast<hssize_t>(count)) {
-        here.fail("has another type or another number of values than expected");
+    if (H5Tequal(type.id(), in_file) <= 0) {
+        here.fail("has another type than " + type_name(in_file));
+    }
+    const hssize_t found = H5Sget_simple_extent_npoints(space.id());
+    if (found != static_cast<hssize_t>(count)) {
+        here.fail("has " + std::to_string(found) + " values where " + std::to_string(count) + " belong");
     }
     check(H5Aread(attribute.id(), in_memory, data), here, "cannot be read");
 }
@@ -160,13 +183,15 @@ Handle create_dataset(const Handle& parent, const std::string& name, hid_t type,
             H5Dclose};
 }
 
-Handle open_dataset(const Handle& parent, const std::string& name, H5T_class_t type_class, const std::vector<hsize_t>& shape,
+Handle open_dataset(const Handle& parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
                     const Place& place) {
     const Place here = place.child(name);
     Handle dataset(check(H5Dopen2(parent.id(), name.c_str(), H5P_DEFAULT), here, "is missing or damaged"), H5Dclose);
-    const Handle type(check(H5Dget_type(dataset.id()), here, "has no type"), H5Tclose);
-    if (H5Tget_class(type.id()) != type_class) {
-        here.fail("has another type of numbers than expected");
+    const Handle found_type(check(H5Dget_type(dataset.id()), here, "has no type"), H5Tclose);
+    if (H5Tget_class(type) == H5T_STRING) {
+        checked_text_length(found_type.id(), here);
+    } else if (H5Tequal(found_type.id(), type) <= 0) {
+        here.fail("has another type than " + type_name(type));
     }
     const Handle space(check(H5Dget_space(dataset.id()), here, "has no shape"), H5Sclose);
     const int rank = H5Sget_simple_extent_ndims(space.id());
@@ -232,7 +257,7 @@ void write_texts(const Handle& parent, const std::string& name, const std::vecto
 std::vector<std::string> read_texts(const Handle& parent, const std::string& name, const std::vector<hsize_t>& shape,
                                     const Place& place) {
     const Place here = place.child(name);
-    const Handle dataset = open_dataset(parent, name, H5T_STRING, shape, place);
+    const Handle dataset = open_dataset(parent, name, H5T_C_S1, shape, place);
     const Handle type(check(H5Dget_type(dataset.id()), here, "has no type"), H5Tclose);
     const std::size_t length = checked_text_length(type.id(), here);
     std::size_t count = 1;

@@ -2,7 +2,7 @@
  * @file hdf5.hpp
  * HDF5's C library behind handles that close themselves and errors that say where they happened.
  *
- * Every function here is called with the lock of hdf5_lock() held: the library is not re-entrant.
+ * Every function here is called while a Lock is held.
  */
 #pragma once
 
@@ -18,8 +18,25 @@
 
 namespace elvis::native::h5 {
 
-/** The process-wide lock, with HDF5's own printing of errors turned off for this thread. */
-std::unique_lock<std::mutex> lock();
+/**
+ * Holds the lock of this library, with HDF5's own printing of errors turned off for this thread. Other users of HDF5 in the
+ * process are kept apart by HDF5 itself, where it is built thread-safe (as Debian's is).
+ *
+ * Printing is as before afterwards, unless an exception leaves: HDF5 1.10 cannot release all of a damaged file and would print
+ * "infinite loop closing library" when the program ends.
+ */
+class Lock {
+public:
+    Lock();
+    ~Lock();
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+
+private:
+    std::unique_lock<std::mutex> m_guard;
+    H5E_auto2_t m_printer = nullptr;
+    void* m_printer_data = nullptr;
+};
 
 /** An open object of any kind. */
 class Handle {
@@ -103,7 +120,8 @@ Handle create_group(const Handle& parent, const std::string& name, const Place& 
 /** Attributes: arrays of numbers of known length, and texts of fixed length. */
 void write_attribute_raw(const Handle& object, const char* name, hid_t in_file, hid_t in_memory, const void* data,
                          hsize_t count, const Place& place);
-void read_attribute_raw(const Handle& object, const char* name, hid_t in_memory, void* data, hsize_t count, const Place& place);
+void read_attribute_raw(const Handle& object, const char* name, hid_t in_file, hid_t in_memory, void* data, hsize_t count,
+                        const Place& place);
 void write_text(const Handle& object, const char* name, const std::string& text, const Place& place);
 std::string read_text(const Handle& object, const char* name, const Place& place);
 
@@ -112,7 +130,7 @@ template <class T> void write_attribute(const Handle& object, const char* name, 
 }
 template <class T> T read_attribute(const Handle& object, const char* name, const Place& place) {
     T value{};
-    read_attribute_raw(object, name, native_type<T>(), &value, 1, place);
+    read_attribute_raw(object, name, file_type<T>(), native_type<T>(), &value, 1, place);
     return value;
 }
 
@@ -124,10 +142,10 @@ Handle create_dataset(const Handle& parent, const std::string& name, hid_t type,
                       std::size_t row_dimension, std::size_t bytes_a_row, const Place& place);
 
 /**
- * Opens a dataset and refuses it unless type class and shape are as expected, every chunk is present, and every chunk has a
- * checksum.
+ * Opens a dataset and refuses it unless type and shape are as expected, every chunk is present, and every chunk has a checksum.
+ * `type` is exact for numbers; of texts, only that they have a fixed length is asked.
  */
-Handle open_dataset(const Handle& parent, const std::string& name, H5T_class_t type_class, const std::vector<hsize_t>& shape,
+Handle open_dataset(const Handle& parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
                     const Place& place);
 
 /** Reads or writes the box that starts at `start` and is `count` large. */

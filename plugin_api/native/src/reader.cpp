@@ -1,3 +1,4 @@
+#include "description.hpp"
 #include "format.hpp"
 #include "hdf5.hpp"
 
@@ -13,15 +14,6 @@ using h5::Handle;
 using h5::Place;
 
 namespace {
-
-/** More of these than any volume has: a damaged count is found before memory is asked for. */
-constexpr std::uint32_t most_classes = 65536;
-constexpr std::uint32_t most_fields = 4096;
-constexpr std::uint32_t most_components = 1024;
-constexpr std::uint32_t most_notes = 65536;
-constexpr std::uint32_t most_groups = 1000000;
-constexpr std::uint64_t most_times = 10000000;
-constexpr std::uint64_t most_elements = std::uint64_t{1} << 40;
 
 template <class T> T read_count(const Handle& object, const char* name, T least, T most, const Place& place) {
     const T count = h5::read_attribute<T>(object, name, place);
@@ -57,9 +49,9 @@ Space read_space(const Handle& object, Shape shape, const char* basis, const cha
     Space space;
     space.shape = shape;
     space.basis = read_basis(object, basis, place);
-    h5::read_attribute_raw(object, order, H5T_NATIVE_UINT32, space.order.data(), 3, place);
+    h5::read_attribute_raw(object, order, H5T_STD_U32LE, H5T_NATIVE_UINT32, space.order.data(), 3, place);
     try {
-        check(space);
+        check(space); // its number of modes is needed at once
     } catch (const std::invalid_argument& error) {
         place.fail(std::string("names a space that does not exist: ") + error.what());
     }
@@ -79,7 +71,7 @@ struct Reader::Impl {
     Handle faces;
 
     ~Impl() {
-        const auto guard = h5::lock();
+        const h5::Lock guard;
         faces.reset();
         coefficients.clear();
         numbers.clear();
@@ -91,6 +83,10 @@ struct Reader::Impl {
     void read_header();
     void open_classes();
     void open_fields();
+    void check_numbers();
+
+    /** Shape of the element with a number; filled when numbers or faces are first read. */
+    std::vector<Shape> shape_of_number;
 };
 
 void Reader::Impl::open_file() {
@@ -106,7 +102,7 @@ void Reader::Impl::open_file() {
         place.fail("is HDF5, but not a native volume: its attribute 'format' says something else");
     }
     std::uint32_t version[2] = {};
-    h5::read_attribute_raw(file, "version", H5T_NATIVE_UINT32, version, 2, place);
+    h5::read_attribute_raw(file, "version", H5T_STD_U32LE, H5T_NATIVE_UINT32, version, 2, place);
     if (version[0] != format::version_major) {
         place.child("version").fail("is " + std::to_string(version[0]) + "." + std::to_string(version[1]) +
                                     "; this program reads native volumes of version " + std::to_string(format::version_major));
@@ -114,13 +110,9 @@ void Reader::Impl::open_file() {
 }
 
 void Reader::Impl::read_header() {
-    const std::uint32_t dimension = h5::read_attribute<std::uint32_t>(file, "dimension", place);
-    if (dimension != 2 && dimension != 3) {
-        place.child("dimension").fail("is " + std::to_string(dimension) + ", neither 2 nor 3");
-    }
-    description.dimension = static_cast<int>(dimension);
+    description.dimension = static_cast<int>(read_count<std::uint32_t>(file, "dimension", 2, 3, place));
     const hsize_t n_times = read_count<std::uint64_t>(file, "n_times", 1, most_times, place);
-    const Handle times = h5::open_dataset(file, "times", H5T_FLOAT, {n_times}, place);
+    const Handle times = h5::open_dataset(file, "times", H5T_IEEE_F64LE, {n_times}, place);
     description.times.resize(n_times);
     h5::read_box(times, H5T_NATIVE_DOUBLE, {0}, {n_times}, description.times.data(), place.child("times"));
     const auto n_groups = read_count<std::uint32_t>(file, "n_boundary_groups", 0, most_groups, place);
@@ -136,7 +128,7 @@ void Reader::Impl::read_header() {
     }
     description.n_faces = read_count<std::uint64_t>(file, "n_faces", 0, 6 * most_elements, place);
     if (description.n_faces > 0) {
-        faces = h5::open_dataset(file, "faces", H5T_INTEGER, {description.n_faces, format::face_numbers}, place);
+        faces = h5::open_dataset(file, "faces", H5T_STD_I64LE, {description.n_faces, format::face_numbers}, place);
     }
 }
 
@@ -147,15 +139,12 @@ void Reader::Impl::open_classes() {
         const Place here = place.child("classes").child(std::to_string(index));
         const Handle group = h5::open_group(classes, std::to_string(index), here);
         const Shape shape = read_shape(group, here);
-        if (dimension(shape) != description.dimension) {
-            here.child("shape").fail("does not fit the volume's dimension");
-        }
         ElementClass element_class;
         element_class.geometry = read_space(group, shape, "geometry_basis", "geometry_order", here);
         element_class.n_elements = read_count<std::uint64_t>(group, "n_elements", 1, most_elements, here);
         const hsize_t modes = n_modes(element_class.geometry);
-        geometry.push_back(h5::open_dataset(group, "geometry", H5T_FLOAT, {element_class.n_elements, 3, modes}, here));
-        numbers.push_back(h5::open_dataset(group, "numbers", H5T_INTEGER, {element_class.n_elements}, here));
+        geometry.push_back(h5::open_dataset(group, "geometry", H5T_IEEE_F64LE, {element_class.n_elements, 3, modes}, here));
+        numbers.push_back(h5::open_dataset(group, "numbers", H5T_STD_I64LE, {element_class.n_elements}, here));
         description.classes.push_back(std::move(element_class));
     }
     if (h5::read_attribute<std::uint64_t>(file, "n_elements", place) != description.n_elements()) {
@@ -181,13 +170,6 @@ void Reader::Impl::open_fields() {
         }
         field.continuity = *continuity;
         field.transform = *transform;
-        if (field.transform != Transform::none && field.n_components != 3) {
-            here.child("transform").fail("needs three components");
-        }
-        if (field.name.empty() || std::any_of(description.fields.begin(), description.fields.end(),
-                                              [&](const Field& other) { return other.name == field.name; })) {
-            here.child("name").fail("is empty or the name of another field");
-        }
         coefficients.emplace_back();
         for (std::size_t class_index = 0; class_index < description.classes.size(); ++class_index) {
             ElementClass& element_class = description.classes[class_index];
@@ -196,7 +178,7 @@ void Reader::Impl::open_fields() {
             const Handle part = h5::open_group(group, class_name, part_place);
             const Space space = read_space(part, element_class.geometry.shape, "basis", "order", part_place);
             coefficients.back().push_back(h5::open_dataset(
-                part, "coefficients", H5T_FLOAT,
+                part, "coefficients", H5T_IEEE_F64LE,
                 {description.times.size(), element_class.n_elements, field.n_components, n_modes(space)}, part_place));
             element_class.fields.push_back(space);
         }
@@ -204,15 +186,51 @@ void Reader::Impl::open_fields() {
     }
 }
 
+// Every number 0 .. n_elements-1 must belong to one element: callers use numbers as indices.
+void Reader::Impl::check_numbers() {
+    if (!shape_of_number.empty()) {
+        return;
+    }
+    constexpr auto unknown = static_cast<Shape>(0xff);
+    constexpr std::uint64_t rows_at_once = 65536;
+    const std::uint64_t n_elements = description.n_elements();
+    std::vector<Shape> shapes(n_elements, unknown);
+    std::vector<std::int64_t> block;
+    for (std::size_t index = 0; index < description.classes.size(); ++index) {
+        const Place here = place.child("classes").child(std::to_string(index)).child("numbers");
+        const ElementClass& element_class = description.classes[index];
+        for (std::uint64_t first = 0; first < element_class.n_elements; first += rows_at_once) {
+            block.resize(std::min(rows_at_once, element_class.n_elements - first));
+            h5::read_box(numbers[index], H5T_NATIVE_INT64, {first}, {block.size()}, block.data(), here);
+            for (const std::int64_t number : block) {
+                if (number < 0 || static_cast<std::uint64_t>(number) >= n_elements) {
+                    here.fail("holds the number " + std::to_string(number) + " in a volume of " + std::to_string(n_elements) +
+                              " elements");
+                }
+                Shape& shape = shapes[static_cast<std::size_t>(number)];
+                if (shape != unknown) {
+                    here.fail("gives the number " + std::to_string(number) + " to a second element");
+                }
+                shape = element_class.geometry.shape;
+            }
+        }
+    }
+    shape_of_number = std::move(shapes);
+}
+
 Reader::Reader(const std::string& path) : m_impl(std::make_unique<Impl>()) {
     m_impl->path = path;
     m_impl->place = {path, {}};
-    const auto guard = h5::lock();
+    const h5::Lock guard;
     try {
         m_impl->open_file();
         m_impl->read_header();
         m_impl->open_classes();
         m_impl->open_fields();
+        const std::string problem = problem_of(m_impl->description);
+        if (!problem.empty()) {
+            m_impl->place.fail("is inconsistent: " + problem);
+        }
     } catch (const std::bad_alloc&) {
         throw FileError(path, "asks for more memory than there is");
     }
@@ -224,7 +242,7 @@ Reader& Reader::operator=(Reader&&) noexcept = default;
 
 int Reader::probe(const std::string& path) noexcept {
     try {
-        const auto guard = h5::lock();
+        const h5::Lock guard;
         if (H5Fis_hdf5(path.c_str()) <= 0) {
             return 0;
         }
@@ -241,7 +259,7 @@ void Reader::read_geometry(std::size_t element_class, std::uint64_t first, std::
                            std::span<double> coefficients) const {
     const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).geometry);
     assert(coefficients.size() == count * 3 * modes);
-    const auto guard = h5::lock();
+    const h5::Lock guard;
     h5::read_box(m_impl->geometry[element_class], H5T_NATIVE_DOUBLE, {first, 0, 0}, {count, 3, modes}, coefficients.data(),
                  m_impl->place.child("classes").child(std::to_string(element_class)).child("geometry"));
 }
@@ -251,7 +269,7 @@ void Reader::read_field(std::size_t field, std::size_t time_step, std::size_t el
     const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).fields.at(field));
     const std::uint32_t n_components = m_impl->description.fields[field].n_components;
     assert(coefficients.size() == count * n_components * modes);
-    const auto guard = h5::lock();
+    const h5::Lock guard;
     h5::read_box(
         m_impl->coefficients[field][element_class], H5T_NATIVE_DOUBLE, {time_step, first, 0, 0},
         {1, count, n_components, modes}, coefficients.data(),
@@ -262,15 +280,9 @@ void Reader::read_numbers(std::size_t element_class, std::uint64_t first, std::u
                           std::span<std::int64_t> numbers) const {
     assert(numbers.size() == count);
     const Place place = m_impl->place.child("classes").child(std::to_string(element_class)).child("numbers");
-    const auto guard = h5::lock();
+    const h5::Lock guard;
+    m_impl->check_numbers();
     h5::read_box(m_impl->numbers.at(element_class), H5T_NATIVE_INT64, {first}, {count}, numbers.data(), place);
-    const auto n_elements = static_cast<std::int64_t>(m_impl->description.n_elements());
-    for (const std::int64_t number : numbers) {
-        if (number < 0 || number >= n_elements) {
-            place.fail("holds the number " + std::to_string(number) + " in a volume of " + std::to_string(n_elements) +
-                       " elements");
-        }
-    }
 }
 
 void Reader::read_faces(std::uint64_t first, std::uint64_t count, std::span<Face> faces) const {
@@ -280,18 +292,33 @@ void Reader::read_faces(std::uint64_t first, std::uint64_t count, std::span<Face
     }
     const Place place = m_impl->place.child("faces");
     std::vector<std::int64_t> rows(count * format::face_numbers);
-    const auto guard = h5::lock();
+    const h5::Lock guard;
     h5::read_box(m_impl->faces, H5T_NATIVE_INT64, {first, 0}, {count, format::face_numbers}, rows.data(), place);
-    const auto n_elements = static_cast<std::int64_t>(m_impl->description.n_elements());
-    const auto n_groups = static_cast<std::int64_t>(m_impl->description.boundary_groups.size());
+    m_impl->check_numbers();
+    const std::vector<Shape>& shapes = m_impl->shape_of_number;
+    const std::size_t n_groups = m_impl->description.boundary_groups.size();
     for (std::uint64_t index = 0; index < count; ++index) {
         const std::int64_t* row = &rows[index * format::face_numbers];
-        if (row[0] < 0 || row[0] >= n_elements || row[1] < -2 || row[1] >= n_elements || row[2] < 0 || row[2] > 5 ||
-            row[3] < -1 || row[3] > 5 || row[4] < -1 || row[4] >= n_groups) {
-            place.fail("has numbers out of range in row " + std::to_string(first + index));
+        const auto narrow = [&](std::int64_t value) {
+            const auto result = static_cast<std::int32_t>(value);
+            if (result != value) {
+                place.fail("has numbers out of range in row " + std::to_string(first + index));
+            }
+            return result;
+        };
+        Face& face = faces[index];
+        face = {row[0], row[1], narrow(row[2]), narrow(row[3]), narrow(row[4])};
+        std::string problem = problem_of(face, shapes.size(), n_groups);
+        const auto has_face = [&](std::int64_t element, std::int32_t local_face) {
+            return local_face < n_faces(shapes[static_cast<std::size_t>(element)]);
+        };
+        if (problem.empty() && !(has_face(face.element, face.local_face) &&
+                                 (face.neighbour < 0 || has_face(face.neighbour, face.neighbour_local_face)))) {
+            problem = "names a local face that its element's shape does not have";
         }
-        faces[index] = {row[0], row[1], static_cast<std::int32_t>(row[2]), static_cast<std::int32_t>(row[3]),
-                        static_cast<std::int32_t>(row[4])};
+        if (!problem.empty()) {
+            place.fail(problem + ", in row " + std::to_string(first + index));
+        }
     }
 }
 

@@ -1,3 +1,5 @@
+#include "coverage.hpp"
+#include "description.hpp"
 #include "format.hpp"
 #include "hdf5.hpp"
 
@@ -7,10 +9,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <random>
 
 namespace elvis::native {
 
@@ -21,20 +25,12 @@ using h5::Place;
 FileError::FileError(std::string file, const std::string& what)
     : std::runtime_error(file + ": " + what), m_file(std::move(file)) {}
 
-std::uint64_t Description::n_elements() const {
-    std::uint64_t sum = 0;
-    for (const ElementClass& element_class : classes) {
-        sum += element_class.n_elements;
-    }
-    return sum;
-}
-
 namespace {
 
-/** A name beside the target that no other writer has. */
+/** A name beside the target that no other writer has: this process's number, and a random one against leftovers of others. */
 std::string temporary_name(const std::string& path) {
-    static std::atomic<unsigned> counter{0};
-    return path + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    std::random_device random;
+    return path + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(random());
 }
 
 void write_space(const Handle& object, const Space& space, const char* basis_name, const char* order_name, const Place& place) {
@@ -43,12 +39,14 @@ void write_space(const Handle& object, const Space& space, const char* basis_nam
 }
 
 /** Waits until a file, or a folder's list of names, is on the disk. */
-void synchronize(const std::string& path, int flags) {
-    const int descriptor = ::open(path.c_str(), flags);
-    if (descriptor >= 0) {
-        ::fsync(descriptor);
-        ::close(descriptor);
+bool synchronize(const std::string& path, int flags) {
+    const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+    if (descriptor < 0) {
+        return false;
     }
+    const bool is_done = ::fsync(descriptor) == 0;
+    ::close(descriptor);
+    return is_done;
 }
 
 } // namespace
@@ -65,17 +63,20 @@ struct Writer::Impl {
     /** By field, then class. */
     std::vector<std::vector<Handle>> coefficients;
     Handle faces;
-    /** Elements (or faces) not written yet; for fields those of all steps. */
-    std::vector<std::uint64_t> geometry_left;
-    std::vector<std::uint64_t> numbers_left;
-    std::vector<std::vector<std::uint64_t>> coefficients_left;
-    std::uint64_t faces_left = 0;
-    bool is_committed = false;
+    std::vector<Coverage> written_geometry;
+    std::vector<Coverage> written_numbers;
+    /** By field, class and time step. */
+    std::vector<std::vector<std::vector<Coverage>>> written_coefficients;
+    Coverage written_faces;
+    /** Element numbers that have been given out. */
+    std::vector<bool> number_is_used;
+    /** Whether the temporary file is there and ours to remove. */
+    bool is_temporary_there = false;
 
     ~Impl() {
-        if (!is_committed) {
-            const auto guard = h5::lock();
-            close();
+        const h5::Lock guard;
+        close();
+        if (is_temporary_there) {
             std::remove(temporary.c_str());
         }
     }
@@ -101,8 +102,9 @@ void Writer::Impl::create_file() {
     check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), place, "cannot be of this format version");
     file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.id()), H5Fclose);
     if (!file.is_valid()) {
-        throw FileError(path, "cannot be created: is its folder there and writable?");
+        place.fail_with_stack("cannot be created: is its folder there and writable?");
     }
+    is_temporary_there = true;
     h5::write_text(file, "format", format::mark, place);
     const std::uint32_t version[2] = {format::version_major, format::version_minor};
     h5::write_attribute_raw(file, "version", H5T_STD_U32LE, H5T_NATIVE_UINT32, version, 2, place);
@@ -123,15 +125,16 @@ void Writer::Impl::create_file() {
     if (description.n_faces > 0) {
         faces = h5::create_dataset(file, "faces", H5T_STD_I64LE, {description.n_faces, format::face_numbers}, 0,
                                    format::face_numbers * sizeof(std::int64_t), place);
-        faces_left = description.n_faces;
     }
 }
 
 void Writer::Impl::create_classes() {
     const Handle classes = h5::create_group(file, "classes", place.child("classes"));
+    written_geometry.resize(description.classes.size());
+    written_numbers.resize(description.classes.size());
+    number_is_used.resize(description.n_elements());
     for (std::size_t index = 0; index < description.classes.size(); ++index) {
         const ElementClass& element_class = description.classes[index];
-        native::check(element_class.geometry);
         const Place here = place.child("classes").child(std::to_string(index));
         const Handle group = h5::create_group(classes, std::to_string(index), here);
         h5::write_text(group, "shape", std::string(name(element_class.geometry.shape)), here);
@@ -142,8 +145,6 @@ void Writer::Impl::create_classes() {
                                               3 * modes * sizeof(double), here));
         numbers.push_back(
             h5::create_dataset(group, "numbers", H5T_STD_I64LE, {element_class.n_elements}, 0, sizeof(std::int64_t), here));
-        geometry_left.push_back(element_class.n_elements);
-        numbers_left.push_back(element_class.n_elements);
     }
 }
 
@@ -159,10 +160,9 @@ void Writer::Impl::create_fields() {
         h5::write_attribute(group, "n_components", field.n_components, here);
         h5::write_text(group, "transform", format::name_of(format::transforms, field.transform), here);
         coefficients.emplace_back();
-        coefficients_left.emplace_back();
+        written_coefficients.emplace_back(description.classes.size(), std::vector<Coverage>(description.times.size()));
         for (std::size_t element_class = 0; element_class < description.classes.size(); ++element_class) {
             const Space& space = description.classes[element_class].fields.at(index);
-            native::check(space);
             const std::string class_name = std::to_string(element_class);
             const Handle part = h5::create_group(group, class_name, here.child(class_name));
             write_space(part, space, "basis", "order", here.child(class_name));
@@ -171,43 +171,47 @@ void Writer::Impl::create_fields() {
             coefficients.back().push_back(h5::create_dataset(
                 part, "coefficients", H5T_IEEE_F64LE, {description.times.size(), n_elements, field.n_components, modes}, 1,
                 field.n_components * modes * sizeof(double), here.child(class_name)));
-            coefficients_left.back().push_back(n_elements * description.times.size());
         }
     }
 }
 
 void Writer::Impl::check_complete() const {
-    for (std::size_t index = 0; index < description.classes.size(); ++index) {
-        if (geometry_left[index] > 0 || numbers_left[index] > 0) {
-            throw FileError(path, "class " + std::to_string(index) + " lacks geometry or numbers of some elements");
+    const auto require = [&](const Coverage& written, std::uint64_t n_rows, const std::string& what) {
+        const std::uint64_t missing = written.first_missing(n_rows);
+        if (missing < n_rows) {
+            throw FileError(path, what + " is not complete: row " + std::to_string(missing) + " was not written");
         }
-    }
-    for (std::size_t field = 0; field < description.fields.size(); ++field) {
-        for (const std::uint64_t left : coefficients_left[field]) {
-            if (left > 0) {
-                throw FileError(path, "field '" + description.fields[field].name + "' lacks coefficients of some elements");
+    };
+    for (std::size_t index = 0; index < description.classes.size(); ++index) {
+        const std::uint64_t n_elements = description.classes[index].n_elements;
+        const std::string class_name = "class " + std::to_string(index);
+        require(written_geometry[index], n_elements, "the geometry of " + class_name);
+        require(written_numbers[index], n_elements, "the element numbers of " + class_name);
+        for (std::size_t field = 0; field < description.fields.size(); ++field) {
+            for (std::size_t step = 0; step < description.times.size(); ++step) {
+                require(written_coefficients[field][index][step], n_elements,
+                        "field '" + description.fields[field].name + "' of " + class_name + ", time step " +
+                            std::to_string(step));
             }
         }
     }
-    if (faces_left > 0) {
-        throw FileError(path, "some faces are not written");
+    require(written_faces, description.n_faces, "the list of faces");
+    const auto unused = std::find(number_is_used.begin(), number_is_used.end(), false);
+    if (unused != number_is_used.end()) {
+        throw FileError(path, "no element has the number " + std::to_string(unused - number_is_used.begin()));
     }
 }
 
 Writer::Writer(const std::string& path, const Description& description) : m_impl(std::make_unique<Impl>()) {
-    if (description.classes.empty() || description.times.empty()) {
-        throw FileError(path, "a volume needs elements and at least one time");
-    }
-    for (const ElementClass& element_class : description.classes) {
-        if (element_class.n_elements == 0 || element_class.fields.size() != description.fields.size()) {
-            throw FileError(path, "a class needs elements, and one space for each field");
-        }
+    const std::string problem = problem_of(description);
+    if (!problem.empty()) {
+        throw FileError(path, "cannot be written: " + problem);
     }
     m_impl->path = path;
     m_impl->temporary = temporary_name(path);
     m_impl->description = description;
     m_impl->place = {path, {}};
-    const auto guard = h5::lock();
+    const h5::Lock guard;
     m_impl->create_file();
     m_impl->create_classes();
     m_impl->create_fields();
@@ -221,10 +225,10 @@ void Writer::write_geometry(std::size_t element_class, std::uint64_t first, std:
                             std::span<const double> coefficients) {
     const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).geometry);
     assert(coefficients.size() == count * 3 * modes);
-    const auto guard = h5::lock();
+    const h5::Lock guard;
     h5::write_box(m_impl->geometry[element_class], H5T_NATIVE_DOUBLE, {first, 0, 0}, {count, 3, modes}, coefficients.data(),
                   m_impl->place);
-    m_impl->geometry_left[element_class] -= std::min(count, m_impl->geometry_left[element_class]);
+    m_impl->written_geometry[element_class].add(first, count);
 }
 
 void Writer::write_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
@@ -232,19 +236,26 @@ void Writer::write_field(std::size_t field, std::size_t time_step, std::size_t e
     const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).fields.at(field));
     const std::uint32_t n_components = m_impl->description.fields[field].n_components;
     assert(coefficients.size() == count * n_components * modes);
-    const auto guard = h5::lock();
+    const h5::Lock guard;
     h5::write_box(m_impl->coefficients[field][element_class], H5T_NATIVE_DOUBLE, {time_step, first, 0, 0},
                   {1, count, n_components, modes}, coefficients.data(), m_impl->place);
-    std::uint64_t& left = m_impl->coefficients_left[field][element_class];
-    left -= std::min(count, left);
+    m_impl->written_coefficients[field][element_class].at(time_step).add(first, count);
 }
 
 void Writer::write_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count,
                            std::span<const std::int64_t> numbers) {
     assert(numbers.size() == count);
-    const auto guard = h5::lock();
+    auto& is_used = m_impl->number_is_used;
+    for (const std::int64_t number : numbers) {
+        if (number < 0 || static_cast<std::uint64_t>(number) >= is_used.size()) {
+            throw FileError(m_impl->path, "cannot be written: an element has the number " + std::to_string(number) + " of " +
+                                              std::to_string(is_used.size()));
+        }
+        is_used[static_cast<std::size_t>(number)] = true;
+    }
+    const h5::Lock guard;
     h5::write_box(m_impl->numbers.at(element_class), H5T_NATIVE_INT64, {first}, {count}, numbers.data(), m_impl->place);
-    m_impl->numbers_left[element_class] -= std::min(count, m_impl->numbers_left[element_class]);
+    m_impl->written_numbers[element_class].add(first, count);
 }
 
 void Writer::write_faces(std::uint64_t first, std::uint64_t count, std::span<const Face> faces) {
@@ -252,13 +263,17 @@ void Writer::write_faces(std::uint64_t first, std::uint64_t count, std::span<con
     std::vector<std::int64_t> rows;
     rows.reserve(count * format::face_numbers);
     for (const Face& face : faces) {
+        const std::string problem = problem_of(face, m_impl->number_is_used.size(), m_impl->description.boundary_groups.size());
+        if (!problem.empty()) {
+            throw FileError(m_impl->path, "cannot be written: a face " + problem);
+        }
         rows.insert(rows.end(), {face.element, face.neighbour, face.local_face, face.neighbour_local_face, face.group});
     }
-    const auto guard = h5::lock();
+    const h5::Lock guard;
     if (count > 0) {
         h5::write_box(m_impl->faces, H5T_NATIVE_INT64, {first, 0}, {count, format::face_numbers}, rows.data(), m_impl->place);
     }
-    m_impl->faces_left -= std::min(count, m_impl->faces_left);
+    m_impl->written_faces.add(first, count);
 }
 
 void Writer::set_max_jump(std::size_t field, double jump) { m_impl->description.fields.at(field).max_jump = jump; }
@@ -278,10 +293,14 @@ void Writer::set_note(const std::string& key, const std::string& value) {
 }
 
 void Writer::commit() {
+    const std::string problem = problem_of(m_impl->description);
+    if (!problem.empty()) {
+        throw FileError(m_impl->path, "cannot be written: " + problem);
+    }
     m_impl->check_complete();
     const Description& description = m_impl->description;
     {
-        const auto guard = h5::lock();
+        const h5::Lock guard;
         for (std::size_t index = 0; index < description.fields.size(); ++index) {
             const Place here = m_impl->place.child("fields").child(std::to_string(index));
             h5::write_text(m_impl->field_groups[index], "continuity",
@@ -301,11 +320,14 @@ void Writer::commit() {
         check(H5Fflush(m_impl->file.id(), H5F_SCOPE_GLOBAL), m_impl->place, "cannot be written; is the disk full?");
         m_impl->close();
     }
-    synchronize(m_impl->temporary, O_RDONLY);
-    if (std::rename(m_impl->temporary.c_str(), m_impl->path.c_str()) != 0) {
-        throw FileError(m_impl->path, "cannot be put in place of what is there");
+    if (!synchronize(m_impl->temporary, O_RDONLY)) {
+        throw FileError(m_impl->path, "cannot be written: " + std::string(std::strerror(errno)));
     }
-    m_impl->is_committed = true;
+    if (std::rename(m_impl->temporary.c_str(), m_impl->path.c_str()) != 0) {
+        throw FileError(m_impl->path, "cannot be put in place: " + std::string(std::strerror(errno)));
+    }
+    m_impl->is_temporary_there = false;
+    // The file is complete; some file systems cannot synchronize a folder, which is no failure of ours.
     const std::filesystem::path folder = std::filesystem::path(m_impl->path).parent_path();
     synchronize(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
 }
