@@ -63,6 +63,7 @@ void Volume::fill_geometry(std::size_t element_class, std::uint64_t first, std::
     const std::size_t n_modes = convert.n_native();
     const std::size_t record_size = geometry_record_size(element_class);
     std::fill(records.begin(), records.end(), 0.0);
+    std::vector<double> relative(n_modes);
     std::vector<double> modes(n_modes);
     const std::uint64_t at_once = elements_at_once(3 * n_modes);
     for (std::uint64_t done = 0; done < count; done += at_once) {
@@ -71,11 +72,11 @@ void Volume::fill_geometry(std::size_t element_class, std::uint64_t first, std::
         const std::vector<double> coefficients = read_geometry(element_class, first + done, n);
         for (std::uint64_t element = 0; element < n; ++element)
             for (std::size_t direction = 0; direction < 3; ++direction) {
-                convert.apply(std::span(coefficients).subspan((element * 3 + direction) * n_modes, n_modes), modes);
+                const double origin = origins != nullptr ? origins[(done + element) * 3 + direction] : 0;
+                for (std::size_t mode = 0; mode < n_modes; ++mode)
+                    relative[mode] = coefficients[(element * 3 + direction) * n_modes + mode] - origin * convert.native_one()[mode];
+                convert.apply(relative, modes);
                 clean_apex(convert.device_space(), modes);
-                // The first device function of every shape is the constant 1.
-                if (origins != nullptr)
-                    modes[0] -= origins[(done + element) * 3 + direction];
                 scatter(convert.device_space(), 3, modes, records.data() + (done + element) * record_size + direction);
             }
     }

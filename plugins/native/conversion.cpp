@@ -95,6 +95,11 @@ Conversion::Conversion(const Space& space) : m_device(space), m_gather(native::n
     assert(m_device.n_modes() == m_gather.size());
     std::iota(m_gather.begin(), m_gather.end(), std::size_t{0});
     m_axes = {Matrix::Identity(1, 1), Matrix::Identity(1, 1), Matrix::Identity(1, 1)};
+    build_axes(space);
+    find_native_one();
+}
+
+void Conversion::build_axes(const Space& space) {
     if (m_gather.size() == 1)
         return;
     const std::size_t n_p = space.order[0] + 1;
@@ -121,6 +126,23 @@ Conversion::Conversion(const Space& space) : m_device(space), m_gather(native::n
     } else {
         m_axes[0] = projected_matrix(space, Projector(m_device, native::collapsed_order(space)[2]), m_gather);
     }
+}
+
+void Conversion::find_native_one() {
+    // The first device function is 1: the first columns of the inverses. Bases with vertex modes have whole numbers there.
+    std::array<Eigen::VectorXd, 3> along_axis;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Matrix& matrix = m_axes[axis];
+        along_axis[axis] = matrix.partialPivLu().solve(Eigen::VectorXd::Unit(matrix.rows(), 0));
+        for (double& entry : along_axis[axis])
+            entry = std::abs(entry - std::round(entry)) < 1e-12 ? std::round(entry) : entry;
+    }
+    m_native_one.resize(m_gather.size());
+    std::size_t i = 0;
+    for (const double third : along_axis[2])
+        for (const double second : along_axis[1])
+            for (const double first : along_axis[0])
+                m_native_one[m_gather[i++]] = third * second * first;
 }
 
 void Conversion::apply(std::span<const double> native_coefficients, std::span<double> device_coefficients) const {

@@ -32,12 +32,22 @@ public:
     /** Device coefficients in the order of the record: slab by slab. Sizes n_native() and device_space().n_modes(). */
     void apply(std::span<const double> native_coefficients, std::span<double> device_coefficients) const;
 
+    /**
+     * Native coefficients of the function 1. To subtract a constant before the conversion keeps the digits that the conversion would
+     * round away after it.
+     */
+    const std::vector<double>& native_one() const { return m_native_one; }
+
 private:
+    void build_axes(const native::Space& space);
+    void find_native_one();
+
     DeviceSpace m_device;
     /** Native index of each entry of the array [n_2][n_1][n_0] on which the matrices work. */
     std::vector<std::size_t> m_gather;
     /** Square matrices for the axes 0 (fastest), 1 and 2 of the array. */
     std::array<Matrix, 3> m_axes;
+    std::vector<double> m_native_one;
 };
 
 } // namespace elvis::native_plugin
