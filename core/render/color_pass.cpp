@@ -11,9 +11,6 @@ constexpr std::uint32_t group_size = 32;
 /** Groups along x; more pixels go along y, because a device need not allow more than 65535 in one direction. */
 constexpr std::uint32_t groups_x = 1024;
 
-struct ClearParameters {
-    std::uint32_t n_pixels, groups_x;
-};
 struct ColorParameters {
     std::uint32_t n_pixels, groups_x, n_points, common_flags;
 };
@@ -35,14 +32,7 @@ KernelRequest request(const char* kernel, Precision precision, std::uint32_t n_b
 } // namespace
 
 ColorPass::ColorPass(const Device& device, Precision precision)
-    : m_device(device), m_precision(precision), m_clear(device, request("clear", precision, 1, sizeof(ClearParameters))),
-      m_color(device, request("color", precision, 3, sizeof(ColorParameters))) {}
-
-void ColorPass::clear(const Buffer& samples, std::uint32_t n_pixels) const {
-    const ClearParameters parameters{n_pixels, groups_x};
-    const std::array<const Buffer*, 1> bindings = {&samples};
-    m_clear.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), groups_x, groups_y(n_pixels));
-}
+    : m_device(device), m_precision(precision), m_color(device, request("color", precision, 3, sizeof(ColorParameters))) {}
 
 void ColorPass::draw(const Buffer& samples, const Buffer& colors, std::uint32_t n_pixels, const ColorTable& table,
                      const Color& background, double offset, std::uint32_t common_flags) const {

@@ -13,9 +13,6 @@ class ColorPass {
 public:
     ColorPass(const Device& device, Precision precision);
 
-    /** Empties the samples of n_pixels. */
-    void clear(const Buffer& samples, std::uint32_t n_pixels) const;
-
     /** Colours the samples; values of the table lack `offset`, as the samples do. `common_flags` are set on every pixel that is
      * hit. */
     void draw(const Buffer& samples, const Buffer& colors, std::uint32_t n_pixels, const ColorTable& table,
@@ -24,7 +21,6 @@ public:
 private:
     const Device& m_device;
     Precision m_precision;
-    ComposedKernel m_clear;
     ComposedKernel m_color;
 };
 

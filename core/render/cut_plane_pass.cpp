@@ -8,60 +8,96 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_width = 32;
-/** Pixels of one dispatch: bounds its time, so that no driver's time limit is met and a picture could be given up in between.
- */
+constexpr std::uint32_t tile_height = 8;
+/** Nodes of a tile and their number: shaders/library/cut_tiles.glsl. */
+constexpr std::uint32_t tile_stride = 32;
+constexpr std::uint32_t tiles_group_size = 32;
+/** Pixels of one dispatch: bounds its time, so that no driver's time limit is met. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 19;
-constexpr std::uint32_t magnitude = 0xffffffffu;
 constexpr std::size_t n_counts = 3;
 constexpr std::size_t frame_rows = 9;
 
-struct Parameters {
+struct TilesParameters {
+    std::uint32_t tiles_a_row, n_tiles;
+};
+
+struct PixelsParameters {
     std::uint32_t width, height;
-    std::uint32_t first_row;
+    std::uint32_t first_tile_row;
     std::uint32_t surface;
-    std::uint32_t component;
+    std::uint32_t first_component, end_component;
     std::uint32_t is_discontinuous;
 };
+
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
 
 } // namespace
 
 CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_precision(data.precision()), m_frame(device, frame_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+    : m_device(device), m_precision(data.precision()),
+      // Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes.
+      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+      m_frame(device, frame_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
         }
         KernelRequest request;
+        request.precision = m_precision;
+        request.buffers = data.host_buffers(index);
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
+        request.name = "cut_tiles";
+        request.kernel = "kernels/cut_tiles.comp";
+        request.bindings = {{0, BindingType::uniform_buffer}, {1, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(TilesParameters);
+        ClassKernels kernels;
+        kernels.tiles = std::make_unique<ComposedKernel>(device, request);
+
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "kernels/cut_plane.comp";
-        request.precision = m_precision;
         request.instances = {data.instance(index)};
-        request.buffers = data.host_buffers(index);
-        request.bindings = {
-            {0, BindingType::uniform_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
-        request.push_constant_bytes = sizeof(Parameters);
-        m_kernels.push_back(std::make_unique<ComposedKernel>(device, request));
+        request.bindings = {{0, BindingType::uniform_buffer},
+                            {1, BindingType::storage_buffer},
+                            {2, BindingType::storage_buffer},
+                            {3, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(PixelsParameters);
+        kernels.pixels = std::make_unique<ComposedKernel>(device, request);
+        m_kernels.push_back(std::move(kernels));
     }
 }
 
-void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, std::int32_t component, bool is_discontinuous,
-                        const Target& target, FrameCounts& counts) const {
+void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const Component& component,
+                        const Target& target, FrameCounts& counts) {
+    const std::uint32_t tiles_a_row = divided_up(target.width, m_tile_width);
+    const std::uint32_t tile_rows = divided_up(target.height, tile_height);
+    const std::uint64_t bytes = std::uint64_t{tiles_a_row} * tile_rows * tile_stride * sizeof(std::uint32_t);
+    if (!m_tiles || m_tiles->bytes() != bytes) {
+        m_tiles.reset();
+        m_tiles.emplace(m_device, bytes);
+    }
     write_reals(m_frame, m_precision, std::span<const double>(geometry.rows.front().data(), 4 * geometry.rows.size()));
-    const std::array<const Buffer*, 3> bindings = {&m_frame, &target.samples, &m_counts};
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / target.width);
-    for (const auto& kernel : m_kernels) {
-        for (std::uint32_t first_row = 0; first_row < target.height; first_row += rows_a_dispatch) {
-            const Parameters parameters{target.width,
-                                        target.height,
-                                        first_row,
-                                        surface,
-                                        component < 0 ? magnitude : static_cast<std::uint32_t>(component),
-                                        is_discontinuous ? 1u : 0u};
+    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
+    for (const ClassKernels& kernels : m_kernels) {
+        const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows};
+        const std::array<const Buffer*, 2> tiles_bindings = {&m_frame, &*m_tiles};
+        kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
+                                divided_up(tiles.n_tiles, tiles_group_size));
+        const std::array<const Buffer*, 4> bindings = {&m_frame, &target.samples, &*m_tiles, &m_counts};
+        for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
+            const bool is_magnitude = component.component < 0;
+            const auto first_component = is_magnitude ? 0u : static_cast<std::uint32_t>(component.component);
+            const PixelsParameters pixels{target.width,
+                                          target.height,
+                                          first_row,
+                                          surface,
+                                          first_component,
+                                          is_magnitude ? component.n_components : first_component + 1,
+                                          component.is_discontinuous ? 1u : 0u};
             m_counts.fill(0);
-            kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (target.width + group_width - 1) / group_width,
-                             std::min(rows_a_dispatch, target.height - first_row));
+            kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
+                                     std::min(rows_a_dispatch, tile_rows - first_row));
             const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
             counts.field_evaluations += found[0];
             counts.newton_iterations += found[1];

@@ -9,6 +9,7 @@
 #include <core/volume/device_volume.hpp>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace elvis {
@@ -16,7 +17,7 @@ namespace elvis {
 /** Bytes of one core_sample (shaders/library/samples.glsl). */
 inline std::size_t sample_bytes(Precision precision) { return 2 * (precision == Precision::float64 ? 8u : 4u) + 16u; }
 
-/** The kernels of one volume and field, one for each element class. Compiled when constructed. */
+/** The kernels of one volume and field, two for each element class. Compiled when constructed. */
 class CutPlanePass {
 public:
     CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
@@ -26,16 +27,31 @@ public:
         std::uint32_t width = 0;
         std::uint32_t height = 0;
     };
+    /** The component of the field that is drawn, or -1 for the length of the vector, and how many there are. */
+    struct Component {
+        std::int32_t component = 0;
+        std::uint32_t n_components = 1;
+        bool is_discontinuous = false;
+    };
 
-    /** Draws one plane as surface number `surface`; adds to the counts. */
-    void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, std::int32_t component, bool is_discontinuous,
-              const Target& target, FrameCounts& counts) const;
+    /** Draws one plane as surface number `surface`, at least 1; adds to the counts. */
+    void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const Component& component, const Target& target,
+              FrameCounts& counts);
 
 private:
+    struct ClassKernels {
+        /** Which nodes of the hierarchy each tile of pixels can touch; then the pixels. */
+        std::unique_ptr<ComposedKernel> tiles;
+        std::unique_ptr<ComposedKernel> pixels;
+    };
+
+    const Device& m_device;
     Precision m_precision;
-    std::vector<std::unique_ptr<ComposedKernel>> m_kernels;
+    std::uint32_t m_tile_width;
+    std::vector<ClassKernels> m_kernels;
     Buffer m_frame;
     Buffer m_counts;
+    std::optional<Buffer> m_tiles;
 };
 
 } // namespace elvis

@@ -45,7 +45,10 @@ FieldRange magnitude_range(const std::vector<FieldRange>& components) {
 /** One sample as the device writes it (shaders/library/samples.glsl). */
 template <class Real> struct Sample {
     Real value, depth;
-    std::uint32_t surface, key, number, flags;
+    std::uint32_t owner, number, flags, unused;
+
+    /** Counted from 1; 0 where nothing was drawn. */
+    std::uint32_t surface() const { return owner >> 4u; }
 };
 
 } // namespace
@@ -61,6 +64,8 @@ struct Renderer::Impl {
     std::optional<FieldChoice> selected;
     std::uint32_t selected_step = 0;
     RendererTimes times;
+    /** Kept from frame to frame: fresh memory costs a page fault for each page. */
+    std::optional<Buffer> samples, colors;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* control)
         : device(on), volume(of), precision(with), data(on, of, with, control), color_pass(on, with) {
@@ -69,11 +74,19 @@ struct Renderer::Impl {
 
     const std::pair<std::vector<FieldRange>, elvis_certainty>& component_ranges(std::uint32_t field, std::uint32_t time_step);
     void select(const FieldChoice& field, std::uint32_t time_step);
-    template <class Real>
-    void read_samples(const Buffer& samples, const Buffer& colors, const std::vector<Vector3>& normals, double offset,
-                      Frame& frame) const;
+    template <class Real> void read_samples(const std::vector<Vector3>& normals, double offset, Frame& frame) const;
     std::uint32_t flags_of_range(const FrameRequest& request, double offset);
+    void provide_buffers(std::uint64_t n_pixels);
 };
+
+void Renderer::Impl::provide_buffers(std::uint64_t n_pixels) {
+    if (!samples || samples->bytes() != n_pixels * sample_bytes(precision)) {
+        samples.reset();
+        colors.reset();
+        samples.emplace(device, n_pixels * sample_bytes(precision));
+        colors.emplace(device, 4 * n_pixels * real_bytes(precision));
+    }
+}
 
 const std::pair<std::vector<FieldRange>, elvis_certainty>& Renderer::Impl::component_ranges(std::uint32_t field,
                                                                                             std::uint32_t time_step) {
@@ -132,21 +145,21 @@ std::uint32_t Renderer::Impl::flags_of_range(const FrameRequest& request, double
 }
 
 template <class Real>
-void Renderer::Impl::read_samples(const Buffer& samples, const Buffer& colors, const std::vector<Vector3>& normals,
-                                  double offset, Frame& frame) const {
+void Renderer::Impl::read_samples(const std::vector<Vector3>& normals, double offset, Frame& frame) const {
     const std::size_t n_pixels = frame.value.size();
-    const std::vector<Sample<Real>> read = samples.read_items<Sample<Real>>(n_pixels);
-    const std::vector<Real> read_colors = colors.read_items<Real>(4 * n_pixels);
+    const std::vector<Sample<Real>> read = samples->read_items<Sample<Real>>(n_pixels);
+    const std::vector<Real> read_colors = colors->read_items<Real>(4 * n_pixels);
     std::copy(read_colors.begin(), read_colors.end(), frame.color.begin());
     for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
         const Sample<Real>& sample = read[pixel];
         frame.flags[pixel] = sample.flags;
-        if (sample.surface < normals.size()) {
+        if (sample.surface() != 0) {
             ++frame.counts.hit_pixels;
             frame.value[pixel] = static_cast<double>(sample.value) + offset;
             frame.depth[pixel] = static_cast<double>(sample.depth);
             frame.element[pixel] = sample.number;
-            std::copy_n(normals[sample.surface].begin(), 3, frame.normal.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
+            std::copy_n(normals[sample.surface() - 1].begin(), 3,
+                        frame.normal.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
         }
         frame.counts.undecided_pixels += (sample.flags & pixel_flag::undecided) != 0 ? 1 : 0;
         frame.counts.nan_pixels += (sample.flags & pixel_flag::nan) != 0 ? 1 : 0;
@@ -196,28 +209,28 @@ Frame Renderer::render(const FrameRequest& request) {
     frame.element.assign(n_pixels, -1);
     frame.flags.assign(n_pixels, 0);
 
-    const Buffer samples(impl.device, n_pixels * sample_bytes(impl.precision));
-    const Buffer colors(impl.device, 4 * n_pixels * real_bytes(impl.precision));
-    const bool is_discontinuous = impl.volume.fields()[request.field.field].continuity != ELVIS_CONTINUITY_CONTINUOUS;
+    impl.provide_buffers(n_pixels);
+    const FieldInfo& field = impl.volume.fields()[request.field.field];
+    const CutPlanePass::Component component{request.field.component, field.n_components,
+                                            field.continuity != ELVIS_CONTINUITY_CONTINUOUS};
     std::vector<Vector3> normals;
     const DeviceTimer timer(impl.device);
-    impl.color_pass.clear(samples, static_cast<std::uint32_t>(n_pixels));
+    impl.samples->fill(0);
     for (std::uint32_t surface = 0; surface < request.cut_planes.size(); ++surface) {
         const CutPlaneGeometry geometry =
             cut_plane_geometry(request.cut_planes[surface], request.camera, request.width, request.height, impl.data.centre());
         normals.push_back(geometry.normal);
-        impl.cut_planes->draw(geometry, surface, request.field.component, is_discontinuous,
-                              {samples, request.width, request.height}, frame.counts);
+        impl.cut_planes->draw(geometry, surface + 1, component, {*impl.samples, request.width, request.height}, frame.counts);
     }
-    impl.color_pass.draw(samples, colors, static_cast<std::uint32_t>(n_pixels), request.colors, request.background, offset,
-                         common_flags);
+    impl.color_pass.draw(*impl.samples, *impl.colors, static_cast<std::uint32_t>(n_pixels), request.colors, request.background,
+                         offset, common_flags);
     frame.render_milliseconds = timer.wall_milliseconds();
     frame.device_milliseconds = timer.milliseconds();
 
     if (impl.precision == Precision::float64) {
-        impl.read_samples<double>(samples, colors, normals, offset, frame);
+        impl.read_samples<double>(normals, offset, frame);
     } else {
-        impl.read_samples<float>(samples, colors, normals, offset, frame);
+        impl.read_samples<float>(normals, offset, frame);
     }
     return frame;
 }

@@ -1,5 +1,6 @@
 #include <core/base/float_rounding.hpp>
 #include <core/volume/device_volume.hpp>
+#include <core/volume/element_records.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -82,11 +83,8 @@ void DeviceVolume::build_class(std::uint32_t element_class, const std::vector<do
             data.origins->write_reals(0,
                                       std::span<const double>(m_origins).subspan(3 * info.first_element, 3 * info.n_elements));
         }
-        std::vector<std::int64_t> numbers(info.n_elements);
-        m_volume.element_numbers(info.first_element, info.n_elements, numbers);
-        const std::vector<std::uint32_t> short_numbers(numbers.begin(), numbers.end());
-        data.numbers = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, info.n_elements, 1);
-        data.numbers->write_uints(0, short_numbers);
+        data.elements =
+            std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, info.n_elements, element_record_size);
     }
     m_classes.push_back(std::move(data));
 }
@@ -101,6 +99,7 @@ bool DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const st
     m_field = field;
     m_time_step = time_step;
     bool is_changed = false;
+    bool is_geometry_changed = false;
     for (std::uint32_t index = 0; index < m_buffers.size(); ++index) {
         PluginBuffer& buffer = m_buffers[index];
         const bool depends_on_field = (buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) != 0;
@@ -110,7 +109,17 @@ bool DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const st
         if (is_stale) {
             fill(index, buffer);
             is_changed = true;
+            is_geometry_changed = is_geometry_changed || (buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) == 0;
         }
+    }
+    if (is_geometry_changed || !m_has_elements) {
+        for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
+            if (m_classes[element_class].elements) {
+                write_elements(m_device, m_volume, element_class, instance(element_class), m_precision,
+                               *m_classes[element_class].elements);
+            }
+        }
+        m_has_elements = true;
     }
     m_upload_milliseconds = is_changed ? milliseconds_since(start) : m_upload_milliseconds;
     return is_changed;
@@ -169,7 +178,7 @@ SnippetInstance DeviceVolume::instance(std::uint32_t element_class) const {
 }
 
 std::vector<FetchBuffer> DeviceVolume::host_buffers(std::uint32_t element_class) const {
-    return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_numbers", m_classes[element_class].numbers.get()}};
+    return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_elements", m_classes[element_class].elements.get()}};
 }
 
 std::uint64_t DeviceVolume::field_bytes() const {
@@ -191,7 +200,7 @@ std::uint64_t DeviceVolume::geometry_bytes() const {
 std::uint64_t DeviceVolume::hierarchy_bytes() const {
     std::uint64_t sum = 0;
     for (const ClassData& data : m_classes) {
-        for (const auto* records : {&data.nodes, &data.origins, &data.numbers}) {
+        for (const auto* records : {&data.nodes, &data.origins, &data.elements}) {
             sum += *records ? (*records)->bytes() : 0;
         }
     }

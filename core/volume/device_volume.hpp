@@ -36,7 +36,10 @@ public:
 
     /** The class's snippet with the selected field; valid until the next select(). */
     SnippetInstance instance(std::uint32_t element_class) const;
-    /** Nodes of the class's hierarchy as `core_nodes` and numbers of its elements as `core_numbers`. */
+    /**
+     * Nodes of the class's hierarchy as `core_nodes`, and as `core_elements` the number and linearized inverse mapping of its
+     * elements (shaders/library/linearization.glsl).
+     */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
 
     std::uint64_t field_bytes() const;
@@ -57,7 +60,7 @@ private:
         Snippet snippet;
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
-        std::unique_ptr<RecordBuffer> numbers;
+        std::unique_ptr<RecordBuffer> elements;
     };
 
     void read_bounds();
@@ -78,6 +81,7 @@ private:
     std::vector<double> m_offset;
     std::uint32_t m_field = 0;
     std::uint32_t m_time_step = 0;
+    bool m_has_elements = false;
     double m_upload_milliseconds = 0;
     double m_hierarchy_milliseconds = 0;
 };

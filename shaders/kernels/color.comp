@@ -35,18 +35,25 @@ elvis_vec4 core_color_of(elvis_real value) {
 
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * 32u + gl_GlobalInvocationID.x;
-    if (pixel >= core_n_pixels) {
-        return;
+    const bool is_inside = pixel < core_n_pixels;
+    const uint owner = is_inside ? core_samples[pixel].owner : 0u;
+    if (is_inside) {
+        core_colors[pixel] = core_table[core_n_points + 3u];
     }
-    const core_sample drawn = core_samples[pixel];
-    const elvis_vec4 below = core_table[core_n_points], above = core_table[core_n_points + 1u];
-    const elvis_vec4 not_finite = core_table[core_n_points + 2u], background = core_table[core_n_points + 3u];
-    const bool is_hit = drawn.surface != CORE_NO_SURFACE;
-    const bool is_nan = is_hit && !core_is_finite(drawn.value);
-    elvis_vec4 color = core_color_of(is_nan ? core_table[0].x : drawn.value);
-    color = drawn.value < core_table[0].x ? below : color;
-    color = drawn.value > core_table[core_n_points - 1u].x ? above : color;
-    color = is_nan ? not_finite : color;
-    core_colors[pixel] = is_hit ? color : background;
-    core_samples[pixel].flags = drawn.flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_hit ? core_common_flags : 0u);
+    // A loop of one turn in place of a branch: pixels that nothing was drawn in cost no more than the background.
+    for (uint turn = 0u; turn < (owner != 0u ? 1u : 0u); ++turn) {
+        const elvis_real value = core_samples[pixel].value;
+        const bool is_nan = !core_is_finite(value);
+        const elvis_vec4 below = core_table[core_n_points], above = core_table[core_n_points + 1u];
+        const elvis_vec4 not_finite = core_table[core_n_points + 2u];
+        elvis_vec4 color = core_color_of(is_nan ? core_table[0].x : value);
+        color = value < core_table[0].x ? below : color;
+        color = value > core_table[core_n_points - 1u].x ? above : color;
+        core_colors[pixel] = is_nan ? not_finite : color;
+        // On a face that no other element shares the domain may end; on one that is shared the field may have two values.
+        const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
+        const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
+        core_samples[pixel].flags |=
+            core_common_flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
+    }
 }

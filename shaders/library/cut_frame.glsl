@@ -2,8 +2,8 @@
 //
 // Everything is relative to a reference point near the part of the plane that is seen, so that single precision spends its digits on
 // differences. Pixel (column, row) has the ray
-//     base + t * direction,   base = base0 + column * base_column + row * base_row,   direction likewise,
-// with base on a plane across the view and t the distance along the view's axis. It meets the cut plane at t = -level / slope, where
+//     base + t * direction,   base = base0 + (column - column0) * base_column + (row - row0) * base_row,   direction likewise,
+// with (column0, row0) in the picture's middle, so that no large terms cancel, and base on a plane across the view and t the distance along the view's axis. It meets the cut plane at t = -level / slope, where
 // level (signed distance of base from the plane) and slope are linear in column and row, too.
 
 layout(std140, set = 0, binding = 0) uniform core_cut_frame {
@@ -13,9 +13,9 @@ layout(std140, set = 0, binding = 0) uniform core_cut_frame {
     elvis_vec4 core_direction0, core_direction_column, core_direction_row;
     // xyz: the reference point; w: distance of base from the eye along the axis of view, so that t + w > 0 in front of the eye.
     elvis_vec4 core_reference;
-    // xyz: reference point minus centre of the hierarchies.
+    // xyz: reference point minus centre of the hierarchies; w: column0.
     elvis_vec4 core_reference_in_hierarchy;
-    // xyz: unit normal of the plane.
+    // xyz: unit normal of the plane; w: row0.
     elvis_vec4 core_plane_normal;
 };
 
@@ -31,15 +31,19 @@ struct core_cut_point {
 };
 
 core_cut_point core_cut_pixel(elvis_real column, elvis_real row) {
-    const elvis_vec4 base = core_base0 + column * core_base_column + row * core_base_row;
-    const elvis_vec4 direction = core_direction0 + column * core_direction_column + row * core_direction_row;
+    const elvis_real across = column - core_reference_in_hierarchy.w;
+    const elvis_real down = row - core_plane_normal.w;
+    const elvis_vec4 base = core_base0 + across * core_base_column + down * core_base_row;
+    const elvis_vec4 direction = core_direction0 + across * core_direction_column + down * core_direction_row;
     core_cut_point point;
     point.t = -base.w / direction.w;
     point.is_hit = direction.w != elvis_real(0) && point.t + core_reference.w > elvis_real(0);
     point.direction = direction.xyz;
     point.position = base.xyz + point.t * direction.xyz;
-    // Four roundings of numbers of these sizes: the three terms of base, and the product.
-    const elvis_vec3 size = abs(base.xyz) + abs(point.t * direction.xyz);
+    // Rounding of numbers of these sizes: the terms of base and the product; and those of the level, which the slope makes a distance
+    // along the ray.
+    const elvis_vec4 terms = abs(core_base0) + abs(across * core_base_column) + abs(down * core_base_row);
+    const elvis_vec3 size = terms.xyz + (abs(point.t) + terms.w / abs(direction.w)) * abs(direction.xyz);
     point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);
     return point;
 }

@@ -1,27 +1,31 @@
-// What a pixel sees of the surfaces drawn so far.
+// What a pixel sees of the surfaces drawn so far. All zero: nothing.
 
 struct core_sample {
     // Field value, lacking the field's offset.
     elvis_real value;
     // Distance from the ray's origin.
     elvis_real depth;
-    // Surface that is seen; CORE_NO_SURFACE for none.
-    uint surface;
-    // Rank among the elements that share the point: side, then number.
-    uint key;
+    // Surface, counted from 1, and the bits below.
+    uint owner;
+    // The element's number.
     uint number;
     // CORE_FLAG_...: the same bits as in the picture's buffers.
     uint flags;
+    uint unused;
 };
 
-#define CORE_NO_SURFACE 0xffffffffu
+// Rank among the elements that share the point: side first, then number.
+#define CORE_OWNER_KEY 1u
+// The point lies on a face of the element, within rounding.
+#define CORE_OWNER_ON_FACE 2u
+// Other elements hold it, too.
+#define CORE_OWNER_SHARED 4u
+// They have other values there, and rounding decides which one is shown.
+#define CORE_OWNER_AMBIGUOUS 8u
+#define CORE_OWNER_BITS 4
+
 #define CORE_FLAG_NEWTON_FAILURE 8u
 #define CORE_FLAG_NAN 16u
 #define CORE_FLAG_UNDECIDED 256u
 #define CORE_FLAG_WORK_LIMIT 1024u
 #define CORE_FLAG_RANGE_TOO_FINE 4096u
-
-core_sample core_no_sample() {
-    // Farther than anything: 3e38 in both precisions.
-    return core_sample(elvis_real(0), elvis_real(3.0e38), CORE_NO_SURFACE, 2u, 0xffffffffu, 0u);
-}

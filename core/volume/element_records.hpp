@@ -1,0 +1,20 @@
+/**
+ * @file element_records.hpp
+ * What point location reads of each element: its number and where Newton's method starts.
+ */
+#pragma once
+
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/shader/composer.hpp>
+#include <core/vulkan/buffer.hpp>
+
+namespace elvis {
+
+/** Number, exponents, six words of the linearized inverse mapping: shaders/library/linearization.glsl. */
+inline constexpr std::uint32_t element_record_size = 8;
+
+/** Writes the records of a class; the linearizations are computed on the device with the class's snippet. */
+void write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
+                    const SnippetInstance& instance, Precision precision, RecordBuffer& records);
+
+} // namespace elvis

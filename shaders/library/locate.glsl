@@ -1,0 +1,164 @@
+// Which element of a class holds a point of a cut plane.
+//
+// Every element within rounding of the point is a candidate: neighbours share a face in exact arithmetic only, and must leave no gap.
+// Among candidates the viewer's side decides (key 0: a small step towards the viewer stays in the element), then the lowest number.
+// So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at.
+//
+// The kernel brings core_entry(i), the nodes to descend from, and the buffer core_elements (library/linearization.glsl).
+//
+// One loop serves all candidates of a pixel, one Newton step a turn: lanes that dismiss a candidate after one step go on to their next
+// one while others still iterate. Code that few turns need stands in loops of one turn, because branches are not skipped by drivers
+// that compute all lanes.
+
+#include "library/newton.glsl"
+#include "library/hierarchy.glsl"
+#include "library/linearization.glsl"
+
+#define CORE_NO_ELEMENT 0xffffffffu
+
+// Turns of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is far
+// above what any sensible search takes and leaves room for a tile's other pixels.
+#define CORE_WORK_LIMIT 2000u
+
+struct core_location {
+    // Local element, or CORE_NO_ELEMENT.
+    uint element;
+    uint number;
+    uint key;
+    elvis_real x, y, z;
+    // The point lies on a face of the element, within rounding; on one that crosses the plane.
+    bool is_on_face, is_on_crossing_face;
+    uint n_candidates;
+    uint n_steps;
+    uint n_failures;
+    // The search was ended before it was done.
+    bool is_cut_short;
+};
+
+// Sine of the angle between a face and the plane below which they count as parallel: what rounding leaves of zero.
+#define CORE_PARALLEL (elvis_real(256) * CORE_ROUNDOFF)
+
+struct core_side {
+    bool is_inside, is_on_face, is_on_crossing_face;
+    uint key;
+};
+
+// Where a converged point lies that is within rounding of a face: each face with the rounding error across it.
+core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction) {
+    const elvis_vec3 error = elvis_real(2) * elvis_vec3(inverse.error0, inverse.error1, inverse.error2);
+    const elvis_vec3 towards_viewer = -elvis_vec3(dot(inverse.row0, direction), dot(inverse.row1, direction), dot(inverse.row2, direction));
+    core_side side = core_side(true, false, false, 0u);
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        const elvis_real distance = dot(constraint.xyz, xi) + constraint.w;
+        const elvis_real tolerance = dot(abs(constraint.xyz), error);
+        const bool is_active = distance >= -tolerance;
+        // The face's normal in the world is J^-T times that in xi.
+        const elvis_vec3 normal = constraint.x * inverse.row0 + constraint.y * inverse.row1 + constraint.z * inverse.row2;
+        const elvis_vec3 across = cross(normal, core_plane_normal.xyz);
+        const bool is_crossing = dot(across, across) > CORE_PARALLEL * CORE_PARALLEL * dot(normal, normal);
+        side.is_inside = side.is_inside && distance <= tolerance;
+        side.is_on_face = side.is_on_face || is_active;
+        side.is_on_crossing_face = side.is_on_crossing_face || (is_active && is_crossing);
+        side.key = is_active && dot(constraint.xyz, towards_viewer) > elvis_real(0) ? 1u : side.key;
+    }
+    return side;
+}
+
+core_location core_locate(core_cut_point point, uint n_entries) {
+    core_location found;
+    found.element = CORE_NO_ELEMENT;
+    found.number = 0xffffffffu;
+    found.key = 2u;
+    found.x = found.y = found.z = elvis_real(0);
+    found.is_on_face = found.is_on_crossing_face = false;
+    found.n_candidates = 0u;
+    found.n_steps = 0u;
+    found.n_failures = 0u;
+
+    const vec3 in_hierarchy = vec3(point.position + core_reference_in_hierarchy.xyz);
+    // Rounding of the point, and of its conversion to single precision.
+    const float box_tolerance = 2.0 * float(point.error) + 2.0 * CORE_FLOAT_ROUNDOFF *
+                                                               max(max(abs(in_hierarchy.x), abs(in_hierarchy.y)), abs(in_hierarchy.z));
+    uint stack[CORE_STACK_SIZE];
+    uint stack_size = 0u;
+    uint entry = 0u;
+    uint work = 0u;
+    uint element = CORE_NO_ELEMENT;
+    bool is_new = false;
+    elvis_real target_x = elvis_real(0), target_y = elvis_real(0), target_z = elvis_real(0), position_error = elvis_real(0);
+    core_newton state = core_newton_begin(elvis_real(0), elvis_real(0), elvis_real(0), false);
+
+    while ((element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
+        work += 1u;
+        // The next element whose bounds contain the point.
+        while (element == CORE_NO_ELEMENT && (stack_size > 0u || entry < n_entries)) {
+            const bool is_popped = stack_size > 0u;
+            const uint index = is_popped ? stack[stack_size - 1u] : core_entry(entry);
+            stack_size -= is_popped ? 1u : 0u;
+            entry += is_popped ? 0u : 1u;
+            const core_node node = core_fetch_node(index);
+            const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
+            is_new = is_touched && node.is_leaf;
+            element = is_new ? node.child : element;
+            // Entries are leaves as a rule.
+            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+                stack[stack_size] = node.child + 1u;
+                stack[stack_size + 1u] = node.child;
+                stack_size += 2u;
+            }
+        }
+
+        for (uint turn = 0u; turn < (is_new ? 1u : 0u); ++turn) {
+            // In the snippet's coordinates: elvis_origin is zero where those are the world's.
+            const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
+            const elvis_vec3 target = shift + point.position;
+            const core_linearization linearization = core_fetch_linearization(element);
+            const vec3 start = core_linear_inverse(linearization, vec3(target));
+            const bool is_linearized = linearization.exponents != 0u;
+            const elvis_vec3 middle = CORE_CENTROID;
+            state = core_newton_begin(is_linearized ? elvis_real(start.x) : middle.x, is_linearized ? elvis_real(start.y) : middle.y,
+                                      is_linearized ? elvis_real(start.z) : middle.z, is_linearized);
+            target_x = target.x;
+            target_y = target.y;
+            target_z = target.z;
+            position_error = point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
+            is_new = false;
+        }
+
+        for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
+            core_inverse inverse;
+            const uint status = core_newton_step(element, elvis_vec3(target_x, target_y, target_z), position_error, state, inverse);
+            found.n_steps += 1u;
+            found.n_failures += status == CORE_NEWTON_FAILED ? 1u : 0u;
+            const elvis_real excess = core_excess(state.x, state.y, state.z);
+            // No constraint sums more than the three coordinates. 2: the point's error and the solution's.
+            const elvis_real most = elvis_real(2) * (inverse.error0 + inverse.error1 + inverse.error2);
+            bool is_inside = status == CORE_NEWTON_CONVERGED && excess <= most;
+            bool is_on_face = is_inside && excess >= -most;
+            bool is_on_crossing_face = false;
+            uint key = 0u;
+            for (uint face_turn = 0u; face_turn < (is_on_face ? 1u : 0u); ++face_turn) {
+                const core_side side = core_side_of(elvis_vec3(state.x, state.y, state.z), inverse, point.direction);
+                is_inside = side.is_inside;
+                is_on_face = side.is_on_face;
+                is_on_crossing_face = side.is_on_crossing_face;
+                key = side.key;
+            }
+            const uint number = elvis_fetch_core_elements(element, 0u);
+            const bool is_better = is_inside && (key < found.key || (key == found.key && number < found.number));
+            found.n_candidates += is_inside ? 1u : 0u;
+            found.element = is_better ? element : found.element;
+            found.number = is_better ? number : found.number;
+            found.key = is_better ? key : found.key;
+            found.x = is_better ? state.x : found.x;
+            found.y = is_better ? state.y : found.y;
+            found.z = is_better ? state.z : found.z;
+            found.is_on_face = is_better ? is_on_face : found.is_on_face;
+            found.is_on_crossing_face = is_better ? is_on_crossing_face : found.is_on_crossing_face;
+            element = status == CORE_NEWTON_RUNNING ? element : CORE_NO_ELEMENT;
+        }
+    }
+    found.is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
+    return found;
+}
