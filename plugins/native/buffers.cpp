@@ -28,15 +28,15 @@ void scatter(const DeviceSpace& space, std::size_t width, std::span<const double
 
 /**
  * Where a function of a tensor pyramid has a single value at the apex, all its functions without a power of t but the constant
- * vanish. Round-off of the data leaves about 1e-16 to 1e-13 of the largest coefficient, which 1/t in the gradient would blow up
+ * vanish. Round-off of the data leaves about 1e-16 to 1e-13 of the largest native coefficient, which 1/t in the gradient would blow up
  * near the apex; a true part is never so small. Zeroing changes values by less than 1e-12 of their size.
  */
-void clean_apex(const DeviceSpace& space, std::span<double> modes) {
+void clean_apex(const DeviceSpace& space, std::span<const double> coefficients, std::span<double> modes) {
     if (space.shape != native::Shape::pyramid || space.basis != native::Basis::tensor)
         return;
     double largest = 0;
-    for (const double mode : modes)
-        largest = std::max(largest, std::abs(mode));
+    for (const double coefficient : coefficients)
+        largest = std::max(largest, std::abs(coefficient));
     const auto stride = static_cast<std::size_t>(space.n_r(0, 0));
     for (std::size_t i = stride; i < modes.size(); i += stride)
         if (std::abs(modes[i]) < 1e-12 * largest)
@@ -72,11 +72,12 @@ void Volume::fill_geometry(std::size_t element_class, std::uint64_t first, std::
         const std::vector<double> coefficients = read_geometry(element_class, first + done, n);
         for (std::uint64_t element = 0; element < n; ++element)
             for (std::size_t direction = 0; direction < 3; ++direction) {
+                const auto native = std::span<const double>(coefficients).subspan((element * 3 + direction) * n_modes, n_modes);
                 const double origin = origins != nullptr ? origins[(done + element) * 3 + direction] : 0;
                 for (std::size_t mode = 0; mode < n_modes; ++mode)
-                    relative[mode] = coefficients[(element * 3 + direction) * n_modes + mode] - origin * convert.native_one()[mode];
+                    relative[mode] = native[mode] - origin * convert.native_one()[mode];
                 convert.apply(relative, modes);
-                clean_apex(convert.device_space(), modes);
+                clean_apex(convert.device_space(), native, modes);
                 scatter(convert.device_space(), 3, modes, records.data() + (done + element) * record_size + direction);
             }
     }
@@ -101,8 +102,10 @@ void Volume::fill_field(std::size_t element_class, std::size_t field, std::size_
         for (std::uint64_t element = 0; element < n; ++element) {
             double* record = records.data() + (done + element) * record_size;
             for (std::size_t component = 0; component < n_components; ++component) {
-                convert.apply(std::span(coefficients).subspan((element * n_components + component) * n_modes, n_modes), modes);
-                clean_apex(convert.device_space(), modes);
+                const auto native =
+                    std::span<const double>(coefficients).subspan((element * n_components + component) * n_modes, n_modes);
+                convert.apply(native, modes);
+                clean_apex(convert.device_space(), native, modes);
                 if (!transformed && !offset.empty())
                     modes[0] -= offset[component];
                 scatter(convert.device_space(), width, modes, record + component * component_stride);
