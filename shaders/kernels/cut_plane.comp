@@ -83,10 +83,11 @@ void main() {
     const uint n_entries = core_tiles[core_first_entry() - 1u];
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u;
+    core_track track = core_no_track();
     uint row = first_row;
     while (row < end_row) {
         const core_cut_point point = core_cut_pixel(elvis_real(column), elvis_real(row));
-        const core_location found = core_locate(point, point.is_hit ? n_entries : 0u);
+        const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
         const bool is_news = found.element != CORE_NO_ELEMENT || found.n_failures > 0u || found.is_cut_short;
         for (uint turn = 0u; turn < (is_news ? 1u : 0u); ++turn) {
             n_evaluations += core_merge(row * core_size.x + column, point, found);

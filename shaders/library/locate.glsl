@@ -2,7 +2,11 @@
 //
 // Every element within rounding of the point is a candidate: neighbours share a face in exact arithmetic only, and must leave no gap.
 // Among candidates the viewer's side decides (key 0: a small step towards the viewer stays in the element), then the lowest number.
-// So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at.
+// So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at. A point that is
+// inside by more than rounding is in no other element of a valid mesh: there the search ends.
+//
+// Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first, from
+// the solution here carried on with the Jacobian here, which leaves one Newton step to do.
 //
 // The kernel brings core_entry(i), the nodes to descend from, and the buffer core_elements (library/linearization.glsl).
 //
@@ -35,6 +39,24 @@ struct core_location {
     bool is_cut_short;
 };
 
+// Where the column's last pixel was found, to carry on from.
+struct core_track {
+    // Local element, or CORE_NO_ELEMENT.
+    uint element;
+    elvis_real x, y, z;
+    // Target of that pixel, in the snippet's coordinates, and J^-1 there.
+    elvis_vec3 target;
+    elvis_vec3 row0, row1, row2;
+};
+
+core_track core_no_track() {
+    core_track track;
+    track.element = CORE_NO_ELEMENT;
+    track.x = track.y = track.z = elvis_real(0);
+    track.target = track.row0 = track.row1 = track.row2 = elvis_vec3(0);
+    return track;
+}
+
 // Sine of the angle between a face and the plane below which they count as parallel: what rounding leaves of zero.
 #define CORE_PARALLEL (elvis_real(256) * CORE_ROUNDOFF)
 
@@ -65,7 +87,7 @@ core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction
     return side;
 }
 
-core_location core_locate(core_cut_point point, uint n_entries) {
+core_location core_locate(core_cut_point point, uint n_entries, inout core_track track) {
     core_location found;
     found.element = CORE_NO_ELEMENT;
     found.number = 0xffffffffu;
@@ -84,10 +106,11 @@ core_location core_locate(core_cut_point point, uint n_entries) {
     uint stack_size = 0u;
     uint entry = 0u;
     uint work = 0u;
-    uint element = CORE_NO_ELEMENT;
-    bool is_new = false;
+    uint element = n_entries > 0u ? track.element : CORE_NO_ELEMENT;
+    bool is_tracked = element != CORE_NO_ELEMENT;
+    bool is_new = is_tracked;
     elvis_real target_x = elvis_real(0), target_y = elvis_real(0), target_z = elvis_real(0), position_error = elvis_real(0);
-    core_newton state = core_newton_begin(elvis_real(0), elvis_real(0), elvis_real(0), false);
+    core_newton state = core_newton_begin(elvis_real(0), elvis_real(0), elvis_real(0), elvis_real(-1));
 
     while ((element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
         work += 1u;
@@ -113,12 +136,17 @@ core_location core_locate(core_cut_point point, uint n_entries) {
             // In the snippet's coordinates: elvis_origin is zero where those are the world's.
             const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
             const elvis_vec3 target = shift + point.position;
+            const elvis_vec3 motion = target - track.target;
+            const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
             const core_linearization linearization = core_fetch_linearization(element);
-            const vec3 start = core_linear_inverse(linearization, vec3(target));
             const bool is_linearized = linearization.exponents != 0u;
             const elvis_vec3 middle = CORE_CENTROID;
-            state = core_newton_begin(is_linearized ? elvis_real(start.x) : middle.x, is_linearized ? elvis_real(start.y) : middle.y,
-                                      is_linearized ? elvis_real(start.z) : middle.z, is_linearized);
+            const elvis_vec3 first = is_tracked ? elvis_vec3(track.x, track.y, track.z) + step
+                                                : (is_linearized ? elvis_vec3(core_linear_inverse(linearization, vec3(target))) : middle);
+            const elvis_vec3 moved = is_tracked ? step : first - middle;
+            const bool has_moved = is_tracked || is_linearized;
+            state = core_newton_begin(first.x, first.y, first.z,
+                                      has_moved ? max(max(abs(moved.x), abs(moved.y)), abs(moved.z)) : elvis_real(-1));
             target_x = target.x;
             target_y = target.y;
             target_z = target.z;
@@ -130,7 +158,8 @@ core_location core_locate(core_cut_point point, uint n_entries) {
             core_inverse inverse;
             const uint status = core_newton_step(element, elvis_vec3(target_x, target_y, target_z), position_error, state, inverse);
             found.n_steps += 1u;
-            found.n_failures += status == CORE_NEWTON_FAILED ? 1u : 0u;
+            // A failure from the last pixel's solution is none: the search tries the element again from its own start.
+            found.n_failures += status == CORE_NEWTON_FAILED && !is_tracked ? 1u : 0u;
             const elvis_real excess = core_excess(state.x, state.y, state.z);
             // No constraint sums more than the three coordinates. 2: the point's error and the solution's.
             const elvis_real most = elvis_real(2) * (inverse.error0 + inverse.error1 + inverse.error2);
@@ -145,9 +174,12 @@ core_location core_locate(core_cut_point point, uint n_entries) {
                 is_on_crossing_face = side.is_on_crossing_face;
                 key = side.key;
             }
+            // In no other element of a valid mesh.
+            const bool is_alone = is_inside && excess < -most;
+            const bool is_accepted = is_inside && (is_alone || !is_tracked);
             const uint number = elvis_fetch_core_elements(element, 0u);
-            const bool is_better = is_inside && (key < found.key || (key == found.key && number < found.number));
-            found.n_candidates += is_inside ? 1u : 0u;
+            const bool is_better = is_accepted && (key < found.key || (key == found.key && number < found.number));
+            found.n_candidates += is_accepted ? 1u : 0u;
             found.element = is_better ? element : found.element;
             found.number = is_better ? number : found.number;
             found.key = is_better ? key : found.key;
@@ -156,7 +188,19 @@ core_location core_locate(core_cut_point point, uint n_entries) {
             found.z = is_better ? state.z : found.z;
             found.is_on_face = is_better ? is_on_face : found.is_on_face;
             found.is_on_crossing_face = is_better ? is_on_crossing_face : found.is_on_crossing_face;
-            element = status == CORE_NEWTON_RUNNING ? element : CORE_NO_ELEMENT;
+            const bool is_done = status != CORE_NEWTON_RUNNING;
+            track.element = is_done ? (is_alone ? element : CORE_NO_ELEMENT) : track.element;
+            track.x = is_alone ? state.x : track.x;
+            track.y = is_alone ? state.y : track.y;
+            track.z = is_alone ? state.z : track.z;
+            track.target = is_alone ? elvis_vec3(target_x, target_y, target_z) : track.target;
+            track.row0 = is_alone ? inverse.row0 : track.row0;
+            track.row1 = is_alone ? inverse.row1 : track.row1;
+            track.row2 = is_alone ? inverse.row2 : track.row2;
+            is_tracked = is_tracked && !is_done;
+            element = is_done ? CORE_NO_ELEMENT : element;
+            entry = is_alone ? n_entries : entry;
+            stack_size = is_alone ? 0u : stack_size;
         }
     }
     found.is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;

@@ -47,15 +47,13 @@ struct core_inverse {
     elvis_real error0, error1, error2;
 };
 
-// `guess` is the solution of the mapping linearized at the centroid: its distance from there counts as the first step.
-core_newton core_newton_begin(elvis_real guess_x, elvis_real guess_y, elvis_real guess_z, bool is_linearized) {
+// `guess_step`: length of the step of first order that led to the guess; negative if none did.
+core_newton core_newton_begin(elvis_real guess_x, elvis_real guess_y, elvis_real guess_z, elvis_real guess_step) {
     core_newton state;
     state.x = guess_x;
     state.y = guess_y;
     state.z = guess_z;
-    const elvis_vec3 c = CORE_CENTROID;
-    state.last_step =
-        is_linearized ? max(max(abs(guess_x - c.x), abs(guess_y - c.y)), abs(guess_z - c.z)) : elvis_real(-1);
+    state.last_step = guess_step;
     state.steps = 0u;
     state.start = 0u;
     state.outside_steps = 0u;
