@@ -12,8 +12,11 @@ constexpr std::uint32_t tile_height = 8;
 /** Nodes of a tile and their number: shaders/library/cut_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;
-/** Pixels of one dispatch: bounds its time, so that no driver's time limit is met. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 19;
+/**
+ * Pixels of one dispatch: bounds its time, so that no driver's time limit is met. Software drivers give each thread one share of
+ * consecutive groups: in a dispatch of few rows all shares have about the same to do.
+ */
+constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
 constexpr std::size_t n_counts = 3;
 constexpr std::size_t frame_rows = 9;
 
@@ -78,6 +81,7 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
         m_tiles.emplace(m_device, bytes);
     }
     write_reals(m_frame, m_precision, std::span<const double>(geometry.rows.front().data(), 4 * geometry.rows.size()));
+    m_counts.fill(0);
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
     for (const ClassKernels& kernels : m_kernels) {
         const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows};
@@ -95,15 +99,14 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
                                           first_component,
                                           is_magnitude ? component.n_components : first_component + 1,
                                           component.is_discontinuous ? 1u : 0u};
-            m_counts.fill(0);
             kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
                                      std::min(rows_a_dispatch, tile_rows - first_row));
-            const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
-            counts.field_evaluations += found[0];
-            counts.newton_iterations += found[1];
-            counts.newton_failures += found[2];
         }
     }
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+    counts.field_evaluations += found[0];
+    counts.newton_iterations += found[1];
+    counts.newton_failures += found[2];
 }
 
 } // namespace elvis

@@ -16,44 +16,42 @@ layout(push_constant) uniform core_parameters {
     uint core_common_flags;
 };
 
-elvis_vec4 core_color_of(elvis_real value) {
-    // The last point that is not above the value.
-    uint low = 0u;
-    uint high = core_n_points;
-    while (high - low > 1u) {
-        const uint middle = (low + high) / 2u;
-        const bool is_below = core_table[middle].x <= value;
-        low = is_below ? middle : low;
-        high = is_below ? high : middle;
-    }
-    const elvis_vec4 from = core_table[low];
-    const elvis_vec4 to = core_table[min(low + 1u, core_n_points - 1u)];
-    const elvis_real extent = to.x - from.x;
-    const elvis_real t = extent > elvis_real(0) ? (value - from.x) / extent : elvis_real(0);
-    return elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
-}
-
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * 32u + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
     const uint owner = is_inside ? core_samples[pixel].owner : 0u;
-    if (is_inside) {
-        core_colors[pixel] = core_table[core_n_points + 3u];
+    const bool is_drawn = owner != 0u;
+    const elvis_real value = core_samples[pixel].value;
+    const bool is_nan = !core_is_finite(value);
+
+    // How many points are not above the value.
+    uint low = 0u;
+    uint high = is_drawn && !is_nan ? core_n_points : 0u;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        const bool is_below = core_table[middle].x <= value;
+        low = is_below ? middle + 1u : low;
+        high = is_below ? high : middle;
     }
-    // A loop of one turn in place of a branch: pixels that nothing was drawn in cost no more than the background.
-    for (uint turn = 0u; turn < (owner != 0u ? 1u : 0u); ++turn) {
-        const elvis_real value = core_samples[pixel].value;
-        const bool is_nan = !core_is_finite(value);
-        const elvis_vec4 below = core_table[core_n_points], above = core_table[core_n_points + 1u];
-        const elvis_vec4 not_finite = core_table[core_n_points + 2u];
-        elvis_vec4 color = core_color_of(is_nan ? core_table[0].x : value);
-        color = value < core_table[0].x ? below : color;
-        color = value > core_table[core_n_points - 1u].x ? above : color;
-        core_colors[pixel] = is_nan ? not_finite : color;
-        // On a face that no other element shares the domain may end; on one that is shared the field may have two values.
-        const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
-        const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
-        core_samples[pixel].flags |=
-            core_common_flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
+    const elvis_vec4 from = core_table[low > 0u ? low - 1u : 0u];
+    const elvis_vec4 to = core_table[min(low, core_n_points - 1u)];
+    const elvis_real extent = to.x - from.x;
+    const elvis_real t = extent > elvis_real(0) ? (value - from.x) / extent : elvis_real(0);
+    const bool is_below = low == 0u, is_above = low == core_n_points && value > from.x;
+    const uint special = is_drawn ? (is_nan ? 2u : (is_below ? 0u : 1u)) : 3u;
+    const bool is_special = !is_drawn || is_nan || is_below || is_above;
+    if (is_inside) {
+        core_colors[pixel] = elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+    }
+    for (uint turn = 0u; turn < (is_inside && is_special ? 1u : 0u); ++turn) {
+        core_colors[pixel] = core_table[core_n_points + special];
+    }
+
+    // On a face that no other element shares the domain may end; on one that is shared the field may have two values.
+    const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
+    const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
+    const uint flags = core_common_flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
+    if (is_drawn && flags != 0u) {
+        core_samples[pixel].flags |= flags;
     }
 }

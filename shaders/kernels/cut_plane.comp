@@ -66,8 +66,10 @@ uint core_merge(uint pixel, core_cut_point point, core_location found) {
     const bool is_shared = has_found && (is_same_surface || (is_shown && found.n_candidates > 1u));
     owner |= is_shared ? CORE_OWNER_SHARED : 0u;
     core_samples[pixel].owner = owner;
-    core_samples[pixel].flags |=
-        (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u);
+    const uint flags = (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u);
+    for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
+        core_samples[pixel].flags |= flags;
+    }
     for (uint turn = 0u; turn < (is_shown ? 1u : 0u); ++turn) {
         const elvis_real value = core_shown_value(found.element, elvis_vec3(found.x, found.y, found.z));
         core_samples[pixel].value = value;
@@ -83,10 +85,11 @@ void main() {
     const uint n_entries = core_tiles[core_first_entry() - 1u];
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u;
+    const core_cut_column ray = core_cut_begin(elvis_real(column));
     core_track track = core_no_track();
     uint row = first_row;
     while (row < end_row) {
-        const core_cut_point point = core_cut_pixel(elvis_real(column), elvis_real(row));
+        const core_cut_point point = core_cut_pixel(ray, elvis_real(row));
         const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
         const bool is_news = found.element != CORE_NO_ELEMENT || found.n_failures > 0u || found.is_cut_short;
         for (uint turn = 0u; turn < (is_news ? 1u : 0u); ++turn) {
@@ -104,13 +107,11 @@ void main() {
         canary += 1u;
     }
     const bool is_cut_short = end_row > first_row && (canary < 2u || row < end_row);
-    for (uint i = 0u; i < CORE_TILE_HEIGHT; ++i) {
-        if (is_cut_short && first_row + i < core_size.y) {
-            core_samples[(first_row + i) * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
-        }
+    for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
+        core_samples[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
 
-    for (uint turn = 0u; turn < (n_entries > 0u ? 1u : 0u); ++turn) {
+    for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {
         const uint all_evaluations = subgroupAdd(n_evaluations);
         const uint all_steps = subgroupAdd(n_steps);
         const uint all_failures = subgroupAdd(n_failures);

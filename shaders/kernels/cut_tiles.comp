@@ -25,8 +25,9 @@ void main() {
     const elvis_real row = elvis_real((tile / core_tiles_per_row) * CORE_TILE_HEIGHT);
     const elvis_real last_column = column + elvis_real(CORE_TILE_WIDTH - 1);
     const elvis_real last_row = row + elvis_real(CORE_TILE_HEIGHT - 1);
-    const core_cut_point p00 = core_cut_pixel(column, row), p10 = core_cut_pixel(last_column, row);
-    const core_cut_point p01 = core_cut_pixel(column, last_row), p11 = core_cut_pixel(last_column, last_row);
+    const core_cut_column left = core_cut_begin(column), right = core_cut_begin(last_column);
+    const core_cut_point p00 = core_cut_pixel(left, row), p10 = core_cut_pixel(right, row);
+    const core_cut_point p01 = core_cut_pixel(left, last_row), p11 = core_cut_pixel(right, last_row);
 
     // Where the four corner rays meet the plane in front of the eye, the pixels between them meet it inside the quadrilateral of the
     // four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all.

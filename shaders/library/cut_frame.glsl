@@ -30,19 +30,39 @@ struct core_cut_point {
     elvis_real error;
 };
 
-core_cut_point core_cut_pixel(elvis_real column, elvis_real row) {
+// What the pixels of one column share, and the steps from row to row: read once, because compilers read it again for every row.
+struct core_cut_column {
+    elvis_vec4 base, base_row, direction, direction_row;
+    // Sum of the absolute terms that make up base.
+    elvis_vec4 size;
+    elvis_real row0, reference_distance;
+};
+
+core_cut_column core_cut_begin(elvis_real column) {
     const elvis_real across = column - core_reference_in_hierarchy.w;
-    const elvis_real down = row - core_plane_normal.w;
-    const elvis_vec4 base = core_base0 + across * core_base_column + down * core_base_row;
-    const elvis_vec4 direction = core_direction0 + across * core_direction_column + down * core_direction_row;
+    core_cut_column result;
+    result.base = core_base0 + across * core_base_column;
+    result.direction = core_direction0 + across * core_direction_column;
+    result.base_row = core_base_row;
+    result.direction_row = core_direction_row;
+    result.size = abs(core_base0) + abs(across * core_base_column);
+    result.row0 = core_plane_normal.w;
+    result.reference_distance = core_reference.w;
+    return result;
+}
+
+core_cut_point core_cut_pixel(core_cut_column column, elvis_real row) {
+    const elvis_real down = row - column.row0;
+    const elvis_vec4 base = column.base + down * column.base_row;
+    const elvis_vec4 direction = column.direction + down * column.direction_row;
     core_cut_point point;
     point.t = -base.w / direction.w;
-    point.is_hit = direction.w != elvis_real(0) && point.t + core_reference.w > elvis_real(0);
+    point.is_hit = direction.w != elvis_real(0) && point.t + column.reference_distance > elvis_real(0);
     point.direction = direction.xyz;
     point.position = base.xyz + point.t * direction.xyz;
     // Rounding of numbers of these sizes: the terms of base and the product; and those of the level, which the slope makes a distance
     // along the ray.
-    const elvis_vec4 terms = abs(core_base0) + abs(across * core_base_column) + abs(down * core_base_row);
+    const elvis_vec4 terms = column.size + abs(down * column.base_row);
     const elvis_vec3 size = terms.xyz + (abs(point.t) + terms.w / abs(direction.w)) * abs(direction.xyz);
     point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);
     return point;

@@ -132,26 +132,28 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             }
         }
 
+        const bool is_started = is_new;
         for (uint turn = 0u; turn < (is_new ? 1u : 0u); ++turn) {
             // In the snippet's coordinates: elvis_origin is zero where those are the world's.
             const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
             const elvis_vec3 target = shift + point.position;
             const elvis_vec3 motion = target - track.target;
             const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
-            const core_linearization linearization = core_fetch_linearization(element);
-            const bool is_linearized = linearization.exponents != 0u;
-            const elvis_vec3 middle = CORE_CENTROID;
-            const elvis_vec3 first = is_tracked ? elvis_vec3(track.x, track.y, track.z) + step
-                                                : (is_linearized ? elvis_vec3(core_linear_inverse(linearization, vec3(target))) : middle);
-            const elvis_vec3 moved = is_tracked ? step : first - middle;
-            const bool has_moved = is_tracked || is_linearized;
-            state = core_newton_begin(first.x, first.y, first.z,
-                                      has_moved ? max(max(abs(moved.x), abs(moved.y)), abs(moved.z)) : elvis_real(-1));
+            state = core_newton_begin(track.x + step.x, track.y + step.y, track.z + step.z, max(max(abs(step.x), abs(step.y)), abs(step.z)));
             target_x = target.x;
             target_y = target.y;
             target_z = target.z;
             position_error = point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
             is_new = false;
+        }
+        for (uint turn = 0u; turn < (is_started && !is_tracked ? 1u : 0u); ++turn) {
+            const core_linearization linearization = core_fetch_linearization(element);
+            const bool is_linearized = linearization.exponents != 0u;
+            const elvis_vec3 middle = CORE_CENTROID;
+            const elvis_vec3 linear = elvis_vec3(core_linear_inverse(linearization, vec3(target_x, target_y, target_z)));
+            const elvis_vec3 start = is_linearized ? linear : middle;
+            const elvis_vec3 step = abs(start - middle);
+            state = core_newton_begin(start.x, start.y, start.z, is_linearized ? max(max(step.x, step.y), step.z) : elvis_real(-1));
         }
 
         for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
