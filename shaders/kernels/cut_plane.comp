@@ -37,17 +37,20 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
 // The component, or the length of the vector of several.
 elvis_real core_shown_value(uint element, elvis_vec3 xi) {
-    elvis_real value = elvis_real(0);
-    elvis_real sum = elvis_real(0);
-    for (uint component = core_first_component; component < core_end_component; ++component) {
-        value = elvis_field_value(element, xi, component);
-        sum += value * value;
+    elvis_real value = elvis_field_value(element, xi, core_first_component);
+#if ELVIS_N_COMPONENTS > 1
+    elvis_real sum = value * value;
+    for (uint component = core_first_component + 1u; component < core_end_component; ++component) {
+        const elvis_real other = elvis_field_value(element, xi, component);
+        sum += other * other;
     }
-    return core_end_component - core_first_component > 1u ? sqrt(sum) : value;
+    value = core_end_component - core_first_component > 1u ? sqrt(sum) : value;
+#endif
+    return value;
 }
 
 // Puts what was found into the picture, unless another surface or element goes before it. Returns the number of field evaluations.
-uint core_merge(uint pixel, core_cut_point point, core_location found) {
+uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_real value) {
     const elvis_real depth = (point.t + core_reference.w) * length(point.direction);
     const uint old_owner = core_samples[pixel].owner;
     const uint old_surface = old_owner >> CORE_OWNER_BITS;
@@ -71,7 +74,6 @@ uint core_merge(uint pixel, core_cut_point point, core_location found) {
         core_samples[pixel].flags |= flags;
     }
     for (uint turn = 0u; turn < (is_shown ? 1u : 0u); ++turn) {
-        const elvis_real value = core_shown_value(found.element, elvis_vec3(found.x, found.y, found.z));
         core_samples[pixel].value = value;
         core_samples[pixel].depth = depth;
         core_samples[pixel].number = found.number;
@@ -91,9 +93,12 @@ void main() {
     while (row < end_row) {
         const core_cut_point point = core_cut_pixel(ray, elvis_real(row));
         const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
+        // For pixels outside, too: in a loop of one turn it would take three times as long, because compilers move all that does not
+        // change with the turn in front of the loop and run out of registers.
+        const elvis_real value = core_shown_value(found.element != CORE_NO_ELEMENT ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
         const bool is_news = found.element != CORE_NO_ELEMENT || found.n_failures > 0u || found.is_cut_short;
         for (uint turn = 0u; turn < (is_news ? 1u : 0u); ++turn) {
-            n_evaluations += core_merge(row * core_size.x + column, point, found);
+            n_evaluations += core_merge(row * core_size.x + column, point, found, value);
         }
         n_steps += found.n_steps;
         n_failures += found.n_failures;

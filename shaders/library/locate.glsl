@@ -156,54 +156,56 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             state = core_newton_begin(start.x, start.y, start.z, is_linearized ? max(max(step.x, step.y), step.z) : elvis_real(-1));
         }
 
-        for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
-            core_inverse inverse;
-            const uint status = core_newton_step(element, elvis_vec3(target_x, target_y, target_z), position_error, state, inverse);
-            found.n_steps += 1u;
-            // A failure from the last pixel's solution is none: the search tries the element again from its own start.
-            found.n_failures += status == CORE_NEWTON_FAILED && !is_tracked ? 1u : 0u;
-            const elvis_real excess = core_excess(state.x, state.y, state.z);
-            // No constraint sums more than the three coordinates. 2: the point's error and the solution's.
-            const elvis_real most = elvis_real(2) * (inverse.error0 + inverse.error1 + inverse.error2);
-            bool is_inside = status == CORE_NEWTON_CONVERGED && excess <= most;
-            bool is_on_face = is_inside && excess >= -most;
-            bool is_on_crossing_face = false;
-            uint key = 0u;
-            for (uint face_turn = 0u; face_turn < (is_on_face ? 1u : 0u); ++face_turn) {
-                const core_side side = core_side_of(elvis_vec3(state.x, state.y, state.z), inverse, point.direction);
-                is_inside = side.is_inside;
-                is_on_face = side.is_on_face;
-                is_on_crossing_face = side.is_on_crossing_face;
-                key = side.key;
-            }
-            // In no other element of a valid mesh.
-            const bool is_alone = is_inside && excess < -most;
-            const bool is_accepted = is_inside && (is_alone || !is_tracked);
-            const uint number = elvis_fetch_core_elements(element, 0u);
-            const bool is_better = is_accepted && (key < found.key || (key == found.key && number < found.number));
-            found.n_candidates += is_accepted ? 1u : 0u;
-            found.element = is_better ? element : found.element;
-            found.number = is_better ? number : found.number;
-            found.key = is_better ? key : found.key;
-            found.x = is_better ? state.x : found.x;
-            found.y = is_better ? state.y : found.y;
-            found.z = is_better ? state.z : found.z;
-            found.is_on_face = is_better ? is_on_face : found.is_on_face;
-            found.is_on_crossing_face = is_better ? is_on_crossing_face : found.is_on_crossing_face;
-            const bool is_done = status != CORE_NEWTON_RUNNING;
-            track.element = is_done ? (is_alone ? element : CORE_NO_ELEMENT) : track.element;
-            track.x = is_alone ? state.x : track.x;
-            track.y = is_alone ? state.y : track.y;
-            track.z = is_alone ? state.z : track.z;
-            track.target = is_alone ? elvis_vec3(target_x, target_y, target_z) : track.target;
-            track.row0 = is_alone ? inverse.row0 : track.row0;
-            track.row1 = is_alone ? inverse.row1 : track.row1;
-            track.row2 = is_alone ? inverse.row2 : track.row2;
-            is_tracked = is_tracked && !is_done;
-            element = is_done ? CORE_NO_ELEMENT : element;
-            entry = is_alone ? n_entries : entry;
-            stack_size = is_alone ? 0u : stack_size;
+        // Not in a loop of one turn, which would take three times as long (kernels/cut_plane.comp): a turn without an element is rare.
+        const bool is_active = element != CORE_NO_ELEMENT;
+        const uint safe_element = is_active ? element : 0u;
+        core_inverse inverse;
+        const uint ending = core_newton_step(safe_element, elvis_vec3(target_x, target_y, target_z), position_error, state, inverse);
+        const uint status = is_active ? ending : CORE_NEWTON_OUTSIDE;
+        found.n_steps += is_active ? 1u : 0u;
+        // A failure from the last pixel's solution is none: the search tries the element again from its own start.
+        found.n_failures += status == CORE_NEWTON_FAILED && !is_tracked ? 1u : 0u;
+        const elvis_real excess = core_excess(state.x, state.y, state.z);
+        // No constraint sums more than the three coordinates. 2: the point's error and the solution's.
+        const elvis_real most = elvis_real(2) * (inverse.error0 + inverse.error1 + inverse.error2);
+        bool is_inside = status == CORE_NEWTON_CONVERGED && excess <= most;
+        bool is_on_face = is_inside && excess >= -most;
+        bool is_on_crossing_face = false;
+        uint key = 0u;
+        for (uint face_turn = 0u; face_turn < (is_on_face ? 1u : 0u); ++face_turn) {
+            const core_side side = core_side_of(elvis_vec3(state.x, state.y, state.z), inverse, point.direction);
+            is_inside = side.is_inside;
+            is_on_face = side.is_on_face;
+            is_on_crossing_face = side.is_on_crossing_face;
+            key = side.key;
         }
+        // In no other element of a valid mesh.
+        const bool is_alone = is_inside && excess < -most;
+        const bool is_accepted = is_inside && (is_alone || !is_tracked);
+        const uint number = elvis_fetch_core_elements(safe_element, 0u);
+        const bool is_better = is_accepted && (key < found.key || (key == found.key && number < found.number));
+        found.n_candidates += is_accepted ? 1u : 0u;
+        found.element = is_better ? element : found.element;
+        found.number = is_better ? number : found.number;
+        found.key = is_better ? key : found.key;
+        found.x = is_better ? state.x : found.x;
+        found.y = is_better ? state.y : found.y;
+        found.z = is_better ? state.z : found.z;
+        found.is_on_face = is_better ? is_on_face : found.is_on_face;
+        found.is_on_crossing_face = is_better ? is_on_crossing_face : found.is_on_crossing_face;
+        const bool is_done = status != CORE_NEWTON_RUNNING;
+        track.element = is_done ? (is_alone ? element : CORE_NO_ELEMENT) : track.element;
+        track.x = is_alone ? state.x : track.x;
+        track.y = is_alone ? state.y : track.y;
+        track.z = is_alone ? state.z : track.z;
+        track.target = is_alone ? elvis_vec3(target_x, target_y, target_z) : track.target;
+        track.row0 = is_alone ? inverse.row0 : track.row0;
+        track.row1 = is_alone ? inverse.row1 : track.row1;
+        track.row2 = is_alone ? inverse.row2 : track.row2;
+        is_tracked = is_tracked && !is_done;
+        element = is_done ? CORE_NO_ELEMENT : element;
+        entry = is_alone ? n_entries : entry;
+        stack_size = is_alone ? 0u : stack_size;
     }
     found.is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
     return found;
