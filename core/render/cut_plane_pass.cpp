@@ -8,7 +8,7 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t tile_height = 8;
+constexpr std::uint32_t tile_height = 16;
 /** Nodes of a tile and their number: shaders/library/cut_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;

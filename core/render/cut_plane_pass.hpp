@@ -15,7 +15,7 @@
 namespace elvis {
 
 /** Bytes of one core_sample (shaders/library/samples.glsl). */
-inline std::size_t sample_bytes(Precision precision) { return 2 * (precision == Precision::float64 ? 8u : 4u) + 16u; }
+inline std::size_t sample_bytes(Precision precision) { return precision == Precision::float64 ? 32 : 20; }
 
 /** The kernels of one volume and field, two for each element class. Compiled when constructed. */
 class CutPlanePass {

@@ -45,7 +45,7 @@ FieldRange magnitude_range(const std::vector<FieldRange>& components) {
 /** One sample as the device writes it (shaders/library/samples.glsl). */
 template <class Real> struct Sample {
     Real value, depth;
-    std::uint32_t owner, number, flags, unused;
+    std::uint32_t owner, number, flags;
 
     /** Counted from 1; 0 where nothing was drawn. */
     std::uint32_t surface() const { return owner >> 4u; }

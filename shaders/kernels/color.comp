@@ -40,18 +40,17 @@ void main() {
     const bool is_below = low == 0u, is_above = low == core_n_points && value > from.x;
     const uint special = is_drawn ? (is_nan ? 2u : (is_below ? 0u : 1u)) : 3u;
     const bool is_special = !is_drawn || is_nan || is_below || is_above;
+    const elvis_vec4 interpolated = elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+    const elvis_vec4 color = is_special ? core_table[core_n_points + special] : interpolated;
     if (is_inside) {
-        core_colors[pixel] = elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
-    }
-    for (uint turn = 0u; turn < (is_inside && is_special ? 1u : 0u); ++turn) {
-        core_colors[pixel] = core_table[core_n_points + special];
+        core_colors[pixel] = color;
     }
 
     // On a face that no other element shares the domain may end; on one that is shared the field may have two values.
     const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
     const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
     const uint flags = core_common_flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
-    if (is_drawn && flags != 0u) {
+    for (uint turn = 0u; turn < (is_drawn && flags != 0u ? 1u : 0u); ++turn) {
         core_samples[pixel].flags |= flags;
     }
 }

@@ -109,7 +109,6 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
     uint element = n_entries > 0u ? track.element : CORE_NO_ELEMENT;
     bool is_tracked = element != CORE_NO_ELEMENT;
     bool is_new = is_tracked;
-    elvis_real target_x = elvis_real(0), target_y = elvis_real(0), target_z = elvis_real(0), position_error = elvis_real(0);
     core_newton state = core_newton_begin(elvis_real(0), elvis_real(0), elvis_real(0), elvis_real(-1));
 
     while ((element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
@@ -132,35 +131,29 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             }
         }
 
-        const bool is_started = is_new;
+        // In the snippet's coordinates: elvis_origin is zero where those are the world's.
+        const bool is_active = element != CORE_NO_ELEMENT;
+        const uint safe_element = is_active ? element : 0u;
+        const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
+        const elvis_vec3 target = shift + point.position;
+        const elvis_real position_error = point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
         for (uint turn = 0u; turn < (is_new ? 1u : 0u); ++turn) {
-            // In the snippet's coordinates: elvis_origin is zero where those are the world's.
-            const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
-            const elvis_vec3 target = shift + point.position;
             const elvis_vec3 motion = target - track.target;
             const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
-            state = core_newton_begin(track.x + step.x, track.y + step.y, track.z + step.z, max(max(abs(step.x), abs(step.y)), abs(step.z)));
-            target_x = target.x;
-            target_y = target.y;
-            target_z = target.z;
-            position_error = point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
-            is_new = false;
-        }
-        for (uint turn = 0u; turn < (is_started && !is_tracked ? 1u : 0u); ++turn) {
-            const core_linearization linearization = core_fetch_linearization(element);
+            const core_linearization linearization = core_fetch_linearization(safe_element);
             const bool is_linearized = linearization.exponents != 0u;
             const elvis_vec3 middle = CORE_CENTROID;
-            const elvis_vec3 linear = elvis_vec3(core_linear_inverse(linearization, vec3(target_x, target_y, target_z)));
-            const elvis_vec3 start = is_linearized ? linear : middle;
-            const elvis_vec3 step = abs(start - middle);
-            state = core_newton_begin(start.x, start.y, start.z, is_linearized ? max(max(step.x, step.y), step.z) : elvis_real(-1));
+            const elvis_vec3 linear = elvis_vec3(core_linear_inverse(linearization, vec3(target)));
+            const elvis_vec3 start = is_tracked ? elvis_vec3(track.x, track.y, track.z) + step : (is_linearized ? linear : middle);
+            const elvis_vec3 moved = abs(is_tracked ? step : start - middle);
+            state = core_newton_begin(start.x, start.y, start.z,
+                                      is_tracked || is_linearized ? max(max(moved.x, moved.y), moved.z) : elvis_real(-1));
+            is_new = false;
         }
 
         // Not in a loop of one turn, which would take three times as long (kernels/cut_plane.comp): a turn without an element is rare.
-        const bool is_active = element != CORE_NO_ELEMENT;
-        const uint safe_element = is_active ? element : 0u;
         core_inverse inverse;
-        const uint ending = core_newton_step(safe_element, elvis_vec3(target_x, target_y, target_z), position_error, state, inverse);
+        const uint ending = core_newton_step(safe_element, target, position_error, state, inverse);
         const uint status = is_active ? ending : CORE_NEWTON_OUTSIDE;
         found.n_steps += is_active ? 1u : 0u;
         // A failure from the last pixel's solution is none: the search tries the element again from its own start.
@@ -198,7 +191,7 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
         track.x = is_alone ? state.x : track.x;
         track.y = is_alone ? state.y : track.y;
         track.z = is_alone ? state.z : track.z;
-        track.target = is_alone ? elvis_vec3(target_x, target_y, target_z) : track.target;
+        track.target = is_alone ? target : track.target;
         track.row0 = is_alone ? inverse.row0 : track.row0;
         track.row1 = is_alone ? inverse.row1 : track.row1;
         track.row2 = is_alone ? inverse.row2 : track.row2;

@@ -11,7 +11,6 @@ struct core_sample {
     uint number;
     // CORE_FLAG_...: the same bits as in the picture's buffers.
     uint flags;
-    uint unused;
 };
 
 // Rank among the elements that share the point: side first, then number.
