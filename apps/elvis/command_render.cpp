@@ -273,6 +273,7 @@ void run(const Arguments& arguments) {
     }
     request.colors = make_color_table(scene.color_map, range);
 
+    request.with_buffers = !arguments.buffers.empty();
     const Frame frame = renderer.render(request);
     std::vector<double> repeated;
     for (int repetition = 0; repetition < arguments.repeat; ++repetition) {

@@ -8,7 +8,7 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 15;
+constexpr int n_runs = 9;
 /** The unit of the prototype's times, in nanoseconds. */
 constexpr double prototype_unit = 550;
 

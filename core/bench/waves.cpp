@@ -49,6 +49,7 @@ RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& fo
 
 FrameRequest waves_cut_plane(std::uint32_t size) {
     FrameRequest request;
+    request.with_buffers = false;
     request.width = size;
     request.height = size;
     request.camera.eye = {2.9, 2.3, 1.7};

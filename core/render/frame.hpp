@@ -65,6 +65,8 @@ struct FrameRequest {
     ColorTable colors;
     /** The nearest hit wins. */
     std::vector<CutPlane> cut_planes;
+    /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
+    bool with_buffers = true;
 };
 
 /** Bits of Frame::flags; the same numbers in `--buffers` files. */
@@ -88,7 +90,7 @@ struct FrameCounts {
     std::uint64_t work_limit_pixels = 0;
 };
 
-/** One picture, top row first; every vector has width * height entries (times components). */
+/** One picture, top row first; every vector has width * height entries (times components), if asked for. */
 struct Frame {
     std::uint32_t width = 0;
     std::uint32_t height = 0;

@@ -74,7 +74,7 @@ struct Renderer::Impl {
 
     const std::pair<std::vector<FieldRange>, elvis_certainty>& component_ranges(std::uint32_t field, std::uint32_t time_step);
     void select(const FieldChoice& field, std::uint32_t time_step);
-    template <class Real> void read_samples(const std::vector<Vector3>& normals, double offset, Frame& frame) const;
+    template <class Real> void read_samples(const std::vector<Vector3>& normals, double offset, bool with_buffers, Frame& frame) const;
     std::uint32_t flags_of_range(const FrameRequest& request, double offset);
     void provide_buffers(std::uint64_t n_pixels);
 };
@@ -145,25 +145,35 @@ std::uint32_t Renderer::Impl::flags_of_range(const FrameRequest& request, double
 }
 
 template <class Real>
-void Renderer::Impl::read_samples(const std::vector<Vector3>& normals, double offset, Frame& frame) const {
-    const std::size_t n_pixels = frame.value.size();
-    const std::vector<Sample<Real>> read = samples->read_items<Sample<Real>>(n_pixels);
+void Renderer::Impl::read_samples(const std::vector<Vector3>& normals, double offset, bool with_buffers, Frame& frame) const {
+    const std::size_t n_pixels = frame.counts.pixels;
     const std::vector<Real> read_colors = colors->read_items<Real>(4 * n_pixels);
-    std::copy(read_colors.begin(), read_colors.end(), frame.color.begin());
+    frame.color.assign(read_colors.begin(), read_colors.end());
+    const std::vector<Sample<Real>> read = samples->read_items<Sample<Real>>(n_pixels);
+    for (const Sample<Real>& sample : read) {
+        frame.counts.hit_pixels += sample.surface() != 0 ? 1 : 0;
+        frame.counts.undecided_pixels += (sample.flags & pixel_flag::undecided) != 0 ? 1 : 0;
+        frame.counts.nan_pixels += (sample.flags & pixel_flag::nan) != 0 ? 1 : 0;
+        frame.counts.work_limit_pixels += (sample.flags & pixel_flag::work_limit) != 0 ? 1 : 0;
+    }
+    if (!with_buffers) {
+        return;
+    }
+    frame.value.assign(n_pixels, not_a_number);
+    frame.depth.assign(n_pixels, not_a_number);
+    frame.normal.assign(3 * n_pixels, not_a_number);
+    frame.element.assign(n_pixels, -1);
+    frame.flags.resize(n_pixels);
     for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
         const Sample<Real>& sample = read[pixel];
         frame.flags[pixel] = sample.flags;
         if (sample.surface() != 0) {
-            ++frame.counts.hit_pixels;
             frame.value[pixel] = static_cast<double>(sample.value) + offset;
             frame.depth[pixel] = static_cast<double>(sample.depth);
             frame.element[pixel] = sample.number;
             std::copy_n(normals[sample.surface() - 1].begin(), 3,
                         frame.normal.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
         }
-        frame.counts.undecided_pixels += (sample.flags & pixel_flag::undecided) != 0 ? 1 : 0;
-        frame.counts.nan_pixels += (sample.flags & pixel_flag::nan) != 0 ? 1 : 0;
-        frame.counts.work_limit_pixels += (sample.flags & pixel_flag::work_limit) != 0 ? 1 : 0;
     }
 }
 
@@ -202,12 +212,6 @@ Frame Renderer::render(const FrameRequest& request) {
     frame.width = request.width;
     frame.height = request.height;
     frame.counts.pixels = n_pixels;
-    frame.color.resize(4 * n_pixels);
-    frame.value.assign(n_pixels, not_a_number);
-    frame.depth.assign(n_pixels, not_a_number);
-    frame.normal.assign(3 * n_pixels, not_a_number);
-    frame.element.assign(n_pixels, -1);
-    frame.flags.assign(n_pixels, 0);
 
     impl.provide_buffers(n_pixels);
     const FieldInfo& field = impl.volume.fields()[request.field.field];
@@ -228,9 +232,9 @@ Frame Renderer::render(const FrameRequest& request) {
     frame.device_milliseconds = timer.milliseconds();
 
     if (impl.precision == Precision::float64) {
-        impl.read_samples<double>(normals, offset, frame);
+        impl.read_samples<double>(normals, offset, request.with_buffers, frame);
     } else {
-        impl.read_samples<float>(normals, offset, frame);
+        impl.read_samples<float>(normals, offset, request.with_buffers, frame);
     }
     return frame;
 }
