@@ -21,9 +21,11 @@ std::uint64_t elements_at_once(std::size_t numbers_per_element) {
 /** Writes modes into a record with `width` interleaved numbers a mode; `record` starts at the number of interest. */
 void scatter(const DeviceSpace& space, std::size_t width, std::span<const double> modes, double* record) {
     const std::size_t slab_numbers = 4 * space.slab_rows(width);
-    for (std::size_t slab = 0; slab < space.n_slabs(); ++slab)
-        for (std::size_t mode = 0; mode < space.slab_size(); ++mode)
-            record[slab * slab_numbers + mode * width] = modes[slab * space.slab_size() + mode];
+    const std::size_t slab_size = space.slab_size();
+    const std::size_t n_slabs = space.n_slabs();
+    for (std::size_t slab = 0; slab < n_slabs; ++slab)
+        for (std::size_t mode = 0; mode < slab_size; ++mode)
+            record[slab * slab_numbers + mode * width] = modes[slab * slab_size + mode];
 }
 
 /**
