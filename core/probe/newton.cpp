@@ -21,9 +21,16 @@ constexpr double clearly_outside = 1.0;
 constexpr int lattice_size = 5;
 constexpr std::size_t n_starts = 6;
 
+// Predictions this far outside are approached by half steps, where steps are damped.
+constexpr double damped_excess = 0.125;
+
 double largest(const Vector& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
 
 Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Vector midpoint(const Vector& a, const Vector& b) {
+    return {std::midpoint(a[0], b[0]), std::midpoint(a[1], b[1]), std::midpoint(a[2], b[2])};
+}
 
 double dot(const double* row, const Vector& v) { return row[0] * v[0] + row[1] * v[1] + row[2] * v[2]; }
 
@@ -34,12 +41,14 @@ struct Search {
     double excess = 0;
 };
 
-Search search(elvis_shape shape, const MappingFunction& mapping, const Vector& target, const Vector& start) {
+// With `is_damped`, steps towards a prediction that is clearly outside go half the way: on strongly curved elements whole ones can
+// lead from one side to the other and back.
+Search search(elvis_shape shape, const MappingFunction& mapping, const Vector& target, const Vector& start, bool is_damped) {
     Search result;
     Vector prediction = start;
+    Vector point = project_into_shape(shape, start);
     int outside_steps = 0;
     for (int step_count = 0; step_count < max_steps; ++step_count) {
-        const Vector point = project_into_shape(shape, prediction);
         Vector position{};
         std::array<double, 9> jacobian{};
         mapping(point, position, jacobian);
@@ -62,6 +71,8 @@ Search search(elvis_shape shape, const MappingFunction& mapping, const Vector& t
         outside_steps = excess > 1e-3 ? outside_steps + 1 : 0;
         const double far = 1e3; // only the direction of such a prediction means anything
         prediction = {std::clamp(next[0], -far, far), std::clamp(next[1], -far, far), std::clamp(next[2], -far, far)};
+        const Vector inside = project_into_shape(shape, prediction);
+        point = is_damped && excess > damped_excess ? midpoint(point, inside) : inside;
         if (change <= std::max(converged_step, floor)) {
             // A prediction outside that stays: the linear model at the boundary is exact there only to second order, which
             // does not matter below the tolerance.
@@ -126,13 +137,13 @@ void to_world_gradients(const std::array<double, 9>& jacobian, std::span<double>
 }
 
 Inversion invert_mapping(elvis_shape shape, const MappingFunction& mapping, const std::array<double, 3>& target) {
-    const Search first = search(shape, mapping, target, reference_centroid(shape));
+    const Search first = search(shape, mapping, target, reference_centroid(shape), false);
     if (first.outcome == Inversion::Outcome::inside ||
         (first.outcome == Inversion::Outcome::outside && first.excess > clearly_outside))
         return {first.outcome, first.xi};
     bool is_outside = first.outcome == Inversion::Outcome::outside;
     for (const Vector& start : nearest_starts(shape, mapping, target)) {
-        const Search next = search(shape, mapping, target, start);
+        const Search next = search(shape, mapping, target, start, true);
         if (next.outcome == Inversion::Outcome::inside)
             return {next.outcome, next.xi};
         is_outside = is_outside || next.outcome == Inversion::Outcome::outside;

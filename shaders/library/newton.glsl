@@ -8,7 +8,8 @@
 //
 // Ends:
 //   converged  the next step would change the prediction by less than rounding does
-//   outside    the prediction violates a face constraint by more than twice the last change of the prediction
+//   outside    the prediction violates a face constraint by more than twice the last change of the prediction, or always does so
+//              from every start
 //   failed     neither within the allowed steps, from several starts: no answer, to be counted, never to be drawn
 //
 // State is kept in scalars because of a driver that miscompiles vectors carried round a loop.
@@ -62,7 +63,8 @@ core_newton core_newton_begin(elvis_real guess_x, elvis_real guess_y, elvis_real
 }
 
 void core_newton_restart(inout core_newton state) {
-    state.always_outside = state.always_outside && state.outside_steps >= 3u;
+    // The first start takes whole steps and can go round in circles: it says nothing.
+    state.always_outside = state.start == 0u || (state.always_outside && state.outside_steps >= 3u);
     state.start += 1u;
     // The other starts lie on the half way from the centroid to the corners of a tetrahedron in the shape, lowest corner first.
     const uint k = state.start & 3u;
@@ -124,11 +126,16 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));
     const bool outside = is_regular && has_change && excess > elvis_real(2) * change + elvis_real(2) * tolerance;
 
-    // Far predictions are of no use but for their direction, and could overflow.
+    // Far predictions are of no use but for their direction, and could overflow. After the first start, steps towards a prediction
+    // that is clearly outside go half the way: on strongly curved elements whole ones can lead from one side to the other and back.
     const elvis_real limit = elvis_real(16);
-    state.x = is_regular ? clamp(new_x, -limit, limit) : x;
-    state.y = is_regular ? clamp(new_y, -limit, limit) : y;
-    state.z = is_regular ? clamp(new_z, -limit, limit) : z;
+    const bool is_damped = state.start > 0u && excess > elvis_real(0.125LF);
+    elvis_real inside_x = new_x, inside_y = new_y, inside_z = new_z;
+    core_project(inside_x, inside_y, inside_z);
+    const elvis_real half_way = elvis_real(0.5LF);
+    state.x = is_regular ? (is_damped ? half_way * (x + inside_x) : clamp(new_x, -limit, limit)) : x;
+    state.y = is_regular ? (is_damped ? half_way * (y + inside_y) : clamp(new_y, -limit, limit)) : y;
+    state.z = is_regular ? (is_damped ? half_way * (z + inside_z) : clamp(new_z, -limit, limit)) : z;
     state.last_step = step;
     state.steps += 1u;
     state.outside_steps = is_regular && excess > elvis_real(1e-3LF) ? state.outside_steps + 1u : 0u;
