@@ -36,7 +36,7 @@ void main() {
     const elvis_vec3 target =
         elvis_vec3(core_queries[index].x, core_queries[index].y, core_queries[index].z) - elvis_origin(element);
     const elvis_vec3 start = CORE_CENTROID;
-    core_newton state = core_newton_begin(start.x, start.y, start.z, elvis_real(-1));
+    core_newton state = core_newton_begin(start.x, start.y, start.z, elvis_real(-1), CORE_UNKNOWN_CURVATURE);
     core_inverse inverse_jacobian;
     uint status = CORE_NEWTON_RUNNING;
     elvis_real error = elvis_real(0);

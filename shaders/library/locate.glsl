@@ -47,12 +47,13 @@ struct core_track {
     // Target of that pixel, in the snippet's coordinates, and J^-1 there.
     elvis_vec3 target;
     elvis_vec3 row0, row1, row2;
+    elvis_real curvature;
 };
 
 core_track core_no_track() {
     core_track track;
     track.element = CORE_NO_ELEMENT;
-    track.x = track.y = track.z = elvis_real(0);
+    track.x = track.y = track.z = track.curvature = elvis_real(0);
     track.target = track.row0 = track.row1 = track.row2 = elvis_vec3(0);
     return track;
 }
@@ -87,6 +88,38 @@ core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction
     return side;
 }
 
+struct core_target {
+    // In the snippet's coordinates, and its rounding error.
+    elvis_vec3 x;
+    elvis_real error;
+};
+
+core_target core_target_in(uint element, core_cut_point point) {
+    // elvis_origin is zero where the snippet's coordinates are the world's.
+    const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
+    return core_target(shift + point.position, point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z)));
+}
+
+// From the linearized mapping, or from the centroid where there is none.
+core_newton core_newton_start(uint element, elvis_vec3 target) {
+    const core_linearization linearization = core_fetch_linearization(element);
+    const bool is_linearized = linearization.exponents != 0u;
+    const elvis_vec3 middle = CORE_CENTROID;
+    const elvis_vec3 start = is_linearized ? elvis_vec3(core_linear_inverse(linearization, vec3(target))) : middle;
+    const elvis_vec3 moved = abs(start - middle);
+    return core_newton_begin(start.x, start.y, start.z, is_linearized ? max(max(moved.x, moved.y), moved.z) : elvis_real(-1),
+                             is_linearized ? elvis_real(core_curvature(linearization)) : CORE_UNKNOWN_CURVATURE);
+}
+
+// The linearized mapping keeps this many digits of coordinates in the element.
+#define CORE_START_ERROR elvis_real(1e-2LF)
+
+// Whether the start alone, a prediction from the centroid, is far enough outside.
+bool core_is_outside(core_newton state) {
+    return core_excess(state.x, state.y, state.z) >
+           core_prediction_error(state.curvature, state.last_step) + CORE_CONSTRAINT_NORM * CORE_START_ERROR;
+}
+
 core_location core_locate(core_cut_point point, uint n_entries, inout core_track track) {
     core_location found;
     found.element = CORE_NO_ELEMENT;
@@ -106,14 +139,18 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
     uint stack_size = 0u;
     uint entry = 0u;
     uint work = 0u;
+    // First the element that held the column's last pixel.
     uint element = n_entries > 0u ? track.element : CORE_NO_ELEMENT;
     bool is_tracked = element != CORE_NO_ELEMENT;
-    bool is_new = is_tracked;
-    core_newton state = core_newton_begin(elvis_real(0), elvis_real(0), elvis_real(0), elvis_real(-1));
+    core_target target = core_target_in(is_tracked ? element : 0u, point);
+    const elvis_vec3 motion = target.x - track.target;
+    const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
+    core_newton state = core_newton_begin(track.x + step.x, track.y + step.y, track.z + step.z,
+                                          max(max(abs(step.x), abs(step.y)), abs(step.z)), track.curvature);
 
     while ((element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
         work += 1u;
-        // The next element whose bounds contain the point.
+        // The next element that the point is not certain to lie outside of.
         while (element == CORE_NO_ELEMENT && (stack_size > 0u || entry < n_entries)) {
             const bool is_popped = stack_size > 0u;
             const uint index = is_popped ? stack[stack_size - 1u] : core_entry(entry);
@@ -121,8 +158,11 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             entry += is_popped ? 0u : 1u;
             const core_node node = core_fetch_node(index);
             const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
-            is_new = is_touched && node.is_leaf;
-            element = is_new ? node.child : element;
+            for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
+                target = core_target_in(node.child, point);
+                state = core_newton_start(node.child, target.x);
+                element = core_is_outside(state) ? CORE_NO_ELEMENT : node.child;
+            }
             // Entries are leaves as a rule.
             for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
                 stack[stack_size] = node.child + 1u;
@@ -131,29 +171,11 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             }
         }
 
-        // In the snippet's coordinates: elvis_origin is zero where those are the world's.
+        // Not in a loop of one turn, which would take three times as long (kernels/cut_plane.comp): a turn without an element is rare.
         const bool is_active = element != CORE_NO_ELEMENT;
         const uint safe_element = is_active ? element : 0u;
-        const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
-        const elvis_vec3 target = shift + point.position;
-        const elvis_real position_error = point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
-        for (uint turn = 0u; turn < (is_new ? 1u : 0u); ++turn) {
-            const elvis_vec3 motion = target - track.target;
-            const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
-            const core_linearization linearization = core_fetch_linearization(safe_element);
-            const bool is_linearized = linearization.exponents != 0u;
-            const elvis_vec3 middle = CORE_CENTROID;
-            const elvis_vec3 linear = elvis_vec3(core_linear_inverse(linearization, vec3(target)));
-            const elvis_vec3 start = is_tracked ? elvis_vec3(track.x, track.y, track.z) + step : (is_linearized ? linear : middle);
-            const elvis_vec3 moved = abs(is_tracked ? step : start - middle);
-            state = core_newton_begin(start.x, start.y, start.z,
-                                      is_tracked || is_linearized ? max(max(moved.x, moved.y), moved.z) : elvis_real(-1));
-            is_new = false;
-        }
-
-        // Not in a loop of one turn, which would take three times as long (kernels/cut_plane.comp): a turn without an element is rare.
         core_inverse inverse;
-        const uint ending = core_newton_step(safe_element, target, position_error, state, inverse);
+        const uint ending = core_newton_step(safe_element, target.x, target.error, state, inverse);
         const uint status = is_active ? ending : CORE_NEWTON_OUTSIDE;
         found.n_steps += is_active ? 1u : 0u;
         // A failure from the last pixel's solution is none: the search tries the element again from its own start.
@@ -191,7 +213,8 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
         track.x = is_alone ? state.x : track.x;
         track.y = is_alone ? state.y : track.y;
         track.z = is_alone ? state.z : track.z;
-        track.target = is_alone ? target : track.target;
+        track.target = is_alone ? target.x : track.target;
+        track.curvature = is_alone ? state.curvature : track.curvature;
         track.row0 = is_alone ? inverse.row0 : track.row0;
         track.row1 = is_alone ? inverse.row1 : track.row1;
         track.row2 = is_alone ? inverse.row2 : track.row2;
