@@ -41,8 +41,8 @@ struct Search {
     double excess = 0;
 };
 
-// With `is_damped`, steps towards a prediction that is clearly outside go half the way: on strongly curved elements whole ones can
-// lead from one side to the other and back.
+// With `is_damped`, steps towards a prediction that is clearly outside go half the way: on strongly curved elements whole ones
+// can lead from one side to the other and back.
 Search search(elvis_shape shape, const MappingFunction& mapping, const Vector& target, const Vector& start, bool is_damped) {
     Search result;
     Vector prediction = start;

@@ -13,8 +13,8 @@ constexpr std::uint32_t tile_height = 16;
 constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;
 /**
- * Pixels of one dispatch: bounds its time, so that no driver's time limit is met. Software drivers give each thread one share of
- * consecutive groups: in a dispatch of few rows all shares have about the same to do.
+ * Pixels of one dispatch: bounds its time, so that no driver's time limit is met. Software drivers give each thread one share
+ * of consecutive groups: in a dispatch of few rows all shares have about the same to do.
  */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
 constexpr std::size_t n_counts = 3;

@@ -74,7 +74,8 @@ struct Renderer::Impl {
 
     const std::pair<std::vector<FieldRange>, elvis_certainty>& component_ranges(std::uint32_t field, std::uint32_t time_step);
     void select(const FieldChoice& field, std::uint32_t time_step);
-    template <class Real> void read_samples(const std::vector<Vector3>& normals, double offset, bool with_buffers, Frame& frame) const;
+    template <class Real>
+    void read_samples(const std::vector<Vector3>& normals, double offset, bool with_buffers, Frame& frame) const;
     std::uint32_t flags_of_range(const FrameRequest& request, double offset);
     void provide_buffers(std::uint64_t n_pixels);
 };

@@ -33,8 +33,8 @@ public:
     void apply(std::span<const double> native_coefficients, std::span<double> device_coefficients) const;
 
     /**
-     * Native coefficients of the function 1. To subtract a constant before the conversion keeps the digits that the conversion would
-     * round away after it.
+     * Native coefficients of the function 1. To subtract a constant before the conversion keeps the digits that the conversion
+     * would round away after it.
      */
     const std::vector<double>& native_one() const { return m_native_one; }
 

@@ -95,8 +95,9 @@ void main() {
         const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
         // For pixels outside, too: in a loop of one turn it would take three times as long, because compilers move all that does not
         // change with the turn in front of the loop and run out of registers.
-        const elvis_real value = core_shown_value(found.element != CORE_NO_ELEMENT ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
-        const bool is_news = found.element != CORE_NO_ELEMENT || found.n_failures > 0u || found.is_cut_short;
+        const bool has_found = found.element != CORE_NO_ELEMENT;
+        const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
+        const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
         for (uint turn = 0u; turn < (is_news ? 1u : 0u); ++turn) {
             n_evaluations += core_merge(row * core_size.x + column, point, found, value);
         }

@@ -3,7 +3,8 @@
 // Everything is relative to a reference point near the part of the plane that is seen, so that single precision spends its digits on
 // differences. Pixel (column, row) has the ray
 //     base + t * direction,   base = base0 + (column - column0) * base_column + (row - row0) * base_row,   direction likewise,
-// with (column0, row0) in the picture's middle, so that no large terms cancel, and base on a plane across the view and t the distance along the view's axis. It meets the cut plane at t = -level / slope, where
+// with (column0, row0) in the picture's middle, so that no large terms cancel, base on a plane across the view, and t the distance
+// along the view's axis. It meets the cut plane at t = -level / slope, where
 // level (signed distance of base from the plane) and slope are linear in column and row, too.
 
 layout(std140, set = 0, binding = 0) uniform core_cut_frame {

@@ -106,9 +106,8 @@ TEST_CASE("A scene file and the same options give the same picture") {
     REQUIRE(place.run("render scene.json -o scene.png").status == 0);
     REQUIRE(
         place
-            .run(
-                "render ball.h5 --field 'velocity[0]' --size 80x60 --color-map coolwarm --range -1,1 --cut-plane 1,0,0.5,0 "
-                "-o options.png")
+            .run("render ball.h5 --field 'velocity[0]' --size 80x60 --color-map coolwarm --range -1,1 --cut-plane 1,0,0.5,0 "
+                 "-o options.png")
             .status == 0);
     CHECK(read_file(place.path("scene.png")) == read_file(place.path("options.png")));
 }

@@ -7,8 +7,8 @@
  *
  * Elements are numbered 0 .. n_elements-1 in the order of the source file, whatever their shape.
  *
- * Threads: `probe` and `open` as in runtime.h. On one source, get_elements, evaluate_mapping and sample may run at the same time
- * on several threads; every other call is made alone.
+ * Threads: `probe` and `open` as in runtime.h. On one source, get_elements, evaluate_mapping and sample may run at the same
+ * time on several threads; every other call is made alone.
  *
  * A function pointer marked optional may be NULL.
  *

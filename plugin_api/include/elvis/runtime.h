@@ -145,13 +145,14 @@ typedef struct elvis_fill_request {
     const double* field_offset;
     /**
      * Origin of each element whose geometry the records hold, three numbers an element in the order of the whole volume's
-     * elements (element e at 3e). Only with ELVIS_SNIPPET_LOCAL_ORIGIN, else NULL; see glsl_interface.md. Each origin is exact in
-     * single precision.
+     * elements (element e at 3e). Only with ELVIS_SNIPPET_LOCAL_ORIGIN, else NULL; see glsl_interface.md. Each origin is exact
+     * in single precision.
      */
     const double* origins;
 } elvis_fill_request;
 
-/** Bits of elvis_snippet.capabilities: what the snippet gives beyond mapping, Jacobian and field value. See glsl_interface.md. */
+/** Bits of elvis_snippet.capabilities: what the snippet gives beyond mapping, Jacobian and field value. See glsl_interface.md.
+ */
 /** elvis_field_gradient: value and gradient in xi at once. */
 #define ELVIS_SNIPPET_FIELD_GRADIENT 1u
 /** elvis_mapping_jacobian: mapping and Jacobian at once. */

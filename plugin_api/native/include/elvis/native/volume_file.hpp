@@ -93,14 +93,16 @@ public:
      * Geometry of elements first .. first+count-1 of a class: coefficients[(element * 3 + direction) * n_modes + mode],
      * world coordinates, no origin subtracted.
      */
-    void read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count, std::span<double> coefficients) const;
+    void read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                       std::span<double> coefficients) const;
 
     /** Field coefficients[(element * n_components + component) * n_modes + mode]; uhat where the field has a transform. */
     void read_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
                     std::uint64_t count, std::span<double> coefficients) const;
 
     /** Native element number of elements of a class. */
-    void read_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count, std::span<std::int64_t> numbers) const;
+    void read_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                      std::span<std::int64_t> numbers) const;
 
     void read_faces(std::uint64_t first, std::uint64_t count, std::span<Face> faces) const;
 
@@ -120,10 +122,12 @@ public:
     Writer(Writer&&) noexcept;
     Writer& operator=(Writer&&) noexcept;
 
-    void write_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count, std::span<const double> coefficients);
+    void write_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                        std::span<const double> coefficients);
     void write_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
                      std::uint64_t count, std::span<const double> coefficients);
-    void write_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count, std::span<const std::int64_t> numbers);
+    void write_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                       std::span<const std::int64_t> numbers);
     void write_faces(std::uint64_t first, std::uint64_t count, std::span<const Face> faces);
     /** Known only after all blocks. */
     void set_max_jump(std::size_t field, double jump);
