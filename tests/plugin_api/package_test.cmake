@@ -1,5 +1,5 @@
 # Installs the package into an empty folder, builds the plugins of package/ with it, and lets the program load them.
-#   -DBUILD=build tree -DSOURCE=this folder -DWORK=folder to work in -DELVIS=the program -DWITH_NATIVE=ON|OFF
+#   -DBUILD=build tree -DSOURCE=this folder -DWORK=folder to work in -DELVIS=the program -DWITH_NATIVE=ON|OFF -DGENERATOR=CMake generator
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -14,7 +14,7 @@ run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${WORK}/prefix" --component 
 if(WITH_NATIVE)
   run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${WORK}/prefix" --component native)
 endif()
-run(${CMAKE_COMMAND} -S "${SOURCE}/package" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
+run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${SOURCE}/package" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
     -DWITH_NATIVE=${WITH_NATIVE} "-DCMAKE_C_FLAGS=-Wall -Wextra -Wpedantic -Werror"
     "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror ${CXX_FLAGS}")
 run(${CMAKE_COMMAND} --build "${WORK}/build")
