@@ -259,11 +259,14 @@ void run(const Arguments& arguments) {
     request.background = scene.background;
     request.time_step = scene.time_step;
     request.cut_planes = scene.cut_planes;
-    if (request.cut_planes.empty()) {
-        request.cut_planes = {central_plane(renderer.bounds())};
+    std::vector<CutPlane> looked_at = request.cut_planes;
+    if (volume.dimension() == 2) {
+        looked_at = plane_of_flat(renderer.bounds());
+    } else if (looked_at.empty()) {
+        request.cut_planes = looked_at = {central_plane(renderer.bounds())};
     }
-    request.camera = resolve_camera(scene.camera, renderer.bounds(), request.cut_planes,
-                                    static_cast<double>(request.width) / request.height);
+    request.camera =
+        resolve_camera(scene.camera, renderer.bounds(), looked_at, static_cast<double>(request.width) / request.height);
     std::array<double, 2> range{};
     if (scene.color_map.range) {
         range = *scene.color_map.range;

@@ -11,7 +11,7 @@
 
 #include <elvis/native/volume_file.hpp>
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <chrono>
 #include <cmath>
@@ -56,9 +56,6 @@ public:
     Conversion(const SourceVolume& source, const ConvertOptions& options, const TaskControl& control)
         : m_source(source), m_options(options), m_control(control), m_plans(plan_fields(source, options)),
           m_points(all_face_points()) {
-        if (source.info().dimension != 3) {
-            throw Error(source.paths().front(), "is two-dimensional; only three-dimensional data sets can be converted");
-        }
         std::vector<std::uint32_t> indices;
         for (const FieldPlan& plan : m_plans) {
             indices.push_back(plan.source_index);
@@ -112,7 +109,7 @@ private:
     const ConvertOptions& m_options;
     const TaskControl& m_control;
     std::vector<FieldPlan> m_plans;
-    std::array<FacePoints, 4> m_points;
+    std::array<FacePoints, native::n_shapes> m_points;
     std::vector<TargetClass> m_classes;
     Topology m_topology;
     std::vector<ClassKernel> m_kernels;
@@ -154,7 +151,7 @@ void Conversion::prepare() {
 
 native::Description Conversion::describe() const {
     native::Description description;
-    description.dimension = 3;
+    description.dimension = static_cast<int>(m_source.info().dimension);
     for (const TargetClass& target : m_classes) {
         description.classes.push_back({target.geometry, target.fields, target.elements.size()});
     }
@@ -280,11 +277,12 @@ std::vector<double> Conversion::face_gradients(const Block& block, std::size_t f
         const double* xi = points.xi().data() + 3 * point;
         // Rows of J^T by central differences: the product with a step within the tolerance needs few digits.
         constexpr double h = 1e-5;
+        const std::size_t dimension = m_source.info().dimension;
         std::array<double, 18> around;
         std::array<double, 18> x;
         for (std::size_t direction = 0; direction < 3; ++direction) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const double step = axis == direction ? h : 0;
+                const double step = axis == direction && axis < dimension ? h : 0;
                 around[6 * direction + axis] = xi[axis] - step;
                 around[6 * direction + 3 + axis] = xi[axis] + step;
             }
@@ -297,7 +295,8 @@ std::vector<double> Conversion::face_gradients(const Block& block, std::size_t f
                 transposed(direction, axis) = (x[low + 3] - x[low]) / (2 * h);
             }
         }
-        const Eigen::PartialPivLU<Eigen::Matrix3d> solver(transposed);
+        // On a surface the gradient in its tangent plane, the shortest of the solutions.
+        const Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> solver(transposed);
         for (std::size_t component = 0; component < n_components; ++component) {
             native::Point in_xi{};
             const double* coefficients = result.fields[field].data() + (at * n_components + component) * n_modes;

@@ -152,7 +152,7 @@ PointProjection entity_projection(const native::Space& space) {
         }
         builder.add(points);
     }
-    for (int face = 0; face < native::n_faces(shape); ++face) {
+    for (int face = 0; face < native::n_faces(shape) && native::dimension(shape) == 3; ++face) {
         const std::span<const int> local = native::face_corners(shape, face);
         std::array<native::Point, 4> corners{};
         std::transform(local.begin(), local.end(), corners.begin(), [&](int k) { return native::corner(shape, k); });

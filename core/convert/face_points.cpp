@@ -30,10 +30,17 @@ Weights triangle_weights() {
             {b, c, a, 0}, {c, a, b, 0}, {c, b, a, 0}};
 }
 
+/** The edge of a two-dimensional element. */
+Weights edge_weights() {
+    constexpr double a = 0.85, b = 0.15;
+    return {{1, 0, 0, 0}, {0, 1, 0, 0}, {0.5, 0.5, 0, 0}, {a, b, 0, 0}, {b, a, 0, 0}};
+}
+
 const Weights& weights_of(std::size_t n_corners) {
     static const Weights quadrilateral = quadrilateral_weights();
     static const Weights triangle = triangle_weights();
-    return n_corners == 4 ? quadrilateral : triangle;
+    static const Weights edge = edge_weights();
+    return n_corners == 4 ? quadrilateral : n_corners == 3 ? triangle : edge;
 }
 
 using Order = std::vector<std::uint8_t>;
@@ -79,6 +86,9 @@ std::array<Order, 9> triangle_orders() {
     return orders;
 }
 
+/** Both ways to order the corners of an edge, by which comes first. */
+std::array<Order, 2> edge_orders() { return {permuted({0, 1}), permuted({1, 0})}; }
+
 } // namespace
 
 FaceKey face_key(native::Shape shape, int local_face, const CornerNumbers& corners) {
@@ -119,6 +129,10 @@ std::span<const std::uint8_t> FacePoints::order(int local_face, const CornerNumb
     for (std::size_t k = 1; k < face.size(); ++k) {
         first = number(k) < number(first) ? k : first;
     }
+    if (face.size() == 2) {
+        static const std::array<Order, 2> edges = edge_orders();
+        return edges[first];
+    }
     const bool is_backwards = number(first + face.size() - 1) < number(first + 1);
     if (face.size() == 4) {
         return quadrilaterals[2 * first + (is_backwards ? 1 : 0)];
@@ -126,9 +140,10 @@ std::span<const std::uint8_t> FacePoints::order(int local_face, const CornerNumb
     return triangles[3 * first + (first + (is_backwards ? 2 : 1)) % 3];
 }
 
-std::array<FacePoints, 4> all_face_points() {
-    return {FacePoints(native::Shape::hexahedron), FacePoints(native::Shape::prism), FacePoints(native::Shape::pyramid),
-            FacePoints(native::Shape::tetrahedron)};
+std::array<FacePoints, native::n_shapes> all_face_points() {
+    return {FacePoints(native::Shape::hexahedron),    FacePoints(native::Shape::prism),
+            FacePoints(native::Shape::pyramid),       FacePoints(native::Shape::tetrahedron),
+            FacePoints(native::Shape::quadrilateral), FacePoints(native::Shape::triangle)};
 }
 
 } // namespace elvis

@@ -18,12 +18,11 @@
 
 namespace elvis {
 
-/** Points of a quadrilateral: corners, centre, and the eight images of a point without symmetry; of a triangle three, one, six.
- */
-inline constexpr std::size_t n_quadrilateral_points = 13;
-inline constexpr std::size_t n_triangle_points = 10;
+/** Points of a quadrilateral: corners, centre, and the eight images of a point without symmetry; of a triangle three, one, six;
+ * of the edge of a two-dimensional element two, one, two. The centre comes after the corners. */
+inline std::size_t centre_of_face(std::size_t n_points) { return n_points == 13 ? 4 : n_points == 10 ? 3 : 2; }
 
-/** Sorted corner numbers, no_corner at the end for a triangle: the same from both sides. */
+/** Sorted corner numbers, no_corner at the end for triangles and edges: the same from both sides. */
 using FaceKey = std::array<std::uint32_t, 4>;
 FaceKey face_key(native::Shape shape, int local_face, const CornerNumbers& corners);
 
@@ -50,7 +49,7 @@ private:
     std::vector<std::size_t> m_first;
 };
 
-/** By shape, hexahedron to tetrahedron. */
-std::array<FacePoints, 4> all_face_points();
+/** By shape. */
+std::array<FacePoints, native::n_shapes> all_face_points();
 
 } // namespace elvis

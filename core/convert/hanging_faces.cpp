@@ -13,7 +13,7 @@ using Vector = std::array<double, 3>;
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/** An unpaired face as a map from (u, v): the unit square, or the triangle u, v >= 0, u + v <= 1. */
+/** An unpaired face as a map from (u, v): the unit square, the triangle u, v >= 0, u + v <= 1, or the edge 0 <= u <= 1. */
 class OpenFace {
 public:
     OpenFace(const SourceVolume& source, const Topology& topology, FaceSide side)
@@ -64,11 +64,15 @@ public:
             const bool is_near = dot(left, left) <= near * near;
             const Vector along_u = difference(at(u + h, v), x), along_v = difference(at(u, v + h), x);
             const double a = dot(along_u, along_u), b = dot(along_u, along_v), c = dot(along_v, along_v);
-            const double determinant = a * c - b * b;
+            const double determinant = is_edge() ? a : a * c - b * b;
             if (is_near || determinant <= 0) {
                 return is_near && is_inside(u, v);
             }
             const double f = dot(along_u, left), g = dot(along_v, left);
+            if (is_edge()) {
+                u = std::clamp(u + h * f / a, -0.5, 1.5);
+                continue;
+            }
             u = std::clamp(u + h * (c * f - b * g) / determinant, -0.5, 1.5);
             v = std::clamp(v + h * (a * g - b * f) / determinant, -0.5, 1.5);
         }
@@ -77,12 +81,16 @@ public:
 
 private:
     bool is_triangle() const { return m_corners.size() == 3; }
+    bool is_edge() const { return m_corners.size() == 2; }
     bool is_inside(double u, double v) const { return u >= 0 && v >= 0 && (is_triangle() ? u + v <= 1 : u <= 1 && v <= 1); }
 
     Vector at(double u, double v) const {
-        const std::array<double, 4> weights = is_triangle()
-                                                  ? std::array<double, 4>{1 - u - v, u, v, 0}
-                                                  : std::array<double, 4>{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+        std::array<double, 4> weights{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
+        if (is_triangle()) {
+            weights = {1 - u - v, u, v, 0};
+        } else if (is_edge()) {
+            weights = {1 - u, u, 0, 0};
+        }
         native::Point xi{};
         for (std::size_t k = 0; k < m_corners.size(); ++k) {
             const native::Point corner = native::corner(m_shape, m_corners[k]);

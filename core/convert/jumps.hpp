@@ -39,7 +39,7 @@ public:
 
 private:
     const Topology& m_topology;
-    std::array<FacePoints, 4> m_points;
+    std::array<FacePoints, native::n_shapes> m_points;
     std::unordered_map<FaceSide, std::vector<double>> m_waiting;
     double m_largest = 0;
 };

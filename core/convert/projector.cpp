@@ -78,6 +78,9 @@ PointList check_points(native::Shape shape, std::size_t n) {
             const double spread = std::fmod(0.5 + step * static_cast<double>(index + 1), 1.0);
             coordinate = std::clamp(1.15 * (2 * spread - 1), -1.0, 1.0);
         }
+        if (native::dimension(shape) == 2) {
+            eta[2] = 0;
+        }
         append(points, native::expand(shape, eta));
     }
     return points;

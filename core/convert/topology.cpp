@@ -127,7 +127,7 @@ private:
             m_topology.steps.emplace(side, std::move(steps));
             return;
         }
-        const std::size_t centre = here.size() == 3 * n_quadrilateral_points ? 12 : 9;
+        const std::size_t centre = 3 * centre_of_face(here.size() / 3);
         const double apart = std::hypot(steps[centre], steps[centre + 1], steps[centre + 2]);
         const std::uint32_t code = apart > 0.5 * size ? Topology::no_neighbour : Topology::unknown_neighbour;
         m_topology.neighbour[side / 8][side % 8] = code;
@@ -137,7 +137,7 @@ private:
     const SourceVolume& m_source;
     Topology& m_topology;
     const TaskControl& m_control;
-    std::array<FacePoints, 4> m_points;
+    std::array<FacePoints, native::n_shapes> m_points;
     std::unordered_map<FaceSide, std::vector<double>> m_waiting;
 };
 

@@ -14,9 +14,12 @@
 
 namespace elvis {
 
+/** Rows of four in the uniform block. */
+inline constexpr std::size_t cut_plane_rows = 9;
+
 struct CutPlaneGeometry {
     /** The uniform block's rows of four, in its order. */
-    std::array<std::array<double, 4>, 9> rows{};
+    std::array<std::array<double, 4>, cut_plane_rows> rows{};
     /** Unit normal of the plane, towards the viewer's half space. */
     Vector3 normal{};
     /** Whether the plane's normal as given points away from the viewer. */

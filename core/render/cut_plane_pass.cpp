@@ -17,8 +17,6 @@ constexpr std::uint32_t tiles_group_size = 32;
  * of consecutive groups: in a dispatch of few rows all shares have about the same to do.
  */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
-constexpr std::size_t n_counts = 3;
-constexpr std::size_t frame_rows = 9;
 
 struct TilesParameters {
     std::uint32_t tiles_a_row, n_tiles;
@@ -40,8 +38,8 @@ CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, co
     : m_device(device), m_precision(data.precision()),
       // Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes.
       m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
-      m_frame(device, frame_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -71,8 +69,8 @@ CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, co
     }
 }
 
-void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const Component& component,
-                        const Target& target, FrameCounts& counts) {
+void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
+                        const SampleTarget& target, FrameCounts& counts) {
     const std::uint32_t tiles_a_row = divided_up(target.width, m_tile_width);
     const std::uint32_t tile_rows = divided_up(target.height, tile_height);
     const std::uint64_t bytes = std::uint64_t{tiles_a_row} * tile_rows * tile_stride * sizeof(std::uint32_t);
@@ -90,20 +88,18 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
                                 divided_up(tiles.n_tiles, tiles_group_size));
         const std::array<const Buffer*, 4> bindings = {&m_frame, &target.samples, &*m_tiles, &m_counts};
         for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
-            const bool is_magnitude = component.component < 0;
-            const auto first_component = is_magnitude ? 0u : static_cast<std::uint32_t>(component.component);
             const PixelsParameters pixels{target.width,
                                           target.height,
                                           first_row,
                                           surface,
-                                          first_component,
-                                          is_magnitude ? component.n_components : first_component + 1,
+                                          component.first(),
+                                          component.end(),
                                           component.is_discontinuous ? 1u : 0u};
             kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
                                      std::min(rows_a_dispatch, tile_rows - first_row));
         }
     }
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
     counts.field_evaluations += found[0];
     counts.newton_iterations += found[1];
     counts.newton_failures += found[2];

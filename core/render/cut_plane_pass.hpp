@@ -6,6 +6,7 @@
 
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
+#include <core/render/samples.hpp>
 #include <core/volume/device_volume.hpp>
 
 #include <memory>
@@ -14,29 +15,14 @@
 
 namespace elvis {
 
-/** Bytes of one core_sample (shaders/library/samples.glsl). */
-inline std::size_t sample_bytes(Precision precision) { return precision == Precision::float64 ? 32 : 20; }
-
 /** The kernels of one volume and field, two for each element class. Compiled when constructed. */
 class CutPlanePass {
 public:
     CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
-    struct Target {
-        const Buffer& samples;
-        std::uint32_t width = 0;
-        std::uint32_t height = 0;
-    };
-    /** The component of the field that is drawn, or -1 for the length of the vector, and how many there are. */
-    struct Component {
-        std::int32_t component = 0;
-        std::uint32_t n_components = 1;
-        bool is_discontinuous = false;
-    };
-
     /** Draws one plane as surface number `surface`, at least 1; adds to the counts. */
-    void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const Component& component, const Target& target,
-              FrameCounts& counts);
+    void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
+              const SampleTarget& target, FrameCounts& counts);
 
 private:
     struct ClassKernels {

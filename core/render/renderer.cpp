@@ -5,6 +5,7 @@
 #include <core/render/field_range.hpp>
 #include <core/render/real_array.hpp>
 #include <core/render/renderer.hpp>
+#include <core/render/surface_mesh_pass.hpp>
 
 #include <core/base/error.hpp>
 
@@ -60,12 +61,13 @@ struct Renderer::Impl {
     DeviceVolume data;
     ColorPass color_pass;
     std::optional<CutPlanePass> cut_planes;
+    std::optional<SurfaceMeshPass> surface_mesh;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::vector<FieldRange>, elvis_certainty>> ranges;
     std::optional<FieldChoice> selected;
     std::uint32_t selected_step = 0;
     RendererTimes times;
     /** Kept from frame to frame: fresh memory costs a page fault for each page. */
-    std::optional<Buffer> samples, colors;
+    std::optional<Buffer> samples, colors, normals;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* control)
         : device(on), volume(of), precision(with), data(on, of, with, control), color_pass(on, with) {
@@ -75,9 +77,11 @@ struct Renderer::Impl {
     const std::pair<std::vector<FieldRange>, elvis_certainty>& component_ranges(std::uint32_t field, std::uint32_t time_step);
     void select(const FieldChoice& field, std::uint32_t time_step);
     template <class Real>
-    void read_samples(const std::vector<Vector3>& normals, double offset, bool with_buffers, Frame& frame) const;
+    void read_samples(const std::vector<Vector3>& plane_normals, double offset, bool with_buffers, Frame& frame) const;
     std::uint32_t flags_of_range(const FrameRequest& request, double offset);
     void provide_buffers(std::uint64_t n_pixels);
+    bool is_surface() const { return volume.dimension() == 2; }
+    CutPlane plane_across(const Camera& camera) const;
 };
 
 void Renderer::Impl::provide_buffers(std::uint64_t n_pixels) {
@@ -86,6 +90,10 @@ void Renderer::Impl::provide_buffers(std::uint64_t n_pixels) {
         colors.reset();
         samples.emplace(device, n_pixels * sample_bytes(precision));
         colors.emplace(device, 4 * n_pixels * real_bytes(precision));
+        if (is_surface()) {
+            normals.reset();
+            normals.emplace(device, 3 * n_pixels * real_bytes(precision));
+        }
     }
 }
 
@@ -127,7 +135,11 @@ void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
     data.select(field.field, time_step, offset);
     times.upload_milliseconds = data.upload_milliseconds();
     const Clock::time_point start = Clock::now();
-    cut_planes.emplace(device, volume, data);
+    if (is_surface()) {
+        surface_mesh.emplace(device, volume, data);
+    } else {
+        cut_planes.emplace(device, volume, data);
+    }
     times.compile_milliseconds = milliseconds_since(start);
     selected = field;
     selected_step = time_step;
@@ -145,8 +157,20 @@ std::uint32_t Renderer::Impl::flags_of_range(const FrameRequest& request, double
     return float32_value_error * largest > channel_tolerance * extent ? pixel_flag::range_too_fine : 0;
 }
 
+/** Across the view, through the middle of the volume: what rays are anchored at. */
+CutPlane Renderer::Impl::plane_across(const Camera& camera) const {
+    CutPlane plane;
+    const std::array<double, 6>& bounds = data.bounds();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        plane.plane[axis] = camera.look_at[axis] - camera.eye[axis];
+        plane.plane[3] -= plane.plane[axis] * 0.5 * (bounds[axis] + bounds[axis + 3]);
+    }
+    return plane;
+}
+
 template <class Real>
-void Renderer::Impl::read_samples(const std::vector<Vector3>& normals, double offset, bool with_buffers, Frame& frame) const {
+void Renderer::Impl::read_samples(const std::vector<Vector3>& plane_normals, double offset, bool with_buffers,
+                                  Frame& frame) const {
     const std::size_t n_pixels = frame.counts.pixels;
     const std::vector<Real> read_colors = colors->read_items<Real>(4 * n_pixels);
     frame.color.assign(read_colors.begin(), read_colors.end());
@@ -165,6 +189,7 @@ void Renderer::Impl::read_samples(const std::vector<Vector3>& normals, double of
     frame.normal.assign(3 * n_pixels, not_a_number);
     frame.element.assign(n_pixels, -1);
     frame.flags.resize(n_pixels);
+    const std::vector<Real> of_mesh = this->normals ? this->normals->read_items<Real>(3 * n_pixels) : std::vector<Real>();
     for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
         const Sample<Real>& sample = read[pixel];
         frame.flags[pixel] = sample.flags;
@@ -172,16 +197,15 @@ void Renderer::Impl::read_samples(const std::vector<Vector3>& normals, double of
             frame.value[pixel] = static_cast<double>(sample.value) + offset;
             frame.depth[pixel] = static_cast<double>(sample.depth);
             frame.element[pixel] = sample.number;
-            std::copy_n(normals[sample.surface() - 1].begin(), 3,
-                        frame.normal.begin() + static_cast<std::ptrdiff_t>(3 * pixel));
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                frame.normal[3 * pixel + axis] = of_mesh.empty() ? plane_normals[sample.surface() - 1][axis]
+                                                                 : static_cast<double>(of_mesh[3 * pixel + axis]);
+            }
         }
     }
 }
 
 Renderer::Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control) {
-    if (volume.dimension() != 3) {
-        throw Error(volume.path(), "is a surface of quadrilaterals and triangles, which this version does not draw");
-    }
     m_impl = std::make_unique<Impl>(device, volume, precision, control);
 }
 
@@ -204,6 +228,9 @@ Frame Renderer::render(const FrameRequest& request) {
         throw Error("image", "a picture of " + std::to_string(request.width) + " x " + std::to_string(request.height) +
                                  " pixels cannot be drawn");
     }
+    if (impl.is_surface() && !request.cut_planes.empty()) {
+        throw Error(impl.volume.path(), "is two-dimensional: it is drawn as a surface, and planes do not cut it");
+    }
     impl.select(request.field, request.time_step);
     const double offset =
         request.field.component < 0 ? 0.0 : impl.data.field_offset(static_cast<std::uint32_t>(request.field.component));
@@ -216,8 +243,8 @@ Frame Renderer::render(const FrameRequest& request) {
 
     impl.provide_buffers(n_pixels);
     const FieldInfo& field = impl.volume.fields()[request.field.field];
-    const CutPlanePass::Component component{request.field.component, field.n_components,
-                                            field.continuity != ELVIS_CONTINUITY_CONTINUOUS};
+    const ShownComponent component{request.field.component, field.n_components,
+                                   field.continuity != ELVIS_CONTINUITY_CONTINUOUS};
     std::vector<Vector3> normals;
     const DeviceTimer timer(impl.device);
     impl.samples->fill(0);
@@ -226,6 +253,12 @@ Frame Renderer::render(const FrameRequest& request) {
             cut_plane_geometry(request.cut_planes[surface], request.camera, request.width, request.height, impl.data.centre());
         normals.push_back(geometry.normal);
         impl.cut_planes->draw(geometry, surface + 1, component, {*impl.samples, request.width, request.height}, frame.counts);
+    }
+    if (impl.surface_mesh) {
+        const CutPlaneGeometry view = cut_plane_geometry(impl.plane_across(request.camera), request.camera, request.width,
+                                                         request.height, impl.data.centre());
+        impl.surface_mesh->draw(view, 1, component, {*impl.samples, request.width, request.height}, *impl.normals,
+                                frame.counts);
     }
     impl.color_pass.draw(*impl.samples, *impl.colors, static_cast<std::uint32_t>(n_pixels), request.colors, request.background,
                          offset, common_flags);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace elvis {
@@ -104,6 +105,16 @@ CutPlane central_plane(const std::array<double, 6>& bounds) {
     plane.plane[shortest] = 1;
     plane.plane[3] = -0.5 * (bounds[shortest] + bounds[shortest + 3]);
     return plane;
+}
+
+std::vector<CutPlane> plane_of_flat(const std::array<double, 6>& bounds) {
+    double longest = 0, shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        longest = std::max(longest, bounds[axis + 3] - bounds[axis]);
+        shortest = std::min(shortest, bounds[axis + 3] - bounds[axis]);
+    }
+    constexpr double flat = 1e-6;
+    return shortest <= flat * longest ? std::vector<CutPlane>{central_plane(bounds)} : std::vector<CutPlane>{};
 }
 
 } // namespace elvis

@@ -31,4 +31,7 @@ Camera resolve_camera(const SceneCamera& camera, const std::array<double, 6>& bo
 /** The plane through the centre of the bounds across their shortest extent. */
 CutPlane central_plane(const std::array<double, 6>& bounds);
 
+/** The plane in which flat bounds lie; nothing for others. */
+std::vector<CutPlane> plane_of_flat(const std::array<double, 6>& bounds);
+
 } // namespace elvis

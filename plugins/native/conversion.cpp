@@ -40,7 +40,7 @@ template <class Factor> Matrix axis_matrix(const Space& space, std::size_t direc
     const GaussPoints nodes(n);
     std::vector<Point> points;
     for (const double node : nodes.points) {
-        Point eta{-1, -1, -1};
+        Point eta{-1, -1, native::dimension(space.shape) == 2 ? 0.0 : -1.0};
         eta[direction] = node;
         points.push_back(native::expand(space.shape, eta));
     }
@@ -54,11 +54,12 @@ double corner_value(const Space& space) {
     return values[0];
 }
 
-/** Matrix for the chosen native modes from their values on the projector's grid of points, in the plane xi2 = -1 for prisms. */
+/** Matrix for the chosen native modes from their values on the projector's grid of points, in the plane xi2 = -1 for prisms; a
+ * triangle's second direction is the projector's third. */
 Matrix projected_matrix(const Space& space, const Projector& projector, const std::vector<std::size_t>& modes) {
     std::vector<Point> points;
     for (const Point& eta : projector.grid())
-        points.push_back(native::expand(space.shape, eta));
+        points.push_back(native::expand(space.shape, space.shape == Shape::triangle ? Point{eta[0], eta[2], 0} : eta));
     const Matrix samples = sample_modes(space, points, modes);
     Matrix result(static_cast<Eigen::Index>(modes.size()), static_cast<Eigen::Index>(modes.size()));
     std::vector<double> values(points.size());
@@ -108,7 +109,12 @@ void Conversion::build_axes(const Space& space) {
     const auto a = [this](std::size_t p, double eta) { return m_device.a(static_cast<int>(p), eta); };
     const auto b = [this](std::size_t q, double eta) { return m_device.b(0, static_cast<int>(q), eta); };
     const auto c = [this](std::size_t r, double eta) { return m_device.c(0, 0, static_cast<int>(r), eta); };
-    if (space.shape == Shape::hexahedron) {
+    if (space.shape == Shape::quadrilateral) {
+        m_axes[0] = axis_matrix(space, 0, 1, a) / corner_value(space);
+        m_axes[1] = axis_matrix(space, 1, n_p, b);
+    } else if (space.shape == Shape::triangle) {
+        m_axes[0] = projected_matrix(space, Projector(m_device, space.order[1]), m_gather);
+    } else if (space.shape == Shape::hexahedron) {
         m_axes = {axis_matrix(space, 0, 1, a), axis_matrix(space, 1, n_p, b), axis_matrix(space, 2, n_p * n_q, c)};
         // The three lines each carry the other directions' first functions at the corner: their product is too large twice.
         m_axes[0] /= std::pow(corner_value(space), 2);

@@ -49,7 +49,14 @@ double jacobi(int a, int n, double z) {
 
 DeviceSpace::DeviceSpace(const native::Space& space)
     : shape(space.shape), basis(space.basis), p_max(static_cast<int>(space.order[0])), q_max(static_cast<int>(space.order[1])),
-      r_max(static_cast<int>(space.order[2])) {}
+      r_max(static_cast<int>(space.order[2])) {
+    if (shape == Shape::quadrilateral)
+        shape = Shape::hexahedron;
+    if (shape == Shape::triangle) {
+        shape = Shape::prism;
+        std::swap(q_max, r_max);
+    }
+}
 
 int DeviceSpace::n_q(int p) const { return shape == Shape::tetrahedron ? std::max(q_max - p + 1, 0) : q_max + 1; }
 

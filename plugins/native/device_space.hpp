@@ -20,6 +20,8 @@
  *
  * with C_0 = 1, C_1 = eta, C_p = (1 - eta^2)/4 P_{p-2}^{1,1}(eta): the inner functions of Modified_A.
  *
+ * A quadrilateral is a hexahedron of order 0 in xi3; a triangle is a prism of order 0 in xi2, whose xi3 is the triangle's xi2.
+ *
  * A record holds slabs, each padded to rows of four numbers, so that the shader can loop over slabs and still know every
  * position inside one at compile time.
  */
@@ -36,6 +38,7 @@ namespace elvis::native_plugin {
 inline constexpr std::uint32_t max_device_order = 16;
 
 struct DeviceSpace {
+    /** Of three dimensions. */
     native::Shape shape = native::Shape::hexahedron;
     /** Pyramids: tensor, modified or orthogonal; without meaning elsewhere. */
     native::Basis basis = native::Basis::modified;

@@ -36,10 +36,6 @@ native::Reader open_file(const std::string& path) {
 }
 
 void check_space(const std::string& path, const Space& space, const std::string& what) {
-    if (space.shape == Shape::quadrilateral || space.shape == Shape::triangle)
-        throw api::Error(ELVIS_ERROR_UNSUPPORTED, path,
-                         what + " lives on a " + std::string(native::name(space.shape)) +
-                             "; this plugin draws hexahedra, prisms, pyramids and tetrahedra");
     const std::uint32_t order = *std::max_element(space.order.begin(), space.order.end());
     if (order > max_device_order)
         throw api::Error(ELVIS_ERROR_UNSUPPORTED, path,
@@ -51,6 +47,10 @@ void check_space(const std::string& path, const Space& space, const std::string&
 
 Volume::Volume(const api::Host& host, const std::string& path)
     : m_host(host), m_path(path), m_reader(open_file(path)), m_cache(cache_numbers) {
+    for (const native::Field& field : description().fields)
+        if (description().dimension == 2 && field.transform != Transform::none)
+            throw error(ELVIS_ERROR_FORMAT,
+                        "field '" + field.name + "' has a transform, which no plugin serves in two dimensions");
     m_first_elements.push_back(0);
     for (std::size_t i = 0; i < description().classes.size(); ++i) {
         const native::ElementClass& element_class = description().classes[i];
@@ -88,8 +88,9 @@ void Volume::make_constants() {
     const auto add_space = [&add](std::vector<elvis_constant>& list, const std::array<const char*, 7>& names,
                                   const Space& space, std::size_t width) {
         const DeviceSpace device(space);
-        for (std::size_t i = 0; i < 3; ++i)
-            add(list, names[i], space.order[i]);
+        add(list, names[0], device.p_max);
+        add(list, names[1], device.q_max);
+        add(list, names[2], device.r_max);
         add(list, names[3], space.basis == Basis::tensor ? 0 : space.basis == Basis::modified ? 1 : 2);
         add(list, names[4], static_cast<std::int64_t>(device.slab_rows(width)));
         add(list, names[5], static_cast<std::int64_t>(device.n_rows(width)));

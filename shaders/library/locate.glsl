@@ -8,7 +8,8 @@
 // Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first, from
 // the solution here carried on with the Jacobian here, which leaves one Newton step to do.
 //
-// The kernel brings core_entry(i), the nodes to descend from, and the buffer core_elements (library/linearization.glsl).
+// The kernel brings core_entry(i), the nodes to descend from, library/show.glsl, and the buffer core_elements
+// (library/linearization.glsl).
 //
 // One loop serves all candidates of a pixel, one Newton step a turn: lanes that dismiss a candidate after one step go on to their next
 // one while others still iterate. Code that few turns need stands in loops of one turn, because branches are not skipped by drivers
@@ -18,26 +19,9 @@
 #include "library/hierarchy.glsl"
 #include "library/linearization.glsl"
 
-#define CORE_NO_ELEMENT 0xffffffffu
-
 // Turns of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is far
 // above what any sensible search takes and leaves room for a tile's other pixels.
 #define CORE_WORK_LIMIT 2000u
-
-struct core_location {
-    // Local element, or CORE_NO_ELEMENT.
-    uint element;
-    uint number;
-    uint key;
-    elvis_real x, y, z;
-    // The point lies on a face of the element, within rounding; on one that crosses the plane.
-    bool is_on_face, is_on_crossing_face;
-    uint n_candidates;
-    uint n_steps;
-    uint n_failures;
-    // The search was ended before it was done.
-    bool is_cut_short;
-};
 
 // Where the column's last pixel was found, to carry on from.
 struct core_track {

@@ -3,8 +3,10 @@
 
 #if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
 #define CORE_N_FACES 6
-#elif ELVIS_SHAPE == ELVIS_SHAPE_TETRAHEDRON
+#elif ELVIS_SHAPE == ELVIS_SHAPE_TETRAHEDRON || ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL
 #define CORE_N_FACES 4
+#elif ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+#define CORE_N_FACES 3
 #else
 #define CORE_N_FACES 5
 #endif
@@ -30,6 +32,13 @@ elvis_vec4 core_face_constraint(int face) {
            : face == 2 ? elvis_vec4(1, 0, 1, 0)
            : face == 3 ? elvis_vec4(0, 1, 1, 0)
                        : elvis_vec4(-1, 0, 0, -1);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL
+    return face == 0   ? elvis_vec4(0, -1, 0, -1)
+           : face == 1 ? elvis_vec4(1, 0, 0, -1)
+           : face == 2 ? elvis_vec4(0, 1, 0, -1)
+                       : elvis_vec4(-1, 0, 0, -1);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+    return face == 0 ? elvis_vec4(0, -1, 0, -1) : face == 1 ? elvis_vec4(1, 1, 0, 0) : elvis_vec4(-1, 0, 0, -1);
 #else
     return face == 0   ? elvis_vec4(0, 0, -1, -1)
            : face == 1 ? elvis_vec4(0, -1, 0, -1)

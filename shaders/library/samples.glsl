@@ -27,4 +27,5 @@ struct core_sample {
 #define CORE_FLAG_NAN 16u
 #define CORE_FLAG_UNDECIDED 256u
 #define CORE_FLAG_WORK_LIMIT 1024u
+#define CORE_FLAG_ESTIMATED 2048u
 #define CORE_FLAG_RANGE_TOO_FINE 4096u

@@ -10,6 +10,12 @@
 #elif ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
 #define CORE_CENTROID elvis_vec3(-0.25, -0.25, -0.5)
 #define CORE_CONSTRAINT_NORM elvis_real(2)
+#elif ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL
+#define CORE_CENTROID elvis_vec3(0, 0, 0)
+#define CORE_CONSTRAINT_NORM elvis_real(1)
+#elif ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+#define CORE_CENTROID elvis_vec3(elvis_real(-1) / elvis_real(3), elvis_real(-1) / elvis_real(3), 0)
+#define CORE_CONSTRAINT_NORM elvis_real(2)
 #else
 #define CORE_CENTROID elvis_vec3(-0.5, -0.5, -0.5)
 #define CORE_CONSTRAINT_NORM elvis_real(3)
@@ -23,6 +29,10 @@ elvis_real core_excess(elvis_real x, elvis_real y, elvis_real z) {
     return max(max(abs(y) - elvis_real(1), x + z), max(-x, -z) - elvis_real(1));
 #elif ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
     return max(max(max(-x, -y), -z) - elvis_real(1), max(x, y) + z);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL
+    return max(abs(x), abs(y)) - elvis_real(1);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+    return max(max(-x, -y) - elvis_real(1), x + y);
 #else
     return max(max(max(-x, -y), -z) - elvis_real(1), x + y + z + elvis_real(1));
 #endif
@@ -46,6 +56,13 @@ void core_project(inout elvis_real x, inout elvis_real y, inout elvis_real z) {
     z = clamp(z - slant, -one, one);
     x = clamp(x, -one, -z);
     y = clamp(y, -one, -z);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL
+    x = clamp(x, -one, one);
+    y = clamp(y, -one, one);
+#elif ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+    const elvis_real slant = max(x + y, elvis_real(0)) / elvis_real(2);
+    x = clamp(x - slant, -one, one);
+    y = clamp(y - slant, -one, -x);
 #else
     const elvis_real slant = max(x + y + z + one, elvis_real(0)) / elvis_real(3);
     x = clamp(x - slant, -one, one);

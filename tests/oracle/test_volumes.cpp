@@ -41,7 +41,7 @@ std::vector<double> Fit::operator()(const std::function<double(const Vector& xi)
 
 native::Space space_of(Shape shape, std::uint32_t order) {
     const native::Basis basis = shape == Shape::pyramid ? native::Basis::tensor : native::Basis::modified;
-    return {shape, basis, {order, order, order}};
+    return {shape, basis, {order, order, native::dimension(shape) == 2 ? 0 : order}};
 }
 
 ClassData make_class(const native::Space& geometry, const native::Space& field, const std::vector<Map>& maps,

@@ -4,6 +4,7 @@ namespace elvis::oracle {
 
 void write_volume(const std::string& path, const VolumeData& data) {
     native::Description description;
+    description.dimension = native::dimension(data.classes.front().geometry.shape);
     native::Field field;
     field.name = "u";
     field.n_components = data.n_components;

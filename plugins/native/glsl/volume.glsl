@@ -65,29 +65,43 @@
 #undef NATIVE_NUMBER
 #undef NATIVE_COEFFICIENT
 
-elvis_vec3 elvis_mapping(uint element, elvis_vec3 xi) { return native_mapping(element, 0u, xi); }
+// A triangle is the section of a prism: its second direction is the prism's third.
+#if ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+#define NATIVE_POINT(xi) (xi).xzy
+#define NATIVE_SECOND x3
+#define NATIVE_THIRD x2
+#else
+#define NATIVE_POINT(xi) (xi)
+#define NATIVE_SECOND x2
+#define NATIVE_THIRD x3
+#endif
+
+elvis_vec3 elvis_mapping(uint element, elvis_vec3 xi) { return native_mapping(element, 0u, NATIVE_POINT(xi)); }
 
 void elvis_mapping_jacobian(uint element, elvis_vec3 xi, out elvis_vec3 x, out elvis_mat3 jacobian) {
     elvis_vec3 x1, x2, x3;
-    native_mapping_gradient(element, 0u, xi, x, x1, x2, x3);
-    jacobian = elvis_mat3(x1, x2, x3);
+    native_mapping_gradient(element, 0u, NATIVE_POINT(xi), x, x1, x2, x3);
+    jacobian = elvis_mat3(x1, NATIVE_SECOND, NATIVE_THIRD);
 }
 
 elvis_mat3 elvis_jacobian(uint element, elvis_vec3 xi) {
-    elvis_vec3 x, x1, x2, x3;
-    native_mapping_gradient(element, 0u, xi, x, x1, x2, x3);
-    return elvis_mat3(x1, x2, x3);
+    elvis_vec3 x;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, xi, x, jacobian);
+    return jacobian;
 }
 
 #if NATIVE_TRANSFORM == 0
 
 // Components follow one another in the record.
 elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component) {
-    return native_field(element, component * uint(NATIVE_FIELD_ROWS), xi);
+    return native_field(element, component * uint(NATIVE_FIELD_ROWS), NATIVE_POINT(xi));
 }
 
 void elvis_field_gradient(uint element, elvis_vec3 xi, uint component, out elvis_real value, out elvis_vec3 gradient) {
-    native_field_gradient(element, component * uint(NATIVE_FIELD_ROWS), xi, value, gradient.x, gradient.y, gradient.z);
+    elvis_real x1, x2, x3;
+    native_field_gradient(element, component * uint(NATIVE_FIELD_ROWS), NATIVE_POINT(xi), value, x1, x2, x3);
+    gradient = elvis_vec3(x1, NATIVE_SECOND, NATIVE_THIRD);
 }
 
 #else

@@ -19,6 +19,7 @@ namespace elvis::native {
 
 /** Same numbers as elvis_shape in elvis/element.h. */
 enum class Shape : std::uint32_t { hexahedron, prism, pyramid, tetrahedron, quadrilateral, triangle };
+inline constexpr std::size_t n_shapes = 6;
 
 /** Family of modes. */
 enum class Basis : std::uint32_t {

@@ -1,0 +1,81 @@
+#include <core/render/real_array.hpp>
+#include <core/render/surface_mesh_pass.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t group_width = 32;
+/** Pixels of one dispatch: bounds its time. */
+constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
+
+struct Parameters {
+    std::uint32_t width, height;
+    std::uint32_t first_row;
+    std::uint32_t surface;
+    std::uint32_t first_component, end_component;
+    std::uint32_t is_discontinuous;
+};
+
+/** Patches along each side of an element that Newton's method starts from: one where the mapping is affine. */
+int patches(const ClassInfo& info) {
+    const bool is_straight = info.geometry_order[0] == 1 && info.geometry_order[1] == 1;
+    return !is_straight ? 4 : info.shape == ELVIS_SHAPE_TRIANGLE ? 1 : 2;
+}
+
+} // namespace
+
+SurfaceMeshPass::SurfaceMeshPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_precision(data.precision()), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        const ClassInfo& info = volume.classes()[index];
+        if (info.n_elements == 0) {
+            continue;
+        }
+        KernelRequest request;
+        request.name = "surface_mesh of element class " + std::to_string(index);
+        request.kernel = "kernels/surface_mesh.comp";
+        request.precision = m_precision;
+        request.instances = {data.instance(index)};
+        request.buffers = data.host_buffers(index);
+        request.defines = {{"CORE_PATCHES", std::to_string(patches(info))}};
+        request.bindings = {{0, BindingType::uniform_buffer},
+                            {1, BindingType::storage_buffer},
+                            {2, BindingType::storage_buffer},
+                            {3, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(Parameters);
+        m_kernels.push_back(std::make_unique<ComposedKernel>(device, request));
+    }
+}
+
+void SurfaceMeshPass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const ShownComponent& component,
+                           const SampleTarget& target, const Buffer& normals, FrameCounts& counts) {
+    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    m_counts.fill(0);
+    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / target.width);
+    const std::array<const Buffer*, 4> bindings = {&m_frame, &target.samples, &normals, &m_counts};
+    for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
+        for (std::uint32_t first_row = 0; first_row < target.height; first_row += rows_a_dispatch) {
+            const Parameters parameters{target.width,
+                                        target.height,
+                                        first_row,
+                                        first_surface + index,
+                                        component.first(),
+                                        component.end(),
+                                        component.is_discontinuous ? 1u : 0u};
+            m_kernels[index]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                       (target.width + group_width - 1) / group_width,
+                                       std::min(rows_a_dispatch, target.height - first_row));
+        }
+    }
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
+    counts.field_evaluations += found[0];
+    counts.newton_iterations += found[1];
+    counts.newton_failures += found[2];
+}
+
+} // namespace elvis

@@ -1,0 +1,68 @@
+// What is found along a pixel's ray, and how it gets into the picture: the nearest surface wins; on one surface, the element on the
+// viewer's side, then the lowest number.
+//
+// The kernel brings library/cut_frame.glsl, library/samples.glsl, core_samples, core_surface, core_first_component, core_end_component and
+// core_is_discontinuous.
+
+#define CORE_NO_ELEMENT 0xffffffffu
+
+struct core_location {
+    // Local element, or CORE_NO_ELEMENT.
+    uint element;
+    uint number;
+    uint key;
+    elvis_real x, y, z;
+    // The point lies on a face of the element, within rounding; on one that crosses the surface.
+    bool is_on_face, is_on_crossing_face;
+    uint n_candidates;
+    uint n_steps;
+    uint n_failures;
+    // The search was ended before it was done.
+    bool is_cut_short;
+};
+
+// The component, or the length of the vector of several.
+elvis_real core_shown_value(uint element, elvis_vec3 xi) {
+    elvis_real value = elvis_field_value(element, xi, core_first_component);
+#if ELVIS_N_COMPONENTS > 1
+    elvis_real sum = value * value;
+    for (uint component = core_first_component + 1u; component < core_end_component; ++component) {
+        const elvis_real other = elvis_field_value(element, xi, component);
+        sum += other * other;
+    }
+    value = core_end_component - core_first_component > 1u ? sqrt(sum) : value;
+#endif
+    return value;
+}
+
+// Puts what was found into the picture, unless another surface or element goes before it. Returns the number of field evaluations.
+uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_real value) {
+    const elvis_real depth = (point.t + core_reference.w) * length(point.direction);
+    const uint old_owner = core_samples[pixel].owner;
+    const uint old_surface = old_owner >> CORE_OWNER_BITS;
+    const uint old_number = core_samples[pixel].number;
+    const bool has_found = found.element != CORE_NO_ELEMENT;
+    const bool is_same_surface = old_surface == core_surface;
+    const uint old_key = old_owner & CORE_OWNER_KEY;
+    const bool is_nearer = old_surface == 0u || depth < core_samples[pixel].depth;
+    const bool is_better = found.key < old_key || (found.key == old_key && found.number < old_number);
+    const bool is_shown = has_found && (is_same_surface ? is_better : is_nearer);
+
+    const bool is_ambiguous = found.is_on_crossing_face && core_is_discontinuous != 0u;
+    uint owner = is_shown ? (core_surface << CORE_OWNER_BITS) | found.key | (found.is_on_face ? CORE_OWNER_ON_FACE : 0u) |
+                                (is_ambiguous ? CORE_OWNER_AMBIGUOUS : 0u)
+                          : old_owner;
+    const bool is_shared = has_found && (is_same_surface || (is_shown && found.n_candidates > 1u));
+    owner |= is_shared ? CORE_OWNER_SHARED : 0u;
+    core_samples[pixel].owner = owner;
+    const uint flags = (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u);
+    for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
+        core_samples[pixel].flags |= flags;
+    }
+    for (uint turn = 0u; turn < (is_shown ? 1u : 0u); ++turn) {
+        core_samples[pixel].value = value;
+        core_samples[pixel].depth = depth;
+        core_samples[pixel].number = found.number;
+    }
+    return is_shown ? core_end_component - core_first_component : 0u;
+}

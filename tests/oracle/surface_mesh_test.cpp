@@ -1,0 +1,140 @@
+// Two-dimensional volumes, whose pictures are known in closed form.
+#include "meshes.hpp"
+#include "ray.hpp"
+#include "test_files.hpp"
+
+#include <core/render/renderer.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace elvis::oracle {
+namespace {
+
+using native::Shape;
+
+const Device& device() {
+    static const Device the_device;
+    return the_device;
+}
+
+// The square [-1,1]^2, n cells a side, each a quadrilateral or two triangles, as maps into the plane z = 0.
+std::vector<Map> square(Shape shape, int n) {
+    std::vector<Map> maps;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const auto at = [=](double u, double v) -> Vector { return {-1 + 2 * (i + u) / n, -1 + 2 * (j + v) / n, 0}; };
+            if (shape == Shape::quadrilateral) {
+                maps.push_back([=](const Vector& xi) { return at((1 + xi.x()) / 2, (1 + xi.y()) / 2); });
+            } else {
+                maps.push_back([=](const Vector& xi) { return at((1 + xi.x()) / 2, (1 + xi.y()) / 2); });
+                maps.push_back([=](const Vector& xi) { return at((1 - xi.x()) / 2, (1 - xi.y()) / 2); });
+            }
+        }
+    return maps;
+}
+
+// z = bend (x^2 + y^2): rays meet it up to twice.
+double crossing(const Ray& ray, double bend) {
+    const auto& o = ray.origin;
+    const auto& d = ray.direction;
+    const auto inside = [&](long double t) {
+        return t > 0 && std::abs(o.x() + t * d.x()) <= 1 && std::abs(o.y() + t * d.y()) <= 1;
+    };
+    const long double a = bend * (d.x() * d.x() + d.y() * d.y());
+    const long double b = 2 * bend * (o.x() * d.x() + o.y() * d.y()) - d.z();
+    const long double c = bend * (o.x() * o.x() + o.y() * o.y()) - o.z();
+    std::vector<long double> roots;
+    if (a == 0) {
+        roots = {-c / b};
+    } else if (const long double discriminant = b * b - 4 * a * c; discriminant >= 0) {
+        roots = {(-b - std::sqrt(discriminant)) / (2 * a), (-b + std::sqrt(discriminant)) / (2 * a)};
+        std::sort(roots.begin(), roots.end());
+    }
+    for (const long double t : roots)
+        if (inside(t))
+            return static_cast<double>(t);
+    return std::nan("");
+}
+
+double field_of(const Vector& x) { return 1 + x.x() - 0.5 * x.y() + 0.3 * x.x() * x.x() * x.y(); }
+
+void check(Shape shape, double bend, const Vector3& eye) {
+    VolumeData data;
+    const auto bent = [bend](const Vector& x) -> Vector { return {x.x(), x.y(), bend * (x.x() * x.x() + x.y() * x.y())}; };
+    data.classes.push_back(
+        make_class(space_of(shape, bend == 0 ? 1 : 2), space_of(shape, 4), compose(square(shape, 3), bent), field_of));
+    const TemporaryFile file("surface.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request;
+    request.width = request.height = 150;
+    request.camera.eye = eye;
+    request.camera.up = {0, 0, 1};
+    request.camera.field_of_view = 40;
+    request.colors.points = {{-2, {0, 0, 0}}, {3, {1, 1, 1}}};
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        Renderer renderer(device(), volume, precision);
+        const Frame frame = renderer.render(request);
+        double value_error = 0, depth_error = 0, normal_error = 0;
+        std::size_t hits = 0, disagreements = 0, undecided = 0;
+        for (std::uint32_t row = 0; row < request.height; ++row)
+            for (std::uint32_t column = 0; column < request.width; ++column) {
+                const std::size_t pixel = row * request.width + column;
+                const Ray ray = pixel_ray(request.camera, request.width, request.height, column, row);
+                const double t = crossing(ray, bend);
+                if (std::isnan(t) != (frame.element[pixel] < 0)) {
+                    ++disagreements;
+                    continue;
+                }
+                if (std::isnan(t))
+                    continue;
+                ++hits;
+                // At the mesh's edge rounding may decide between two crossings.
+                if ((frame.flags[pixel] & pixel_flag::undecided) != 0) {
+                    ++undecided;
+                    continue;
+                }
+                const Vector x = (ray.origin + t * ray.direction).cast<double>();
+                const Vector gradient = Vector(-2 * bend * x.x(), -2 * bend * x.y(), 1).normalized();
+                const double facing = std::abs(gradient.dot(ray.direction.cast<double>()));
+                const Vector normal(frame.normal[3 * pixel], frame.normal[3 * pixel + 1], frame.normal[3 * pixel + 2]);
+                // Grazing rays stretch every error.
+                depth_error = std::max(depth_error, std::abs(frame.depth[pixel] - t) * facing);
+                value_error = std::max(value_error, std::abs(frame.value[pixel] - field_of(x)) * facing);
+                normal_error = std::max(normal_error, 1 - std::abs(normal.dot(gradient)));
+                CHECK(normal.dot(ray.direction.cast<double>()) <= 0);
+            }
+        const bool is_single = precision == Precision::float32;
+        WARN(native::name(shape) << (bend == 0 ? ", flat" : ", bent") << (is_single ? ", float32: " : ", float64: ") << hits
+                                 << " hits, depth error " << depth_error << ", value error " << value_error << ", normal error "
+                                 << normal_error << ", " << disagreements << " disagreements, " << undecided << " undecided");
+        CHECK(undecided <= 3);
+        CHECK(hits > 1000);
+        CHECK(disagreements <= (is_single ? 1 : 0));
+        CHECK(depth_error <= (is_single ? 3e-6 : 1e-14));
+        CHECK(value_error <= (is_single ? 5e-6 : 1e-13));
+        CHECK(normal_error <= (is_single ? 1e-6 : 1e-14));
+        // Rays that touch the surface: flagged, because rounding decides whether they meet it.
+        CHECK(frame.counts.newton_failures <= (is_single && bend != 0 ? 5 : 0));
+        CHECK(frame.counts.work_limit_pixels == 0);
+    }
+}
+
+} // namespace
+
+TEST_CASE("a flat mesh is drawn exactly") {
+    check(Shape::quadrilateral, 0, {0.3, -2, 2.5});
+    check(Shape::triangle, 0, {0.3, -2, 2.5});
+}
+
+TEST_CASE("a curved surface is drawn exactly, in front of itself too") {
+    for (const Shape shape : {Shape::quadrilateral, Shape::triangle}) {
+        check(shape, 0.5, {0.4, -2.5, 1.2});
+        // From below and the side, where rays meet the surface twice.
+        check(shape, 0.8, {0.3, -3, 0.3});
+    }
+}
+
+} // namespace elvis::oracle
