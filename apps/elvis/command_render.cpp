@@ -34,6 +34,8 @@ struct Arguments {
     std::string output;
     std::string field;
     std::vector<std::string> cut_planes;
+    std::vector<std::string> boundary_groups;
+    bool boundary = false;
     std::string color_map;
     std::string range;
     std::string eye, look_at, up;
@@ -90,8 +92,12 @@ void apply_options(const Arguments& arguments, Scene& scene) {
     if (!arguments.field.empty()) {
         scene.field = arguments.field;
     }
-    if (!arguments.cut_planes.empty()) {
+    if (!arguments.cut_planes.empty() || arguments.boundary) {
         scene.cut_planes.clear();
+        scene.boundary.reset();
+    }
+    if (arguments.boundary) {
+        scene.boundary = arguments.boundary_groups;
     }
     for (const std::string& text : arguments.cut_planes) {
         const std::vector<double> list = numbers("--cut-plane", text, 4, 4);
@@ -259,10 +265,13 @@ void run(const Arguments& arguments) {
     request.background = scene.background;
     request.time_step = scene.time_step;
     request.cut_planes = scene.cut_planes;
+    request.boundary = scene.boundary;
     std::vector<CutPlane> looked_at = request.cut_planes;
     if (volume.dimension() == 2) {
         looked_at = plane_of_flat(renderer.bounds());
-    } else if (looked_at.empty()) {
+    } else if (looked_at.empty() && !scene.boundary && volume.n_faces() > 0) {
+        request.boundary.emplace();
+    } else if (looked_at.empty() && !scene.boundary) {
         request.cut_planes = looked_at = {central_plane(renderer.bounds())};
     }
     request.camera =
@@ -308,6 +317,10 @@ void add_render(CLI::App& app) {
     command->add_option("--field", a->field, "Field: name, or name[component]; a vector alone means its magnitude");
     command->add_option("--cut-plane", a->cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
         ->allow_extra_args(false);
+    const CLI::Option* boundary =
+        command->add_option("--boundary", a->boundary_groups, "The boundary, or one of its groups by name; may be repeated")
+            ->expected(0, 1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--color-map", a->color_map, "Built-in name, or file (ParaView JSON, ElVis XML)");
     command->add_option("--range", a->range, "LOW,HIGH: values at the ends of the colour map");
     command->add_option("--eye", a->eye, "x,y,z of the camera");
@@ -327,7 +340,12 @@ void add_render(CLI::App& app) {
     command->add_option("--bits", a->bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));
     command->add_flag("--validation", a->validation, "Run with the Vulkan validation layer; any message is an error");
     command->add_flag("--schema", a->schema, "Print the JSON Schema of scene files");
-    command->callback([a] { run(*a); });
+    command->callback([a, boundary] {
+        a->boundary = boundary->count() > 0;
+        // Without a name the list holds an empty one.
+        std::erase_if(a->boundary_groups, [](const std::string& name) { return name.empty() || name == "{}"; });
+        run(*a);
+    });
 }
 
 } // namespace elvis::commands

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,8 @@ struct FrameRequest {
     ColorTable colors;
     /** The nearest hit wins. */
     std::vector<CutPlane> cut_planes;
+    /** The boundary, if it is drawn: names of groups; empty for all of it. */
+    std::optional<std::vector<std::string>> boundary;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
     bool with_buffers = true;
 };

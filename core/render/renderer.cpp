@@ -2,10 +2,10 @@
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/cut_plane_pass.hpp>
 #include <core/render/device_time.hpp>
+#include <core/render/face_pass.hpp>
 #include <core/render/field_range.hpp>
 #include <core/render/real_array.hpp>
 #include <core/render/renderer.hpp>
-#include <core/render/surface_mesh_pass.hpp>
 
 #include <core/base/error.hpp>
 
@@ -58,10 +58,14 @@ struct Renderer::Impl {
     const Device& device;
     const RuntimeVolume& volume;
     Precision precision;
+    const TaskControl* control;
     DeviceVolume data;
     ColorPass color_pass;
     std::optional<CutPlanePass> cut_planes;
-    std::optional<SurfaceMeshPass> surface_mesh;
+    /** Boundary faces by the groups asked for, and the pass that draws those of the last frame. */
+    std::map<std::vector<std::string>, FaceSet> face_sets;
+    std::optional<FacePass> faces;
+    std::optional<std::vector<std::string>> drawn_boundary;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::vector<FieldRange>, elvis_certainty>> ranges;
     std::optional<FieldChoice> selected;
     std::uint32_t selected_step = 0;
@@ -69,8 +73,8 @@ struct Renderer::Impl {
     /** Kept from frame to frame: fresh memory costs a page fault for each page. */
     std::optional<Buffer> samples, colors, normals;
 
-    Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* control)
-        : device(on), volume(of), precision(with), data(on, of, with, control), color_pass(on, with) {
+    Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
+        : device(on), volume(of), precision(with), control(task), data(on, of, with, task), color_pass(on, with) {
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
     }
 
@@ -80,6 +84,7 @@ struct Renderer::Impl {
     void read_samples(const std::vector<Vector3>& plane_normals, double offset, bool with_buffers, Frame& frame) const;
     std::uint32_t flags_of_range(const FrameRequest& request, double offset);
     void provide_buffers(std::uint64_t n_pixels);
+    void provide_faces(const FrameRequest& request, std::uint64_t n_pixels);
     bool is_surface() const { return volume.dimension() == 2; }
     CutPlane plane_across(const Camera& camera) const;
 };
@@ -90,10 +95,30 @@ void Renderer::Impl::provide_buffers(std::uint64_t n_pixels) {
         colors.reset();
         samples.emplace(device, n_pixels * sample_bytes(precision));
         colors.emplace(device, 4 * n_pixels * real_bytes(precision));
-        if (is_surface()) {
-            normals.reset();
-            normals.emplace(device, 3 * n_pixels * real_bytes(precision));
+        normals.reset();
+    }
+}
+
+/** The pass that draws what the request asks for, if any, and where it writes normals. */
+void Renderer::Impl::provide_faces(const FrameRequest& request, std::uint64_t n_pixels) {
+    if (!is_surface() && request.boundary != drawn_boundary) {
+        faces.reset();
+        drawn_boundary = request.boundary;
+    }
+    const bool is_wanted = is_surface() || request.boundary.has_value();
+    if (is_wanted && !faces) {
+        const FaceSet* set = nullptr;
+        if (!is_surface()) {
+            const auto [found, is_new] =
+                face_sets.try_emplace(*request.boundary, device, volume, precision, data.centre(), *request.boundary, control);
+            set = &found->second;
         }
+        const Clock::time_point start = Clock::now();
+        faces.emplace(device, volume, data, set);
+        times.compile_milliseconds += milliseconds_since(start);
+    }
+    if (is_wanted && !normals) {
+        normals.emplace(device, 3 * n_pixels * real_bytes(precision));
     }
 }
 
@@ -135,9 +160,8 @@ void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
     data.select(field.field, time_step, offset);
     times.upload_milliseconds = data.upload_milliseconds();
     const Clock::time_point start = Clock::now();
-    if (is_surface()) {
-        surface_mesh.emplace(device, volume, data);
-    } else {
+    faces.reset();
+    if (!is_surface()) {
         cut_planes.emplace(device, volume, data);
     }
     times.compile_milliseconds = milliseconds_since(start);
@@ -189,7 +213,7 @@ void Renderer::Impl::read_samples(const std::vector<Vector3>& plane_normals, dou
     frame.normal.assign(3 * n_pixels, not_a_number);
     frame.element.assign(n_pixels, -1);
     frame.flags.resize(n_pixels);
-    const std::vector<Real> of_mesh = this->normals ? this->normals->read_items<Real>(3 * n_pixels) : std::vector<Real>();
+    const std::vector<Real> of_faces = this->normals ? this->normals->read_items<Real>(3 * n_pixels) : std::vector<Real>();
     for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
         const Sample<Real>& sample = read[pixel];
         frame.flags[pixel] = sample.flags;
@@ -198,8 +222,9 @@ void Renderer::Impl::read_samples(const std::vector<Vector3>& plane_normals, dou
             frame.depth[pixel] = static_cast<double>(sample.depth);
             frame.element[pixel] = sample.number;
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                frame.normal[3 * pixel + axis] = of_mesh.empty() ? plane_normals[sample.surface() - 1][axis]
-                                                                 : static_cast<double>(of_mesh[3 * pixel + axis]);
+                const bool is_plane = sample.surface() <= plane_normals.size();
+                frame.normal[3 * pixel + axis] =
+                    is_plane ? plane_normals[sample.surface() - 1][axis] : static_cast<double>(of_faces[3 * pixel + axis]);
             }
         }
     }
@@ -242,6 +267,7 @@ Frame Renderer::render(const FrameRequest& request) {
     frame.counts.pixels = n_pixels;
 
     impl.provide_buffers(n_pixels);
+    impl.provide_faces(request, n_pixels);
     const FieldInfo& field = impl.volume.fields()[request.field.field];
     const ShownComponent component{request.field.component, field.n_components,
                                    field.continuity != ELVIS_CONTINUITY_CONTINUOUS};
@@ -254,11 +280,11 @@ Frame Renderer::render(const FrameRequest& request) {
         normals.push_back(geometry.normal);
         impl.cut_planes->draw(geometry, surface + 1, component, {*impl.samples, request.width, request.height}, frame.counts);
     }
-    if (impl.surface_mesh) {
+    if (impl.faces) {
         const CutPlaneGeometry view = cut_plane_geometry(impl.plane_across(request.camera), request.camera, request.width,
                                                          request.height, impl.data.centre());
-        impl.surface_mesh->draw(view, 1, component, {*impl.samples, request.width, request.height}, *impl.normals,
-                                frame.counts);
+        impl.faces->draw(view, static_cast<std::uint32_t>(request.cut_planes.size()) + 1, component,
+                         {*impl.samples, request.width, request.height}, *impl.normals, frame.counts);
     }
     impl.color_pass.draw(*impl.samples, *impl.colors, static_cast<std::uint32_t>(n_pixels), request.colors, request.background,
                          offset, common_flags);

@@ -117,6 +117,14 @@ std::string JsonObject::text(const char* key) const {
     return raw(key).get<std::string>();
 }
 
+std::vector<std::string> JsonObject::texts(const char* key) const {
+    const json& list = raw(key);
+    if (!list.is_array() || !std::all_of(list.begin(), list.end(), [](const json& one) { return one.is_string(); })) {
+        fail(key, "must be a list of texts");
+    }
+    return list.get<std::vector<std::string>>();
+}
+
 std::string JsonObject::word(const char* key) const {
     const json& allowed = schema_of(key).at("enum");
     if (std::find(allowed.begin(), allowed.end(), raw(key)) == allowed.end()) {

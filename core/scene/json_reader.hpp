@@ -28,6 +28,7 @@ public:
     JsonObject object(const char* key) const;
     std::vector<JsonObject> objects(const char* key) const;
     std::string text(const char* key) const;
+    std::vector<std::string> texts(const char* key) const;
     /** A text among the schema's "enum". */
     std::string word(const char* key) const;
     double number(const char* key) const;

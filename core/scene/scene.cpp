@@ -94,8 +94,21 @@ SceneColorMap read_color_map(const JsonObject& object, const std::string& scene)
     return map;
 }
 
+void refuse_keys(const JsonObject& surface, const std::string& type, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) {
+        if (surface.has(key)) {
+            surface.fail(key, "means nothing for a surface of type \"" + type + "\"");
+        }
+    }
+}
+
+std::vector<std::string> read_boundary(const JsonObject& object) {
+    refuse_keys(object, "boundary", {"plane", "point", "normal"});
+    return object.has("groups") ? object.texts("groups") : std::vector<std::string>();
+}
+
 CutPlane read_plane(const JsonObject& object) {
-    object.word("type");
+    refuse_keys(object, "plane", {"groups"});
     CutPlane plane;
     if (object.has("plane") == (object.has("point") || object.has("normal"))) {
         object.fail("plane", "or 'point' and 'normal' must say where the plane is, and only one of the two");
@@ -174,7 +187,13 @@ Scene read_scene(const std::string& path) {
     }
     if (root.has("surfaces")) {
         for (const JsonObject& surface : root.objects("surfaces")) {
-            scene.cut_planes.push_back(read_plane(surface));
+            if (surface.word("type") == "plane") {
+                scene.cut_planes.push_back(read_plane(surface));
+            } else if (scene.boundary) {
+                surface.fail("type", "is \"boundary\" a second time; name all groups in one");
+            } else {
+                scene.boundary = read_boundary(surface);
+            }
         }
     }
     return scene;

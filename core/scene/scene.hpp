@@ -53,6 +53,8 @@ struct Scene {
     std::array<double, 4> background{1, 1, 1, 1};
     SceneColorMap color_map;
     std::vector<CutPlane> cut_planes;
+    /** The boundary, if it is drawn: names of groups; empty for all of it. */
+    std::optional<std::vector<std::string>> boundary;
 };
 
 /** Reads a scene file; paths in it become relative to the working directory. Throws Error naming file, key and cause. */

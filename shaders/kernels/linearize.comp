@@ -3,6 +3,7 @@
 
 layout(local_size_x = 32) in;
 
+#include "library/face_frame.glsl"
 #include "library/finite.glsl"
 #include "library/linearization.glsl"
 #include "library/shape_region.glsl"
@@ -44,6 +45,7 @@ elvis_real core_measured_curvature(uint element, elvis_mat3 jacobian, elvis_real
         elvis_vec3 position;
         elvis_mat3 here;
         elvis_mapping_jacobian(element, CORE_CENTROID + (is_half_way ? elvis_real(0.5LF) : elvis_real(1)) * way, position, here);
+        here = core_full_jacobian(here);
         const elvis_vec3 cofactors0 = cross(here[1], here[2]);
         const elvis_vec3 cofactors1 = cross(here[2], here[0]);
         const elvis_vec3 cofactors2 = cross(here[0], here[1]);
@@ -69,6 +71,7 @@ void main() {
     elvis_vec3 position;
     elvis_mat3 jacobian;
     elvis_mapping_jacobian(element, CORE_CENTROID, position, jacobian);
+    jacobian = core_full_jacobian(jacobian);
     const elvis_vec3 cofactors0 = cross(jacobian[1], jacobian[2]);
     const elvis_vec3 cofactors1 = cross(jacobian[2], jacobian[0]);
     const elvis_vec3 cofactors2 = cross(jacobian[0], jacobian[1]);

@@ -46,8 +46,8 @@ uint core_common_exponent(vec3 row) {
     return largest > 0.0 && exponent < 254u ? exponent : 0u;
 }
 
-float core_curvature(core_linearization packed) {
-    const uint level = (packed.exponents >> 24) & 7u;
+float core_curvature(uint exponents) {
+    const uint level = exponents == 0u ? core_unknown_curvature_level : (exponents >> 24) & 7u;
     return level == core_unknown_curvature_level ? 1e9 : (level == 0u ? 1.0 / 1024.0 : exp2(float(level) - 6.0));
 }
 

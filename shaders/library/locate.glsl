@@ -92,7 +92,7 @@ core_newton core_newton_start(uint element, elvis_vec3 target) {
     const elvis_vec3 start = is_linearized ? elvis_vec3(core_linear_inverse(linearization, vec3(target))) : middle;
     const elvis_vec3 moved = abs(start - middle);
     return core_newton_begin(start.x, start.y, start.z, is_linearized ? max(max(moved.x, moved.y), moved.z) : elvis_real(-1),
-                             is_linearized ? elvis_real(core_curvature(linearization)) : CORE_UNKNOWN_CURVATURE);
+                             elvis_real(core_curvature(linearization.exponents)));
 }
 
 // The linearized mapping keeps this many digits of coordinates in the element.

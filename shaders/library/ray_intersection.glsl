@@ -22,6 +22,7 @@
 #ifndef CORE_RAY_INTERSECTION
 #define CORE_RAY_INTERSECTION
 
+#include "library/face_frame.glsl"
 #include "library/precision.glsl"
 
 #ifndef CORE_RAY_PATCHES
@@ -51,43 +52,6 @@ struct core_ray_segments {
     elvis_real enter[CORE_RAY_MAX_CROSSINGS / 2u];
     elvis_real leave[CORE_RAY_MAX_CROSSINGS / 2u];
 };
-
-struct core_face {
-    elvis_vec3 corner, a, b;
-    // 1 if a x b points out of the reference shape, else -1.
-    elvis_real orientation;
-    bool is_triangle;
-};
-
-// The sides are those from the first corner of the face (elvis/element.h) to its second and its last.
-core_face core_face_frame(int face) {
-    const elvis_vec3 x = elvis_vec3(2, 0, 0), y = elvis_vec3(0, 2, 0), z = elvis_vec3(0, 0, 2);
-    const elvis_vec3 c0 = elvis_vec3(-1, -1, -1), c1 = c0 + x, c3 = c0 + y;
-    core_face f = core_face(c0, x, y, elvis_real(-1), false);
-#if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
-    if (face == 1) f = core_face(c0, x, z, elvis_real(1), false);
-    if (face == 2) f = core_face(c1, y, z, elvis_real(1), false);
-    if (face == 3) f = core_face(c3, x, z, elvis_real(-1), false);
-    if (face == 4) f = core_face(c0, y, z, elvis_real(-1), false);
-    if (face == 5) f = core_face(c0 + z, x, y, elvis_real(1), false);
-#elif ELVIS_SHAPE == ELVIS_SHAPE_PRISM
-    if (face == 1) f = core_face(c0, x, z, elvis_real(1), true);
-    if (face == 2) f = core_face(c1, y, z - x, elvis_real(1), false);
-    if (face == 3) f = core_face(c3, x, z, elvis_real(-1), true);
-    if (face == 4) f = core_face(c0, y, z, elvis_real(-1), false);
-#elif ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
-    if (face == 1) f = core_face(c0, x, z, elvis_real(1), true);
-    if (face == 2) f = core_face(c1, y, z - x, elvis_real(1), true);
-    if (face == 3) f = core_face(c3, x, z - y, elvis_real(-1), true);
-    if (face == 4) f = core_face(c0, y, z, elvis_real(-1), true);
-#else
-    f.is_triangle = true;
-    if (face == 1) f = core_face(c0, x, z, elvis_real(1), true);
-    if (face == 2) f = core_face(c1, y - x, z - x, elvis_real(1), true);
-    if (face == 3) f = core_face(c0, y, z, elvis_real(-1), true);
-#endif
-    return f;
-}
 
 elvis_real core_largest(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 

@@ -1,4 +1,4 @@
-// Two-dimensional volumes, whose pictures are known in closed form.
+// Two-dimensional volumes and boundaries, whose pictures are known in closed form.
 #include "meshes.hpp"
 #include "ray.hpp"
 #include "test_files.hpp"
@@ -122,7 +122,113 @@ void check(Shape shape, double bend, const Vector3& eye) {
     }
 }
 
+// Distance at which a ray enters the cube [-1,1]^3; NaN if it does not.
+double cube_entry(const Ray& ray) {
+    long double enter = 0, leave = 1e30L;
+    for (int axis = 0; axis < 3; ++axis) {
+        const long double one = (-1 - ray.origin[axis]) / ray.direction[axis];
+        const long double other = (1 - ray.origin[axis]) / ray.direction[axis];
+        enter = std::max(enter, std::min(one, other));
+        leave = std::min(leave, std::max(one, other));
+    }
+    return enter <= leave ? static_cast<double>(enter) : std::nan("");
+}
+
+FrameRequest boundary_view(std::uint32_t size) {
+    FrameRequest request;
+    request.width = request.height = size;
+    request.camera.eye = {3.1, 2.3, 1.9};
+    request.camera.up = {0, 0, 1};
+    request.camera.field_of_view = 50;
+    request.colors.points = {{-2, {0, 0, 0}}, {3, {1, 1, 1}}};
+    request.boundary.emplace();
+    return request;
+}
+
 } // namespace
+
+TEST_CASE("the boundary of a box is drawn exactly, whatever shapes fill it") {
+    for (const char* shape : {"hexahedron", "prism", "tetrahedron", "pyramid", "mixed"}) {
+        const TemporaryFile file("box.h5");
+        generate(
+            std::string(R"({"generator": 1, "mesh": "box", "elements": [4, 3, 3], "order": 3, "field": "sphere", "shape": ")") +
+                shape + "\"}",
+            file.path());
+        const RuntimeVolume volume = open_volume(file.path());
+        const FrameRequest request = boundary_view(160);
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
+            Renderer renderer(device(), volume, precision);
+            const Frame frame = renderer.render(request);
+            double depth_error = 0, value_error = 0;
+            std::size_t disagreements = 0, hits = 0, flagged = 0;
+            for (std::uint32_t row = 0; row < request.height; ++row)
+                for (std::uint32_t column = 0; column < request.width; ++column) {
+                    const std::size_t pixel = row * request.width + column;
+                    const Ray ray = pixel_ray(request.camera, request.width, request.height, column, row);
+                    const double t = cube_entry(ray);
+                    flagged += frame.flags[pixel] != 0;
+                    if (std::isnan(t) != (frame.element[pixel] < 0)) {
+                        ++disagreements;
+                    } else if (!std::isnan(t)) {
+                        ++hits;
+                        const Vector x = (ray.origin + t * ray.direction).cast<double>();
+                        const Vector normal(frame.normal[3 * pixel], frame.normal[3 * pixel + 1], frame.normal[3 * pixel + 2]);
+                        // Oblique rays stretch every error.
+                        const double facing = std::abs(normal.dot(ray.direction.cast<double>()));
+                        depth_error = std::max(depth_error, facing * std::abs(frame.depth[pixel] - t));
+                        value_error = std::max(value_error, facing * std::abs(frame.value[pixel] - x.squaredNorm()));
+                    }
+                }
+            const bool is_single = precision == Precision::float32;
+            WARN("box of " << shape << (is_single ? ", float32: " : ", float64: ") << hits << " hits, depth error "
+                           << depth_error << ", value error " << value_error << ", " << disagreements << " disagreements, "
+                           << flagged << " flagged");
+            CHECK(hits > 1000);
+            CHECK(disagreements == 0);
+            CHECK(depth_error <= (is_single ? 2e-5 : 1e-13));
+            CHECK(value_error <= (is_single ? 4e-5 : 1e-13));
+            CHECK(flagged <= 20);
+        }
+    }
+}
+
+TEST_CASE("a curved boundary has no holes") {
+    const TemporaryFile file("ball.h5");
+    generate(
+        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [4, 4, 4], "geometry_order": 3, "order": 3, "field": "waves"})",
+        file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    const FrameRequest request = boundary_view(200);
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        Renderer renderer(device(), volume, precision);
+        const Frame frame = renderer.render(request);
+        // The geometry of order 3 keeps this close to the sphere.
+        double off_sphere = 0;
+        std::size_t missed = 0, beyond = 0;
+        for (std::uint32_t row = 0; row < request.height; ++row)
+            for (std::uint32_t column = 0; column < request.width; ++column) {
+                const std::size_t pixel = row * request.width + column;
+                const Ray ray = pixel_ray(request.camera, request.width, request.height, column, row);
+                const long double middle = -ray.origin.dot(ray.direction);
+                const auto nearest = static_cast<double>((ray.origin + middle * ray.direction).norm());
+                const bool is_hit = frame.element[pixel] >= 0;
+                missed += nearest < 0.999 && !is_hit;
+                beyond += nearest > 1.001 && is_hit;
+                if (nearest < 0.99 && is_hit) {
+                    const Vector x = (ray.origin + frame.depth[pixel] * ray.direction).cast<double>();
+                    off_sphere = std::max(off_sphere, std::abs(x.norm() - 1));
+                    // In front, not behind.
+                    missed += frame.depth[pixel] > static_cast<double>(middle);
+                }
+            }
+        WARN("ball: " << missed << " pixels missed, " << beyond << " beyond, off the sphere by at most " << off_sphere << ", "
+                      << frame.counts.newton_failures << " failures");
+        CHECK(missed == 0);
+        CHECK(beyond == 0);
+        CHECK(off_sphere < 1e-3);
+        CHECK(frame.counts.work_limit_pixels == 0);
+    }
+}
 
 TEST_CASE("a flat mesh is drawn exactly") {
     check(Shape::quadrilateral, 0, {0.3, -2, 2.5});

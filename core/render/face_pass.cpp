@@ -1,5 +1,5 @@
+#include <core/render/face_pass.hpp>
 #include <core/render/real_array.hpp>
-#include <core/render/surface_mesh_pass.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,28 +20,43 @@ struct Parameters {
     std::uint32_t is_discontinuous;
 };
 
-/** Patches along each side of an element that Newton's method starts from: one where the mapping is affine. */
+/** Patches along each side of a face that Newton's method starts from: one where the mapping is affine. */
 int patches(const ClassInfo& info) {
-    const bool is_straight = info.geometry_order[0] == 1 && info.geometry_order[1] == 1;
-    return !is_straight ? 4 : info.shape == ELVIS_SHAPE_TRIANGLE ? 1 : 2;
+    const bool is_straight = info.geometry_order[0] == 1 && info.geometry_order[1] == 1 && info.geometry_order[2] <= 1;
+    const bool is_simplex = info.shape == ELVIS_SHAPE_TRIANGLE || info.shape == ELVIS_SHAPE_TETRAHEDRON;
+    return !is_straight ? 4 : is_simplex ? 1 : 2;
+}
+
+/** Those of the class, with the faces' hierarchy in place of the elements'. */
+std::vector<FetchBuffer> host_buffers(const DeviceVolume& data, const FaceSet* faces, std::uint32_t element_class) {
+    std::vector<FetchBuffer> buffers = data.host_buffers(element_class);
+    if (faces != nullptr) {
+        for (FetchBuffer& buffer : buffers) {
+            if (buffer.name == "core_nodes") {
+                buffer.records = faces->nodes(element_class);
+            }
+        }
+        buffers.push_back({"core_faces", faces->faces(element_class)});
+    }
+    return buffers;
 }
 
 } // namespace
 
-SurfaceMeshPass::SurfaceMeshPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces)
     : m_precision(data.precision()), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
-        if (info.n_elements == 0) {
+        if (info.n_elements == 0 || (faces != nullptr && faces->nodes(index) == nullptr)) {
             continue;
         }
         KernelRequest request;
-        request.name = "surface_mesh of element class " + std::to_string(index);
-        request.kernel = "kernels/surface_mesh.comp";
+        request.name = "faces of element class " + std::to_string(index);
+        request.kernel = "kernels/faces.comp";
         request.precision = m_precision;
         request.instances = {data.instance(index)};
-        request.buffers = data.host_buffers(index);
+        request.buffers = host_buffers(data, faces, index);
         request.defines = {{"CORE_PATCHES", std::to_string(patches(info))}};
         request.bindings = {{0, BindingType::uniform_buffer},
                             {1, BindingType::storage_buffer},
@@ -52,8 +67,8 @@ SurfaceMeshPass::SurfaceMeshPass(const Device& device, const RuntimeVolume& volu
     }
 }
 
-void SurfaceMeshPass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const ShownComponent& component,
-                           const SampleTarget& target, const Buffer& normals, FrameCounts& counts) {
+void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const ShownComponent& component,
+                    const SampleTarget& target, const Buffer& normals, FrameCounts& counts) {
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     m_counts.fill(0);
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / target.width);

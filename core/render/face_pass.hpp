@@ -1,6 +1,6 @@
 /**
- * @file surface_mesh_pass.hpp
- * Draws the elements of a two-dimensional volume into the samples of a picture.
+ * @file face_pass.hpp
+ * Draws faces of elements into the samples of a picture: the boundary, or the elements of a two-dimensional volume.
  */
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <core/render/frame.hpp>
 #include <core/render/samples.hpp>
 #include <core/volume/device_volume.hpp>
+#include <core/volume/face_set.hpp>
 
 #include <memory>
 #include <vector>
@@ -15,13 +16,14 @@
 namespace elvis {
 
 /** The kernels of one volume and field, one for each element class. Compiled when constructed. */
-class SurfaceMeshPass {
+class FacePass {
 public:
-    SurfaceMeshPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+    /** `faces`: null for the elements of a two-dimensional volume. */
+    FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces);
 
     /**
-     * Draws the elements; each class is a surface of its own, numbered from `first_surface`. `normals` receives three numbers a
-     * pixel (unit, towards the viewer) where an element is seen. `view` is the geometry of any plane: only its rays matter.
+     * Draws the faces; each class is a surface of its own, numbered from `first_surface`. `normals` receives three numbers a
+     * pixel (unit, towards the viewer) where a face is seen. `view` is the geometry of any plane: only its rays matter.
      */
     void draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const ShownComponent& component,
               const SampleTarget& target, const Buffer& normals, FrameCounts& counts);
