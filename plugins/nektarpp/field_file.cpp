@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
-#include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace nektarpp {
@@ -194,9 +194,14 @@ private:
         const ModeNumbers numbers(file, node, static_cast<std::size_t>(m_mesh.dimension()));
         numbers.check_count(elements.size());
         std::vector<std::size_t> sets;
+        std::map<std::array<std::uint32_t, 3>, std::size_t> known_sets;
         std::uint64_t per_field = 0;
         for (std::size_t index = 0; index < elements.size(); ++index) {
-            sets.push_back(set_number(file, node, {shape, basis, numbers.of(index)}));
+            const auto [known, is_new] = known_sets.try_emplace(numbers.of(index), 0u);
+            if (is_new) {
+                known->second = set_number(file, node, {shape, basis, known->first});
+            }
+            sets.push_back(known->second);
             per_field += m_target.m_sets[sets.back()].n_coefficients;
         }
         // Old files lack the attributes and are compressed all the same.

@@ -345,16 +345,21 @@ void Reader::add_curve(const pugi::xml_node& node, bool is_edge, CurveRecord& re
 }
 
 void Reader::read_composites(const pugi::xml_node& node) {
+    std::unordered_map<std::int64_t, std::size_t> place;
+    for (const Composite& composite : m_data.composites) {
+        place.emplace(composite.id, place.size());
+    }
     for (const pugi::xml_node& child : node.children("C")) {
         Composite composite;
         composite.id = m_file.integer(child, "ID");
         composite.name = child.attribute("NAME").value();
         composite.groups = parse_groups(m_file, child, text_of(child));
-        const auto known = std::ranges::find(m_data.composites, composite.id, &Composite::id);
-        if (known == m_data.composites.end()) {
+        const auto [known, is_new] = place.emplace(composite.id, m_data.composites.size());
+        if (is_new) {
             m_data.composites.push_back(std::move(composite));
         } else {
-            known->groups.insert(known->groups.end(), composite.groups.begin(), composite.groups.end());
+            std::vector<IdGroup>& groups = m_data.composites[known->second].groups;
+            groups.insert(groups.end(), composite.groups.begin(), composite.groups.end());
         }
     }
 }
