@@ -170,17 +170,19 @@ public:
     bool has_blocks() const { return m_has_blocks; }
 
     void read_time(const XmlFile& file) {
-        const pugi::xml_node node = file.root().child("Metadata").child("Time");
+        pugi::xml_node node = file.root().child("Metadata").child("Time");
         if (!node) {
-            return;
+            // Version 3.
+            node = file.root().child("FIELDMETADATA").find_child_by_attribute("P", "PARAM", "Time");
         }
-        NumberText text(file, node);
-        m_target.m_time = text.real();
+        if (node) {
+            m_target.m_time = NumberText(file, node).real();
+        }
     }
 
 private:
     void read_block(const XmlFile& file, const pugi::xml_node& node) {
-        if (node.attribute("HOMOGENEOUSLENGTHS") || node.attribute("NumberOfHomogeneousDir")) {
+        if (node.attribute("HOMOGENEOUSLENGTHS")) {
             file.fail(node, "homogeneous (Fourier) expansions are not supported");
         }
         const Shape shape = shape_of(file, node);

@@ -185,6 +185,10 @@ TEST_CASE("files become time steps in the order of their times", "[nektarpp][dat
     CHECK(Converted(source, 0, 1).value(70, {0.1, 0.2, 0.3}) == Approx(10 * factor));
     CHECK(open_nektar({cube(), late, timeless}).times() == std::vector<double>{0, 1});
     CHECK(open_nektar({cube(), late}).times() == std::vector<double>{2.5});
+    std::string old_text = read_file(late);
+    const std::size_t first = old_text.find("<Metadata>"), last = old_text.find("</Metadata>") + 11;
+    old_text.replace(first, last - first, R"(<FIELDMETADATA><P PARAM="Kinvis">1</P><P PARAM="Time">1.25</P></FIELDMETADATA>)");
+    CHECK(open_nektar({cube(), folder.write("old.chk", old_text)}).times() == std::vector<double>{1.25});
     const std::string other = folder.write(
         "other.fld", nektar_writer::field_file({{"v", "Hexahedron", "Ortho_A,Ortho_A,Ortho_A", "UNIORDER:1,1,1", "66", {1}}}));
     CHECK_THAT(failure({cube(), late, other}), Contains("other.fld") && Contains("holds the fields v, the first time step u"));
