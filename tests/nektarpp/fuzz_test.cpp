@@ -57,8 +57,28 @@ void copy_part(Random& random, std::string& text) {
     text.insert(below(random, text.size()), text.substr(first, below(random, 300)));
 }
 
+/** Changes words inside of compressed content, which stays valid as such. */
+void change_content(Random& random, std::string& text) {
+    const std::size_t first = text.find(">eJ", below(random, text.size())) + 1;
+    const std::size_t last = text.find('<', first);
+    if (first == 0 || last == std::string::npos) {
+        flip_bytes(random, text);
+        return;
+    }
+    std::vector<std::uint64_t> words = nektar_writer::unpack(text.substr(first, last - first));
+    for (std::size_t n = 1 + below(random, 4); n > 0 && !words.empty(); --n) {
+        constexpr std::uint64_t values[] = {
+            0, 1, 2, 5, 17, 22, 1000, ~std::uint64_t{0}, 0x7ff8000000000000, 0x7fefffffffffffff, std::uint64_t{1} << 63};
+        words[below(random, words.size())] = values[below(random, std::size(values))];
+    }
+    if (below(random, 8) == 0 && !words.empty()) {
+        words.resize(below(random, words.size()));
+    }
+    text.replace(first, last - first, nektar_writer::pack(words));
+}
+
 std::string damaged(Random& random, std::string text) {
-    switch (below(random, 5)) {
+    switch (below(random, 6)) {
     case 0:
         text.resize(below(random, text.size()));
         break;
@@ -72,6 +92,9 @@ std::string damaged(Random& random, std::string text) {
         break;
     case 3:
         remove_part(random, text);
+        break;
+    case 4:
+        change_content(random, text);
         break;
     default:
         copy_part(random, text);

@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include <zlib.h>
 
@@ -14,8 +15,9 @@ namespace {
 
 namespace native = elvis::native;
 
+constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 std::string base64(std::vector<unsigned char> bytes) {
-    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     bytes.resize((bytes.size() + 2) / 3 * 3);
     std::string text;
     for (std::size_t at = 0; at < bytes.size(); at += 3) {
@@ -332,6 +334,32 @@ std::string pack(const std::vector<double>& numbers) {
     std::vector<std::uint64_t> words;
     std::ranges::transform(numbers, std::back_inserter(words), [](double v) { return std::bit_cast<std::uint64_t>(v); });
     return pack(words);
+}
+
+std::vector<std::uint64_t> unpack(const std::string& text) {
+    std::vector<unsigned char> bytes;
+    unsigned bits = 0;
+    int n_bits = 0;
+    for (const char digit : text) {
+        const std::size_t value = digits.find(digit);
+        if (value == std::string_view::npos) {
+            return {};
+        }
+        bits = bits << 6 | static_cast<unsigned>(value);
+        n_bits += 6;
+        if (n_bits >= 8) {
+            n_bits -= 8;
+            bytes.push_back(static_cast<unsigned char>(bits >> n_bits));
+        }
+    }
+    // The samples' numbers do not shrink to less than a hundredth.
+    std::vector<std::uint64_t> words(bytes.size() * 100 / 8);
+    uLongf size = static_cast<uLongf>(words.size() * 8);
+    if (uncompress(reinterpret_cast<Bytef*>(words.data()), &size, bytes.data(), static_cast<uLong>(bytes.size())) != Z_OK) {
+        return {};
+    }
+    words.resize(size / 8);
+    return words;
 }
 
 std::string field_file(const std::vector<Block>& blocks, const std::string& metadata) {

@@ -20,6 +20,8 @@ using elvis::native::Shape;
 /** base64 of zlib of little-endian words, padded with NUL to a multiple of three bytes as Nektar++ does. */
 std::string pack(const std::vector<std::uint64_t>& words);
 std::string pack(const std::vector<double>& numbers);
+/** Inverse of pack; nothing if the text is no such thing. */
+std::vector<std::uint64_t> unpack(const std::string& text);
 
 /** One ELEMENTS of a field file. */
 struct Block {
