@@ -34,7 +34,7 @@ std::uint32_t n_second(const ModeSet& set, std::uint32_t p) {
 } // namespace
 
 void check(const ModeSet& set) {
-    const auto [a, b, c] = set.n_modes;
+    const std::uint32_t a = set.n_modes[0], b = set.n_modes[1], c = set.n_modes[2];
     const auto dimension = static_cast<std::size_t>(elvis::native::dimension(set.shape));
     const auto refuse = [&](const std::string& why) {
         std::ostringstream text;
@@ -116,10 +116,10 @@ std::vector<std::size_t> native_modes(const ModeSet& set) {
     for (std::size_t direction = 0; direction < 3; ++direction) {
         whole.n_modes[direction] = space.order[direction] + 1;
     }
-    const auto [a, b, c] = whole.n_modes;
-    std::vector<std::size_t> position(static_cast<std::size_t>(a) * b * c);
-    const auto at = [&, stride_q = b, stride_r = c](const ModeIndex& index) -> std::size_t& {
-        return position[(static_cast<std::size_t>(index[0]) * stride_q + index[1]) * stride_r + index[2]];
+    const std::array<std::uint32_t, 3>& n_along = whole.n_modes;
+    std::vector<std::size_t> position(static_cast<std::size_t>(n_along[0]) * n_along[1] * n_along[2]);
+    const auto at = [&](const ModeIndex& index) -> std::size_t& {
+        return position[(static_cast<std::size_t>(index[0]) * n_along[1] + index[1]) * n_along[2] + index[2]];
     };
     std::size_t n = 0;
     for_each_mode(whole, [&](const ModeIndex& index) { at(index) = n++; });
