@@ -14,8 +14,8 @@ using Orders = std::array<std::uint32_t, 3>;
 /** Shape, geometry orders, then orders and containment of each field. */
 using Key = std::vector<std::uint32_t>;
 
-/** Orders that a shape's native spaces can have: collapsed directions may not be poorer than those collapsed into them. */
-Orders admissible(native::Shape shape, Orders order) {
+/** Orders that native spaces can have: collapsed directions may not be poorer than those collapsed into them. */
+Orders admissible(native::Shape shape, native::Basis basis, Orders order) {
     using native::Shape;
     if (*std::max_element(order.begin(), order.end()) > 0) {
         for (std::uint32_t& one : order) {
@@ -27,7 +27,7 @@ Orders admissible(native::Shape shape, Orders order) {
     } else if (shape == Shape::tetrahedron) {
         order[1] = std::max(order[1], order[0]);
         order[2] = std::max(order[2], order[1]);
-    } else if (shape == Shape::pyramid) {
+    } else if (shape == Shape::pyramid && basis != native::Basis::tensor) {
         order.fill(*std::max_element(order.begin(), order.end()));
     } else if (shape == Shape::triangle) {
         order[1] = std::max(order[1], order[0]);
@@ -40,14 +40,16 @@ Orders admissible(native::Shape shape, Orders order) {
 
 /**
  * The space of a shape and order. Pyramids take `tensor`, which contains the polynomials and the rational spaces of other
- * codes; a continuous target takes the modified basis, whose modes belong to corners, edges and faces.
+ * codes, with an order of its own in each direction; a continuous target takes the modified basis, whose modes belong to
+ * corners, edges and faces.
  */
 native::Space target_space(native::Shape shape, const Orders& order, bool is_projected_continuous) {
     native::Space space;
     space.shape = shape;
-    space.order = admissible(shape, order);
-    space.basis = shape == native::Shape::pyramid && space.order[0] > 1 && !is_projected_continuous ? native::Basis::tensor
-                                                                                                    : native::Basis::modified;
+    const bool is_linear = *std::max_element(order.begin(), order.end()) <= 1;
+    space.basis = shape == native::Shape::pyramid && !is_linear && !is_projected_continuous ? native::Basis::tensor
+                                                                                            : native::Basis::modified;
+    space.order = admissible(shape, space.basis, order);
     return space;
 }
 
