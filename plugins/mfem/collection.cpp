@@ -4,6 +4,8 @@
 
 #include <elvis/native/space.hpp>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <optional>
 #include <stdexcept>
@@ -102,9 +104,13 @@ Collection parse_collection(std::string_view name) {
     if (name.starts_with("L2Int")) {
         throw std::invalid_argument(shown + ": densities (values divided by det J) are not supported");
     }
-    // Names of the first versions of MFEM that are still common for curved meshes.
-    if (name == "Linear" || name == "Quadratic") {
-        return Collection{.order = name == "Linear" ? 1 : 2};
+    // Names of the first versions of MFEM that are still common for curved meshes; evenly spaced nodes.
+    constexpr std::array<std::string_view, 3> first_names{"Linear", "Quadratic", "Cubic"};
+    const auto first_name = std::ranges::find(first_names, name);
+    if (first_name != first_names.end()) {
+        return Collection{.order = 1 + static_cast<int>(first_name - first_names.begin()),
+                          .basis = Basis::closed_uniform,
+                          .is_first_cubic = name == "Cubic"};
     }
     const std::size_t dimension = name.find("_3D_P");
     const auto prefix = parse_prefix(name.substr(0, dimension));

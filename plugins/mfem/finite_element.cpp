@@ -277,6 +277,9 @@ std::unique_ptr<const FiniteElement> make_element(const Collection& collection, 
     if (geometry == Geometry::pyramid) {
         check_pyramid(collection);
     }
+    if (collection.is_first_cubic && geometry != Geometry::cube && geometry != Geometry::tetrahedron) {
+        throw std::invalid_argument("the collection 'Cubic' is supported on hexahedra and tetrahedra only");
+    }
     const Functionals dofs = functionals(collection, geometry);
     std::vector<Point> nodes;
     for (const Functional& dof : dofs) {

@@ -1,5 +1,7 @@
 #include "functionals.hpp"
 
+#include <utility>
+
 namespace elvis_mfem {
 
 namespace {
@@ -239,6 +241,11 @@ std::vector<Functional> functionals(const Collection& collection, Geometry geome
     case Family::h1:
     case Family::l2:
         scalar_interior(points(collection.basis, collection.order + 1), collection.family == Family::l2, geometry, result);
+        if (collection.is_first_cubic && geometry == Geometry::cube) {
+            // The eight interior nodes go round like the vertices: the last two of each layer change places.
+            std::swap(result[58], result[59]);
+            std::swap(result[62], result[63]);
+        }
         break;
     case Family::nd:
         nd_interior(collection, geometry, result);
