@@ -219,7 +219,6 @@ public:
                 nodes.push_back(dof.node);
             }
         }
-        m_n_triangle = nodes.size();
         if (collection.basis == Basis::positive) {
             m_bernstein = std::make_unique<Bernstein>(collection.order, 2, nodes);
         } else {
@@ -251,7 +250,6 @@ private:
         std::size_t line;
     };
     Basis1d m_line;
-    std::size_t m_n_triangle = 0;
     std::vector<Place> m_places;
     std::unique_ptr<const Bernstein> m_bernstein;
     std::unique_ptr<const DualElement> m_nodal;

@@ -257,14 +257,14 @@ std::vector<Point> positions(const Text& text, const Tree& tree) {
 Mesh flatten(const Text& text, const Tree& tree) {
     Mesh mesh;
     const std::vector<std::size_t> leaves = collect_leaves(text, tree);
-    std::int32_t n_nodes = 0;
+    std::size_t n_nodes = 0;
     for (std::size_t leaf : leaves) {
-        n_nodes = std::max(n_nodes, 1 + *std::ranges::max_element(tree.elements[leaf].items));
+        n_nodes = std::max(n_nodes, std::size_t{1} + static_cast<std::size_t>(std::ranges::max(tree.elements[leaf].items)));
     }
-    if (static_cast<std::size_t>(n_nodes) > 8 * leaves.size() + tree.nodes.size() + tree.coordinates.size()) {
+    if (n_nodes > 8 * leaves.size() + tree.nodes.size() + tree.coordinates.size()) {
         text.fail("node " + std::to_string(n_nodes - 1) + " is beyond what the mesh can have");
     }
-    std::vector<std::int32_t> vertex_of(static_cast<std::size_t>(n_nodes), -1);
+    std::vector<std::int32_t> vertex_of(n_nodes, -1);
     const auto is_top = [&](std::size_t node) { return node >= tree.nodes.size() || tree.nodes[node].first < 0; };
     constexpr std::int32_t used_top = -2;
     for (std::size_t leaf : leaves) {
@@ -296,7 +296,8 @@ Mesh flatten(const Text& text, const Tree& tree) {
         bool is_known = true;
         for (std::int32_t& vertex : element.vertices) {
             if (vertex >= 0) {
-                vertex = vertex < n_nodes ? vertex_of[static_cast<std::size_t>(vertex)] : -1;
+                const auto node = static_cast<std::size_t>(vertex);
+                vertex = node < n_nodes ? vertex_of[node] : -1;
                 is_known = is_known && vertex >= 0;
             }
         }
