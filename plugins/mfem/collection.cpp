@@ -124,7 +124,8 @@ Collection parse_collection(std::string_view name) {
     const auto order = take_number(digits);
     const int least = result.family == Family::h1 || result.family == Family::nd ? 1 : 0;
     if (!order || !digits.empty() || *order < least || *order > max_order) {
-        throw std::invalid_argument(shown + ": the order is not in " + std::to_string(least) + ".." + std::to_string(max_order));
+        throw std::invalid_argument(shown + ": the order is not in " + std::to_string(least) + ".." +
+                                    std::to_string(max_order));
     }
     result.order = *order;
     if (result.polynomial_order() > max_order) {

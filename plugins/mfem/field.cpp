@@ -11,9 +11,9 @@ Field::Field(std::string name, const std::string& path, GridFunction function, c
     const std::size_t n_expected = m_space.n_dofs() * static_cast<std::size_t>(m_function.n_components);
     if (m_function.values.size() != n_expected) {
         throw elvis::api::Error(ELVIS_ERROR_FORMAT, path,
-                                "the file holds " + std::to_string(m_function.values.size()) + " values, but on this mesh its space has " +
-                                    std::to_string(m_space.n_dofs()) + " degrees of freedom with " +
-                                    std::to_string(m_function.n_components) + " component(s)");
+                                "the file holds " + std::to_string(m_function.values.size()) +
+                                    " values, but on this mesh its space has " + std::to_string(m_space.n_dofs()) +
+                                    " degrees of freedom with " + std::to_string(m_function.n_components) + " component(s)");
     }
     for (const MeshElement& element : mesh.elements) {
         auto& tabulation = m_tabulations[static_cast<std::size_t>(element.geometry)];

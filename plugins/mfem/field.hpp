@@ -23,7 +23,9 @@ public:
 
     const std::string& name() const { return m_name; }
     const Collection& collection() const { return m_function.collection; }
-    std::size_t n_components() const { return collection().is_vector() ? 3 : static_cast<std::size_t>(m_function.n_components); }
+    std::size_t n_components() const {
+        return collection().is_vector() ? 3 : static_cast<std::size_t>(m_function.n_components);
+    }
 
     /**
      * Values at points of ElVis's reference shape, n_components() numbers every `stride`. ND and RT fields are pulled back to

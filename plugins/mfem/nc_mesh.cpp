@@ -191,8 +191,7 @@ std::vector<std::size_t> collect_leaves(const Text& text, const Tree& tree) {
                 }
                 continue;
             }
-            const bool is_on_curve =
-                element.geometry == Geometry::cube && element.refinement == 7 && element.items.size() == 8;
+            const bool is_on_curve = element.geometry == Geometry::cube && element.refinement == 7 && element.items.size() == 8;
             const std::array<Step, 8> steps = is_on_curve ? curve(state) : std::array<Step, 8>{};
             for (std::size_t i = element.items.size(); i-- > 0;) {
                 const auto place = is_on_curve ? static_cast<std::size_t>(steps[i].child) : i;

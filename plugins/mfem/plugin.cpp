@@ -38,6 +38,16 @@ GridFunction linear_nodes(std::vector<double> coordinates) {
     return nodes;
 }
 
+/** L2 pyramids are polynomials in collapsed coordinates with no limit at the apex, which no native pyramid has. */
+bool is_singular(const Collection& collection, Geometry geometry) {
+    return geometry == Geometry::pyramid && collection.family == Family::l2 && collection.order > 0;
+}
+
+/** Order of the native space that contains the collection's; of the one nearest to it if it is singular. */
+int native_order(const Collection& collection, Geometry geometry) {
+    return is_singular(collection, geometry) ? std::max(2, collection.order) : collection.polynomial_order();
+}
+
 class Source : public elvis::api::ConverterSource {
 public:
     static std::uint32_t probe(const char* path) { return is_mesh(path) ? 100 : 0; }
@@ -61,7 +71,8 @@ public:
         }
         // 8 digits are 26.6 bits. Files of small integers say nothing about the precision of what wrote them.
         constexpr int least_digits = 6;
-        m_mantissa_bits = std::min(53u, static_cast<std::uint32_t>(std::ceil(std::max(digits, least_digits) * std::log2(10.0))));
+        m_mantissa_bits =
+            std::min(53u, static_cast<std::uint32_t>(std::ceil(std::max(digits, least_digits) * std::log2(10.0))));
     }
 
     void get_info(elvis_source_info& info) override {
@@ -86,12 +97,13 @@ public:
     }
 
     void get_elements(std::uint64_t first, elvis::api::StructArray<elvis_source_element> out) override {
-        const auto order = static_cast<std::uint32_t>(std::max(1, m_mapping->collection().order));
+        const Collection& mapping = m_mapping->collection();
         for (std::uint64_t index = 0; index < out.size(); ++index) {
             const MeshElement& source = m_mesh.elements[first + index];
             elvis_source_element element{};
             element.shape = shape(source.geometry);
-            std::fill_n(element.geometry_order, 3, order);
+            std::fill_n(element.geometry_order, 3,
+                        static_cast<std::uint32_t>(std::max(1, native_order(mapping, source.geometry))));
             const auto corners = corner_vertices(source.geometry);
             for (std::size_t corner = 0; corner < corners.size(); ++corner) {
                 element.corners[corner] = source.vertices[static_cast<std::size_t>(corners[corner])];
@@ -109,12 +121,8 @@ public:
         for (std::uint64_t index = 0; index < out.size(); ++index) {
             const Geometry geometry = m_mesh.elements[first + index].geometry;
             elvis_source_space space{};
-            // L2 pyramids are polynomials in collapsed coordinates with no limit at the apex, which no native pyramid has.
-            const bool is_singular =
-                geometry == Geometry::pyramid && collection.family == Family::l2 && collection.order > 0;
-            const int order = is_singular ? std::max(2, collection.order) : collection.polynomial_order();
-            std::fill_n(space.order, 3, static_cast<std::uint32_t>(order));
-            space.is_contained = is_singular ? 0 : 1;
+            std::fill_n(space.order, 3, static_cast<std::uint32_t>(native_order(collection, geometry)));
+            space.is_contained = is_singular(collection, geometry) ? 0 : 1;
             out.set(index, space);
         }
     }

@@ -3,7 +3,8 @@
  * Global degrees of freedom: which of them belong to an element, and with which signs.
  *
  * MFEM numbers those of vertices first, then of edges, faces and interiors. Edges and faces are numbered as the elements meet
- * them; an edge points from its lower to its higher vertex, a face has the order of vertices of the first element that meets it.
+ * them; an edge points from its lower to its higher vertex, a face has the order of vertices of the first element that meets
+ * it.
  */
 #pragma once
 
@@ -98,7 +99,8 @@ template <class Visit> void Space::for_terms(std::size_t element, Visit&& visit)
         for (const Topology::Edge& edge : m_topology->edges(element)) {
             const std::size_t first = m_first_edge_dof + edge.index * m_per_edge;
             for (std::size_t i = 0; i < m_per_edge; ++i) {
-                visit(local++, first + (edge.is_reversed ? m_per_edge - 1 - i : i), edge.is_reversed ? m_reversed_edge_factor : 1.0);
+                visit(local++, first + (edge.is_reversed ? m_per_edge - 1 - i : i),
+                      edge.is_reversed ? m_reversed_edge_factor : 1.0);
             }
         }
         for (const Topology::Face& face : m_topology->faces(element)) {

@@ -162,7 +162,8 @@ public:
     }
 
 private:
-    VectorPrismSet(Family family, int degree, std::unique_ptr<const SpanningSet> plane, std::unique_ptr<const SpanningSet> axial)
+    VectorPrismSet(Family family, int degree, std::unique_ptr<const SpanningSet> plane,
+                   std::unique_ptr<const SpanningSet> axial)
         : SpanningSet(plane->size() * index(plane_degree(family, degree) + 1) +
                           axial->size() * index(axial_degree(family, degree) + 1),
                       3),
@@ -190,7 +191,8 @@ public:
         // Affine functions of the pyramid's corners.
         const std::array<double, 5> lambda{(1 - a) * (1 - b) * w, a * (1 - b) * w, a * b * w, (1 - a) * b * w, z};
         values = std::ranges::copy(lambda, values).out;
-        const Line in_a = integrated_legendre(p, a, 1), in_b = integrated_legendre(p, b, 1), in_z = integrated_legendre(p, z, 1);
+        const Line in_a = integrated_legendre(p, a, 1), in_b = integrated_legendre(p, b, 1),
+                   in_z = integrated_legendre(p, z, 1);
         const Line legendre = scaled_legendre(p, z, 1);
         std::array<double, max_order + 1> power{1};
         for (int i = 1; i <= p; ++i) {

@@ -39,8 +39,8 @@ std::unique_ptr<const SpanningSet> make_tetrahedron_set(int order);
 std::unique_ptr<const SpanningSet> make_vector_set(const Collection& collection, Geometry geometry);
 
 /**
- * The H1 space of the pyramid after Fuentes, Keith, Demkowicz, Nagaraj, "Orientation embedded high order shape functions for the
- * exact sequence elements of all shapes", Comput. Math. Appl. 70 (2015), section 9.1, which MFEM uses since 4.8.
+ * The H1 space of the pyramid after Fuentes, Keith, Demkowicz, Nagaraj, "Orientation embedded high order shape functions for
+ * the exact sequence elements of all shapes", Comput. Math. Appl. 70 (2015), section 9.1, which MFEM uses since 4.8.
  */
 std::unique_ptr<const SpanningSet> make_fuentes_set(int order);
 

@@ -7,9 +7,11 @@ namespace elvis_mfem {
 
 namespace {
 
-/** Numbers in one table (16 MiB), and tables that are kept: a conversion has two or three sets of points a class. */
+/** Numbers in one table (16 MiB) and in all that are kept (64 MiB). */
 constexpr std::size_t max_table = std::size_t{1} << 21;
-constexpr std::size_t max_entries = 12;
+constexpr std::size_t max_kept = std::size_t{1} << 23;
+/** A conversion has two or three sets of points a class, and one for each way to look at a face. */
+constexpr std::size_t max_entries = 96;
 
 void apply(const double* shapes, std::size_t n_rows, std::span<const double> dofs, std::size_t n_copies, double* out) {
     const std::size_t n = dofs.size() / n_copies;
@@ -50,7 +52,7 @@ std::shared_ptr<const Tabulation::Entry> Tabulation::find(std::span<const double
         if (found != m_entries.end()) {
             return *found;
         }
-        if (m_entries.size() == max_entries) {
+        if (m_entries.size() == max_entries || m_n_kept >= max_kept) {
             return nullptr;
         }
     }
@@ -61,6 +63,7 @@ std::shared_ptr<const Tabulation::Entry> Tabulation::find(std::span<const double
     const std::unique_lock lock(m_mutex);
     if (m_entries.size() < max_entries && std::ranges::none_of(m_entries, is_same)) {
         m_entries.push_back(entry);
+        m_n_kept += entry->values.size();
     }
     return entry;
 }

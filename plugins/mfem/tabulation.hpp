@@ -22,8 +22,8 @@ public:
     const FiniteElement& element() const { return *m_element; }
 
     /**
-     * Adds sums of values and shape functions: out[point * stride + component * component_stride] for n_copies copies of
-     * the element's field with `dofs` one after the other; a copy is a component of its own. xi are ElVis's reference points.
+     * Values of a field at ElVis's reference points: out[point * stride + component]. `dofs` are those of n_copies scalar
+     * fields, one after the other, each a component of its own; or of one vector field.
      */
     void combine(std::span<const double> xi, std::span<const double> dofs, std::size_t n_copies, double* out,
                  std::size_t stride) const;
@@ -41,6 +41,8 @@ private:
     Geometry m_geometry;
     mutable std::shared_mutex m_mutex;
     mutable std::vector<std::shared_ptr<const Entry>> m_entries;
+    /** Numbers in them. */
+    mutable std::size_t m_n_kept = 0;
 };
 
 } // namespace elvis_mfem

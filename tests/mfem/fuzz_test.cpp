@@ -36,9 +36,10 @@ private:
         if (text.empty()) {
             return;
         }
-        static const std::vector<std::string> words{"-1",  "0",       "1",          "2147483647", "-2147483648", "99999999999999999999",
-                                                    "nan", "1e308",   "7",          "16777216",   "x",           "H1_3D_P20",
-                                                    "#",   "L2_3D_P7", "ND_3D_P3", "nodes",      "vertices",    "\""};
+        static const std::vector<std::string> words{
+            "-1",  "0",        "1",        "2147483647", "-2147483648", "99999999999999999999",
+            "nan", "1e308",    "7",        "16777216",   "x",           "H1_3D_P20",
+            "#",   "L2_3D_P7", "ND_3D_P3", "nodes",      "vertices",    "\""};
         switch (below(6)) {
         case 0:
             text.resize(below(text.size()));
@@ -78,11 +79,10 @@ private:
 } // namespace
 
 TEST_CASE("mutated files are read or refused", "[mfem][data][fuzz]") {
-    const std::string name =
-        GENERATE("poisson-inline-pyramid-p3", "poisson-inline-tet-p6", "poisson-inline-wedge-p5", "poisson-toroid-wedge-p4",
-                 "poisson-toroid-hex-p5", "dg-fichera-amr-p2", "maxwell-fichera-q3-nd3", "graddiv-fichera-rt2",
-                 "poisson-fichera-mixed-p2-p3", "advect-periodic-p6", "elast-beam-hex-p4", "dg-fichera-q3-p4",
-                 "poisson-fichera-q3-p5");
+    const std::string name = GENERATE("poisson-inline-pyramid-p3", "poisson-inline-tet-p6", "poisson-inline-wedge-p5",
+                                      "poisson-toroid-wedge-p4", "poisson-toroid-hex-p5", "dg-fichera-amr-p2",
+                                      "maxwell-fichera-q3-nd3", "graddiv-fichera-rt2", "poisson-fichera-mixed-p2-p3",
+                                      "advect-periodic-p6", "elast-beam-hex-p4", "dg-fichera-q3-p4", "poisson-fichera-q3-p5");
     const std::string mesh = read_file(mfem_data(name + "/mesh.mesh"));
     const std::string solution = read_file(mfem_data(name + "/sol.gf"));
     const TemporaryFolder folder;

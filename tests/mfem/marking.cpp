@@ -34,7 +34,9 @@ std::vector<std::pair<int, int>> local_edges(int geometry) {
 }
 
 void mark(std::vector<int>& v, const EdgeOrder& order) {
-    const auto place = [&](int a, int b) { return order.at(edge(v[static_cast<std::size_t>(a)], v[static_cast<std::size_t>(b)])); };
+    const auto place = [&](int a, int b) {
+        return order.at(edge(v[static_cast<std::size_t>(a)], v[static_cast<std::size_t>(b)]));
+    };
     constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
     constexpr std::array<std::array<std::size_t, 4>, 6> turns{
         {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}, {1, 3, 2, 0}, {2, 3, 0, 1}}};

@@ -164,10 +164,14 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 } // namespace
 
 TEST_CASE("fields that should be continuous are, whatever the coefficients", "[mfem][data]") {
-    const std::string data =
-        GENERATE("poisson-inline-tet-p6", "poisson-inline-wedge-p5", "poisson-fichera-mixed-p2-p3", "maxwell-fichera-q3-nd3");
+    const std::string data = GENERATE("poisson-inline-tet-p6", "poisson-inline-wedge-p5", "poisson-fichera-mixed-p2-p3",
+                                      "maxwell-fichera-q3-nd3", "poisson-inline-pyramid-p3");
     const std::string collection = GENERATE("H1_3D_P4", "H1Pos_3D_P3", "H1@U_3D_P5", "ND_3D_P1", "ND_3D_P2", "ND_3D_P4",
                                             "RT_3D_P0", "RT_3D_P1", "RT_3D_P3");
+    const bool is_supported_by_pyramids = collection.starts_with("H1_") || collection.starts_with("H1@");
+    if (data == "poisson-inline-pyramid-p3" && !is_supported_by_pyramids) {
+        return;
+    }
     const auto source = open_field(mfem_data(data + "/mesh.mesh"), collection, true);
     std::map<std::set<std::int64_t>, std::vector<double>> traces;
     double jump = 0;
@@ -189,14 +193,13 @@ TEST_CASE("fields that should be continuous are, whatever the coefficients", "[m
         }
     }
     INFO(data << ", " << collection);
-    CHECK(n_shared > 100);
+    CHECK(n_shared >= 100);
     CHECK(jump <= 1e-11);
 }
 
 TEST_CASE("equal coefficients are a constant", "[mfem][data]") {
-    const std::string collection =
-        GENERATE("H1_3D_P1", "H1_3D_P5", "H1Pos_3D_P4", "L2_3D_P0", "L2_3D_P3", "L2_T1_3D_P2", "L2_T2_3D_P3", "L2_T3_3D_P2",
-                 "L2_T4_3D_P3", "L2_T5_3D_P1");
+    const std::string collection = GENERATE("H1_3D_P1", "H1_3D_P5", "H1Pos_3D_P4", "L2_3D_P0", "L2_3D_P3", "L2_T1_3D_P2",
+                                            "L2_T2_3D_P3", "L2_T3_3D_P2", "L2_T4_3D_P3", "L2_T5_3D_P1");
     const bool has_pyramids = GENERATE(false, true);
     if (has_pyramids && (collection == "H1Pos_3D_P4" || collection.starts_with("L2_T1") || collection.starts_with("L2_T2") ||
                          collection.starts_with("L2_T4"))) {
@@ -235,10 +238,10 @@ TEST_CASE("several fields of one mesh", "[mfem]") {
     const std::string long_header = "MFEM FiniteElementSpace v1.0\nFiniteElementCollection: L2_3D_P0\nVDim: 1\nOrdering: 0\n"
                                     "End: MFEM FiniteElementSpace v1.0\n\n3.25\n-1.5e1\n";
     std::filesystem::create_directory(folder.path("other"));
-    const auto source = open_mfem({folder.write("two.mesh", two_cubes),
-                                   folder.write("separate.gf", space_text("H1_3D_P1", 2, 0) + separate),
-                                   folder.write("pressure.gf", long_header),
-                                   folder.write("other/separate.gf", space_text("H1_3D_P1", 2, 1) + interleaved)});
+    const auto source =
+        open_mfem({folder.write("two.mesh", two_cubes), folder.write("separate.gf", space_text("H1_3D_P1", 2, 0) + separate),
+                   folder.write("pressure.gf", long_header),
+                   folder.write("other/separate.gf", space_text("H1_3D_P1", 2, 1) + interleaved)});
     REQUIRE(source.fields().size() == 3);
     CHECK(source.fields()[0].name == "separate");
     CHECK(source.fields()[0].n_components == 2);
@@ -341,10 +344,12 @@ TEST_CASE("what cannot be read is refused with its place", "[mfem]") {
     CHECK_THAT(of_solution(two_cubes), Contains("FiniteElementSpace"));
     CHECK_THAT(failure({good, folder.path("missing.gf")}), Contains("missing.gf") && Contains("opened"));
     const std::string pyramids = mfem_data("poisson-inline-pyramid-p3/mesh.mesh");
-    CHECK_THAT(failure({pyramids, folder.write("bad.gf", space_text("ND_3D_P2") + "1")}), Contains("yramid") || Contains("values"));
+    CHECK_THAT(failure({pyramids, folder.write("bad.gf", space_text("ND_3D_P2") + "1")}),
+               Contains("yramid") || Contains("values"));
 
     // Cycles among the elements and the vertices of a nonconforming mesh.
-    const std::string tree = "MFEM NC mesh v1.0\ndimension\n3\nelements\n3\n-1 1 5 1 1 2\n-1 1 5 1 0 2\n0 1 5 0 0 1 2 3 4 5 6 7\n";
+    const std::string tree =
+        "MFEM NC mesh v1.0\ndimension\n3\nelements\n3\n-1 1 5 1 1 2\n-1 1 5 1 0 2\n0 1 5 0 0 1 2 3 4 5 6 7\n";
     CHECK_THAT(of_mesh(tree), Contains("two parents"));
     const std::string cycle = "MFEM NC mesh v1.0\ndimension\n3\nelements\n1\n0 1 5 0 0 1 2 3 4 5 6 7\nvertex_parents\n2\n"
                               "6 7 0\n7 6 0\ncoordinates\n6\n3\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1\n";
