@@ -7,15 +7,6 @@
 
 namespace elvis_mfem {
 
-std::size_t BoundaryGroups::KeyHash::operator()(const Key& key) const {
-    std::uint64_t hash = 0x9e3779b97f4a7c15u;
-    for (std::int32_t vertex : key) {
-        hash = (hash ^ static_cast<std::uint32_t>(vertex)) * 0xff51afd7ed558ccdu;
-        hash ^= hash >> 32;
-    }
-    return static_cast<std::size_t>(hash);
-}
-
 BoundaryGroups::BoundaryGroups(const Mesh& mesh) {
     // Attributes ascending, so that the groups' order does not depend on that of the elements.
     std::map<int, std::string> name_of;
@@ -45,7 +36,7 @@ BoundaryGroups::BoundaryGroups(const Mesh& mesh) {
         }
     }
     for (const BoundaryElement& element : mesh.boundary) {
-        Key key = element.vertices;
+        VertexKey key = element.vertices;
         std::ranges::sort(key);
         m_groups.emplace(key, group_of[element.attribute]);
     }
@@ -54,7 +45,7 @@ BoundaryGroups::BoundaryGroups(const Mesh& mesh) {
 std::int32_t BoundaryGroups::of_face(const MeshElement& element, int local_face) const {
     const auto shape = static_cast<elvis::native::Shape>(elvis_mfem::shape(element.geometry));
     const auto corners = corner_vertices(element.geometry);
-    Key key{-1, -1, -1, -1};
+    VertexKey key{-1, -1, -1, -1};
     std::size_t n = 0;
     for (int corner : elvis::native::face_corners(shape, local_face)) {
         key[n++] = element.vertices[static_cast<std::size_t>(corners[static_cast<std::size_t>(corner)])];

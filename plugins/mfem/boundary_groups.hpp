@@ -5,8 +5,8 @@
 #pragma once
 
 #include "mesh.hpp"
+#include "vertex_key.hpp"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -24,13 +24,9 @@ public:
     std::int32_t of_face(const MeshElement& element, int local_face) const;
 
 private:
-    using Key = std::array<std::int32_t, 4>;
-    struct KeyHash {
-        std::size_t operator()(const Key& key) const;
-    };
     std::vector<std::string> m_names;
     /** By sorted vertices. */
-    std::unordered_map<Key, std::int32_t, KeyHash> m_groups;
+    std::unordered_map<VertexKey, std::int32_t, VertexKeyHash> m_groups;
 };
 
 } // namespace elvis_mfem

@@ -1,6 +1,7 @@
 #include "space.hpp"
 
 #include "functionals.hpp"
+#include "vertex_key.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,23 +13,9 @@ namespace elvis_mfem {
 
 namespace {
 
-/** Sorted vertices of an edge or face; unused places are -1. */
-using Key = std::array<std::int32_t, 4>;
-
-struct KeyHash {
-    std::size_t operator()(const Key& key) const {
-        std::uint64_t hash = 0x9e3779b97f4a7c15u;
-        for (std::int32_t vertex : key) {
-            hash = (hash ^ static_cast<std::uint32_t>(vertex)) * 0xff51afd7ed558ccdu;
-            hash ^= hash >> 32;
-        }
-        return static_cast<std::size_t>(hash);
-    }
-};
-
 /** `vertices` without places that are -1 must differ. */
-Key make_key(const Key& vertices, std::size_t element) {
-    Key key = vertices;
+VertexKey make_key(const VertexKey& vertices, std::size_t element) {
+    VertexKey key = vertices;
     std::ranges::sort(key);
     for (std::size_t i = 1; i < key.size(); ++i) {
         if (key[i] >= 0 && key[i] == key[i - 1]) {
@@ -40,11 +27,11 @@ Key make_key(const Key& vertices, std::size_t element) {
 
 struct KnownFace {
     std::uint32_t index;
-    Key vertices;
+    VertexKey vertices;
 };
 
 /** Throws if the two orders of vertices are not turns or reflections of one another. */
-std::uint8_t orientation(const Key& local, const Key& own, std::size_t n, std::size_t element) {
+std::uint8_t orientation(const VertexKey& local, const VertexKey& own, std::size_t n, std::size_t element) {
     const auto place = static_cast<std::size_t>(std::find(own.begin(), own.end(), local[0]) - own.begin());
     const bool is_forward = own[(place + 1) % n] == local[1];
     for (std::size_t i = 0; i < n; ++i) {
@@ -58,21 +45,21 @@ std::uint8_t orientation(const Key& local, const Key& own, std::size_t n, std::s
 } // namespace
 
 Topology::Topology(const Mesh& mesh) {
-    std::unordered_map<Key, std::uint32_t, KeyHash> known_edges;
-    std::unordered_map<Key, KnownFace, KeyHash> known_faces;
+    std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> known_edges;
+    std::unordered_map<VertexKey, KnownFace, VertexKeyHash> known_faces;
     for (std::size_t index = 0; index < mesh.elements.size(); ++index) {
         const MeshElement& element = mesh.elements[index];
         const auto vertex = [&](int corner) { return corner < 0 ? -1 : element.vertices[static_cast<std::size_t>(corner)]; };
         m_first_edge.push_back(m_edges.size());
         for (const auto& edge : elvis_mfem::edges(element.geometry)) {
-            const Key ends{vertex(edge[0]), vertex(edge[1]), -1, -1};
+            const VertexKey ends{vertex(edge[0]), vertex(edge[1]), -1, -1};
             const auto next = static_cast<std::uint32_t>(known_edges.size());
             const auto found = known_edges.try_emplace(make_key(ends, index), next).first;
             m_edges.push_back({found->second, ends[0] > ends[1]});
         }
         m_first_face.push_back(m_faces.size());
         for (const FaceVertices& face : elvis_mfem::faces(element.geometry)) {
-            const Key corners{vertex(face[0]), vertex(face[1]), vertex(face[2]), vertex(face[3])};
+            const VertexKey corners{vertex(face[0]), vertex(face[1]), vertex(face[2]), vertex(face[3])};
             const auto n = static_cast<std::size_t>(n_corners(face));
             const KnownFace next{static_cast<std::uint32_t>(known_faces.size()), corners};
             const auto [found, is_new] = known_faces.try_emplace(make_key(corners, index), next);
