@@ -1,0 +1,32 @@
+/**
+ * @file boundary_groups.hpp
+ * Boundary attributes of a mesh as named groups of faces.
+ */
+#pragma once
+
+#include "mesh.hpp"
+#include "vertex_key.hpp"
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace elvis_mfem {
+
+class BoundaryGroups {
+public:
+    explicit BoundaryGroups(const Mesh& mesh);
+
+    /** Named after the attribute's set, or "attribute N". */
+    const std::vector<std::string>& names() const { return m_names; }
+    /** The group of a face of the ElVis shape, or ELVIS_GROUP_NONE. */
+    std::int32_t of_face(const MeshElement& element, int local_face) const;
+
+private:
+    std::vector<std::string> m_names;
+    /** By sorted vertices. */
+    std::unordered_map<VertexKey, std::int32_t, VertexKeyHash> m_groups;
+};
+
+} // namespace elvis_mfem

@@ -1,0 +1,60 @@
+#include "field.hpp"
+
+#include <elvis/plugin.hpp>
+
+#include <stdexcept>
+
+namespace elvis_mfem {
+
+Field::Field(std::string name, const std::string& path, GridFunction function, const Mesh& mesh, const Topology* topology)
+    : m_name(std::move(name)), m_function(std::move(function)), m_mesh(mesh), m_space(m_function.collection, mesh, topology) {
+    const std::size_t n_expected = m_space.n_dofs() * static_cast<std::size_t>(m_function.n_components);
+    if (m_function.values.size() != n_expected) {
+        throw elvis::api::Error(ELVIS_ERROR_FORMAT, path,
+                                "the file holds " + std::to_string(m_function.values.size()) +
+                                    " values, but on this mesh its space has " + std::to_string(m_space.n_dofs()) +
+                                    " degrees of freedom with " + std::to_string(m_function.n_components) + " component(s)");
+    }
+    for (const MeshElement& element : mesh.elements) {
+        auto& tabulation = m_tabulations[static_cast<std::size_t>(element.geometry)];
+        if (tabulation) {
+            continue;
+        }
+        try {
+            tabulation = std::make_unique<Tabulation>(make_element(collection(), element.geometry), element.geometry);
+        } catch (const std::invalid_argument& error) {
+            throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, path, error.what());
+        }
+    }
+}
+
+void Field::evaluate(std::size_t element, std::span<const double> xi, double* values, std::size_t stride) const {
+    const Geometry geometry = m_mesh.elements[element].geometry;
+    const Tabulation& tabulation = *m_tabulations[static_cast<std::size_t>(geometry)];
+    const std::size_t n = tabulation.element().n_dofs();
+    const auto n_copies = static_cast<std::size_t>(m_function.n_components);
+    // Distance of two degrees of freedom and of two components in the file.
+    const std::size_t dof_step = m_function.is_interleaved ? n_copies : 1;
+    const std::size_t copy_step = m_function.is_interleaved ? 1 : m_space.n_dofs();
+    std::vector<double> dofs(n * n_copies);
+    m_space.for_terms(element, [&](std::size_t local, std::size_t global, double factor) {
+        for (std::size_t copy = 0; copy < n_copies; ++copy) {
+            dofs[copy * n + local] += factor * m_function.values[global * dof_step + copy * copy_step];
+        }
+    });
+    tabulation.combine(xi, dofs, n_copies, values, stride);
+    if (!collection().is_vector()) {
+        return;
+    }
+    // With A = dxi/dX = 2 R (R a rotation) and J to X: J^-T = J_xi^-T R/2, J / det J = (J_xi / det J_xi) R/4.
+    const double factor = collection().family == Family::nd ? 0.5 : 0.25;
+    for (std::size_t point = 0; point < xi.size() / 3; ++point) {
+        double* value = values + point * stride;
+        const Point turned = rotate_to_elvis(geometry, {value[0], value[1], value[2]});
+        for (std::size_t d = 0; d < 3; ++d) {
+            value[d] = factor * turned[d];
+        }
+    }
+}
+
+} // namespace elvis_mfem

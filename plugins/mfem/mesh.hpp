@@ -1,0 +1,80 @@
+/**
+ * @file mesh.hpp
+ * A mesh as the files hold it, and how it is read.
+ */
+#pragma once
+
+#include "collection.hpp"
+#include "geometry.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elvis_mfem {
+
+class Text;
+
+struct MeshElement {
+    Geometry geometry = Geometry::cube;
+    /** In MFEM's order; the rest is -1. */
+    std::array<std::int32_t, 8> vertices{-1, -1, -1, -1, -1, -1, -1, -1};
+};
+
+struct BoundaryElement {
+    int attribute = 1;
+    /** The fourth is -1 in triangles. */
+    std::array<std::int32_t, 4> vertices{-1, -1, -1, -1};
+};
+
+struct AttributeSet {
+    std::string name;
+    std::vector<int> attributes;
+};
+
+/** A grid function: values of degrees of freedom, in the numbering of the whole mesh. */
+struct GridFunction {
+    Collection collection;
+    int n_components = 1;
+    /** Components of one degree of freedom side by side (MFEM's byVDIM), or one component after the other (byNODES). */
+    bool is_interleaved = false;
+    std::vector<double> values;
+};
+
+struct Mesh {
+    std::vector<MeshElement> elements;
+    std::vector<BoundaryElement> boundary;
+    std::vector<AttributeSet> boundary_sets;
+    std::size_t n_vertices = 0;
+    /** Three numbers a vertex; empty if there are nodes. */
+    std::vector<double> coordinates;
+    std::optional<GridFunction> nodes;
+    /** Most significant decimal digits of the coordinates. */
+    int digits = 0;
+};
+
+/** Whether a file begins like one of MFEM's meshes. */
+bool is_mesh(const char* path);
+
+/** Reads a mesh of any version that is supported. */
+Mesh read_mesh(const std::string& path);
+
+/** Reads the sections of a nonconforming mesh, from behind its first line (nc_mesh.cpp). */
+Mesh read_nonconforming(Text& text, bool has_scales);
+
+/** Reads a space and the values, as in files of solutions and in the section `nodes` of a mesh. */
+GridFunction read_grid_function(Text& text);
+
+/** A whole file of a solution. */
+GridFunction read_solution(const std::string& path, int* digits);
+
+/** Parts that both kinds of meshes share. */
+void read_dimension(Text& text);
+Geometry read_geometry(Text& text);
+BoundaryElement read_boundary_element(Text& text, std::int64_t n_vertices);
+/** Nodes if they come next. */
+void read_nodes(Text& text, Mesh& mesh);
+
+} // namespace elvis_mfem

@@ -1,0 +1,172 @@
+/**
+ * @file plugin.cpp
+ * Conversion plugin for meshes and grid functions of MFEM.
+ */
+#include "boundary_groups.hpp"
+#include "field.hpp"
+
+#include <elvis/native/space.hpp>
+#include <elvis/plugin.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+namespace {
+
+using namespace elvis_mfem;
+
+/** The file's name without folder and extension, followed by a number if it is taken. */
+std::string field_name(const std::string& path, const std::vector<std::unique_ptr<const Field>>& others) {
+    const std::string stem = std::filesystem::path(path).stem().string();
+    std::string name = stem;
+    const auto is_taken = [&](const auto& field) { return field->name() == name; };
+    for (int number = 2; std::ranges::any_of(others, is_taken); ++number) {
+        name = stem + " " + std::to_string(number);
+    }
+    return name;
+}
+
+/** Meshes without nodes are linear: a grid function of the vertices. */
+GridFunction linear_nodes(std::vector<double> coordinates) {
+    GridFunction nodes;
+    nodes.n_components = 3;
+    nodes.is_interleaved = true;
+    nodes.values = std::move(coordinates);
+    return nodes;
+}
+
+/** L2 pyramids are polynomials in collapsed coordinates with no limit at the apex, which no native pyramid has. */
+bool is_singular(const Collection& collection, Geometry geometry) {
+    return geometry == Geometry::pyramid && collection.family == Family::l2 && collection.order > 0;
+}
+
+/** Order of the native space that contains the collection's; of the one nearest to it if it is singular. */
+int native_order(const Collection& collection, Geometry geometry) {
+    return is_singular(collection, geometry) ? std::max(2, collection.order) : collection.polynomial_order();
+}
+
+class Source : public elvis::api::ConverterSource {
+public:
+    static std::uint32_t probe(const char* path) { return is_mesh(path) ? 100 : 0; }
+
+    Source(const elvis::api::Host& host, const std::vector<std::string>& paths, const std::string& options)
+        : ConverterSource(host), m_mesh(read_mesh(paths.front())), m_groups(m_mesh) {
+        if (!options.empty() && options != "{}") {
+            throw elvis::api::Error(ELVIS_ERROR_INVALID_ARGUMENT, paths.front(), "this format has no options");
+        }
+        GridFunction nodes = m_mesh.nodes ? std::move(*m_mesh.nodes) : linear_nodes(std::move(m_mesh.coordinates));
+        // Discontinuous nodes: vertices are topology only, as in periodic meshes.
+        m_has_corner_ids = nodes.collection.family == Family::h1;
+        m_mapping = make_field("nodes", paths.front(), std::move(nodes));
+        int digits = paths.size() > 1 ? 0 : m_mesh.digits;
+        for (std::size_t index = 1; index < paths.size(); ++index) {
+            host.check_cancelled();
+            int own_digits = 0;
+            GridFunction function = read_solution(paths[index], &own_digits);
+            digits = std::max(digits, own_digits);
+            m_fields.push_back(make_field(field_name(paths[index], m_fields), paths[index], std::move(function)));
+        }
+        // 8 digits are 26.6 bits. Files of small integers say nothing about the precision of what wrote them.
+        constexpr int least_digits = 6;
+        m_mantissa_bits =
+            std::min(53u, static_cast<std::uint32_t>(std::ceil(std::max(digits, least_digits) * std::log2(10.0))));
+    }
+
+    void get_info(elvis_source_info& info) override {
+        info.dimension = 3;
+        info.n_elements = m_mesh.elements.size();
+        info.n_corner_ids = m_has_corner_ids ? m_mesh.n_vertices : 0;
+        info.n_fields = static_cast<std::uint32_t>(m_fields.size());
+        info.n_time_steps = 1;
+        info.n_boundary_groups = static_cast<std::uint32_t>(m_groups.names().size());
+        info.mantissa_bits = m_mantissa_bits;
+    }
+
+    void get_field(std::uint32_t field, elvis_source_field& out) override {
+        const Field& source = *m_fields[field];
+        out.name = source.name().c_str();
+        out.n_components = static_cast<std::uint32_t>(source.n_components());
+        out.continuity =
+            source.collection().family == Family::h1 ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
+        out.transform = source.collection().family == Family::nd   ? ELVIS_TRANSFORM_COVARIANT
+                        : source.collection().family == Family::rt ? ELVIS_TRANSFORM_CONTRAVARIANT
+                                                                   : ELVIS_TRANSFORM_NONE;
+    }
+
+    void get_elements(std::uint64_t first, elvis::api::StructArray<elvis_source_element> out) override {
+        const Collection& mapping = m_mapping->collection();
+        for (std::uint64_t index = 0; index < out.size(); ++index) {
+            const MeshElement& source = m_mesh.elements[first + index];
+            elvis_source_element element{};
+            element.shape = shape(source.geometry);
+            std::fill_n(element.geometry_order, 3,
+                        static_cast<std::uint32_t>(std::max(1, native_order(mapping, source.geometry))));
+            const auto corners = corner_vertices(source.geometry);
+            for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+                element.corners[corner] = source.vertices[static_cast<std::size_t>(corners[corner])];
+            }
+            const int n_faces = elvis::native::n_faces(static_cast<elvis::native::Shape>(element.shape));
+            for (int face = 0; face < 6; ++face) {
+                element.face_groups[face] = face < n_faces ? m_groups.of_face(source, face) : ELVIS_GROUP_NONE;
+            }
+            out.set(index, element);
+        }
+    }
+
+    void get_spaces(std::uint32_t field, std::uint64_t first, elvis::api::StructArray<elvis_source_space> out) override {
+        const Collection& collection = m_fields[field]->collection();
+        for (std::uint64_t index = 0; index < out.size(); ++index) {
+            const Geometry geometry = m_mesh.elements[first + index].geometry;
+            elvis_source_space space{};
+            std::fill_n(space.order, 3, static_cast<std::uint32_t>(native_order(collection, geometry)));
+            space.is_contained = is_singular(collection, geometry) ? 0 : 1;
+            out.set(index, space);
+        }
+    }
+
+    void evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions) override {
+        m_mapping->evaluate(element, xi, positions.data(), 3);
+    }
+
+    void sample(std::uint32_t, std::uint64_t element, std::span<const double> xi, double* values) override {
+        std::size_t stride = 0;
+        for (const auto& field : m_fields) {
+            stride += field->n_components();
+        }
+        for (const auto& field : m_fields) {
+            field->evaluate(element, xi, values, stride);
+            values += field->n_components();
+        }
+    }
+
+    elvis_string get_boundary_group(std::uint32_t group) { return m_groups.names()[group].c_str(); }
+
+private:
+    std::unique_ptr<const Field> make_field(std::string name, const std::string& path, GridFunction function) {
+        try {
+            if (!m_topology && Space::needs_topology(function.collection)) {
+                m_topology.emplace(m_mesh);
+            }
+        } catch (const std::invalid_argument& error) {
+            throw elvis::api::Error(ELVIS_ERROR_FORMAT, path, error.what());
+        }
+        return std::make_unique<Field>(std::move(name), path, std::move(function), m_mesh, m_topology ? &*m_topology : nullptr);
+    }
+
+    Mesh m_mesh;
+    BoundaryGroups m_groups;
+    std::optional<Topology> m_topology;
+    bool m_has_corner_ids = true;
+    std::uint32_t m_mantissa_bits = 53;
+    std::unique_ptr<const Field> m_mapping;
+    std::vector<std::unique_ptr<const Field>> m_fields;
+};
+
+} // namespace
+
+ELVIS_PLUGIN(.id = "org.elvis.mfem", .name = "MFEM reader", .version = "1.0.0", .vendor = "ElVis",
+             .description = "Converts meshes and grid functions of MFEM: H1, L2, Nedelec and Raviart-Thomas fields.",
+             .converter = elvis::api::converter_table<Source>());

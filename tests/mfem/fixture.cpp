@@ -1,0 +1,63 @@
+#include "fixture.hpp"
+
+#include <catch2/catch.hpp>
+#include <core/plugin_host/plugin.hpp>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "elvis-mfem-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    m_path = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(m_path, ignored);
+}
+
+std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+    return path(name);
+}
+
+elvis::SourceVolume open_mfem(const std::vector<std::string>& paths) {
+    static const auto plugin = elvis::Plugin::load(MFEM_PLUGIN);
+    return elvis::SourceVolume(plugin, paths);
+}
+
+std::string mfem_data(const std::string& name) {
+    const std::string path = std::string(ELVIS_TEST_DATA) + "/mfem/" + name;
+    INFO("set -DELVIS_TEST_DATA to the folder of real data sets");
+    INFO(path);
+    REQUIRE(std::filesystem::exists(path));
+    return path;
+}
+
+std::string read_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream content;
+    content << file.rdbuf();
+    return content.str();
+}
+
+std::array<double, 3> from_mfem(int geometry, const std::array<double, 3>& x) {
+    if (geometry == 6) {
+        return {2 * x[0] - 1, 1 - 2 * x[2], 2 * x[1] - 1};
+    }
+    return {2 * x[0] - 1, 2 * x[1] - 1, 2 * x[2] - 1};
+}
+
+Converted convert_mfem(const elvis::SourceVolume& source, std::size_t field) {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("volume.h5");
+    auto report = elvis::convert(source, path, {}, {});
+    elvis::oracle::Volume volume(elvis::oracle::read_volume(path, field));
+    std::vector<std::size_t> place(volume.n_elements());
+    for (std::size_t element = 0; element < place.size(); ++element) {
+        place.at(static_cast<std::size_t>(volume.number(element))) = element;
+    }
+    return {std::move(report), std::move(volume), std::move(place)};
+}

@@ -1,0 +1,51 @@
+/**
+ * @file fixture.hpp
+ * What the tests of the MFEM plugin share.
+ */
+#pragma once
+
+#include <core/convert/convert.hpp>
+#include <core/plugin_host/source_volume.hpp>
+#include <tests/oracle/volume.hpp>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/** A folder of its own that goes when the test ends. */
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::string path(const std::string& name) const { return (m_path / name).string(); }
+    /** Writes a file and returns its path. */
+    std::string write(const std::string& name, const std::string& content) const;
+
+private:
+    std::filesystem::path m_path;
+};
+
+/** Opens a mesh and solutions with the plugin. */
+elvis::SourceVolume open_mfem(const std::vector<std::string>& paths);
+
+/** A file below the folder of MFEM's data sets; a failure if it is missing. */
+std::string mfem_data(const std::string& name);
+
+std::string read_file(const std::string& path);
+
+/** ElVis's reference point of a point in MFEM's shapes (4 tetrahedron, 5 hexahedron, 6 prism, 7 pyramid). */
+std::array<double, 3> from_mfem(int geometry, const std::array<double, 3>& x);
+
+/** A conversion, read back. */
+struct Converted {
+    elvis::ConvertReport report;
+    elvis::oracle::Volume volume;
+    /** Place in the volume of each element's number. */
+    std::vector<std::size_t> place;
+};
+
+Converted convert_mfem(const elvis::SourceVolume& source, std::size_t field = 0);
