@@ -61,6 +61,7 @@ constexpr std::array runs{
     Run{106, 110, prism, 5, false},
     Run{111, 117, prism, 3, true},
     Run{118, 124, pyramid, 3, false},
+    Run{125, 131, pyramid, 3, true},
     Run{137, 137, tetrahedron, 3, true},
 };
 
