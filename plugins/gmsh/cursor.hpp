@@ -25,6 +25,13 @@ public:
 
     const std::string& path() const { return m_path; }
     std::size_t at() const { return m_at; }
+    /** Where the next number begins, for messages about it. */
+    std::size_t next() {
+        if (!m_is_binary) {
+            skip_blanks();
+        }
+        return m_at;
+    }
     std::size_t left() const { return m_data.size() - m_at; }
 
     /** Name of the section being read, for error messages. */

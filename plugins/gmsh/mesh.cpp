@@ -143,14 +143,17 @@ void Mesh::collect_groups(const FileMesh& file, std::span<const std::uint32_t> n
         const ElementType& type = file.element_types[element];
         const std::size_t n = gmsh::n_nodes(type);
         if (gmsh::dimension(type.topology) == face_dimension) {
-            std::int32_t tag = file.element_labels[element];
+            const std::int32_t label = file.element_labels[element];
+            std::vector<std::int32_t> of_element{label};
             if (file.labels_are_entities) {
-                const auto entry = file.entity_groups.find({face_dimension, tag});
-                tag = entry == file.entity_groups.end() ? 0 : entry->second;
+                const auto entry = file.entity_groups.find({face_dimension, label});
+                of_element = entry == file.entity_groups.end() ? std::vector<std::int32_t>{} : entry->second;
             }
-            if (tag != 0) {
-                tags.insert(tag);
-                found.emplace_back(face_key(nodes.subspan(at, static_cast<std::size_t>(n_corners(type.topology)))), tag);
+            for (const std::int32_t tag : of_element) {
+                if (tag != 0) {
+                    tags.insert(tag);
+                    found.emplace_back(face_key(nodes.subspan(at, static_cast<std::size_t>(n_corners(type.topology)))), tag);
+                }
             }
         }
         at += n;

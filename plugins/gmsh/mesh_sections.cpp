@@ -17,7 +17,7 @@ void check_total(const Cursor& cursor, std::uint64_t total, const char* what) {
 }
 
 std::uint64_t read_tag(Cursor& cursor, const char* what) {
-    const std::size_t begin = cursor.at();
+    const std::size_t begin = cursor.next();
     const auto tag = cursor.value<std::uint64_t>();
     if (tag == 0) {
         cursor.fail_at(begin, std::string(what) + " tag 0, which Gmsh does not allow");
@@ -27,7 +27,7 @@ std::uint64_t read_tag(Cursor& cursor, const char* what) {
 
 /** A tag of MSH 2.2, an int. */
 std::uint64_t read_int_tag(Cursor& cursor, const char* what) {
-    const std::size_t begin = cursor.at();
+    const std::size_t begin = cursor.next();
     const auto tag = cursor.value<std::int32_t>();
     if (tag <= 0) {
         cursor.fail_at(begin, std::string(what) + " tag " + std::to_string(tag) + ", where Gmsh's tags are above 0");
@@ -36,12 +36,17 @@ std::uint64_t read_int_tag(Cursor& cursor, const char* what) {
 }
 
 double read_coordinate(Cursor& cursor) {
-    const std::size_t begin = cursor.at();
+    const std::size_t begin = cursor.next();
     const auto coordinate = cursor.value<double>();
     if (!std::isfinite(coordinate)) {
         cursor.fail_at(begin, "a coordinate is not finite");
     }
     return coordinate;
+}
+
+/** Tag of a physical group without its sign, which tells the orientation. */
+std::int32_t unsigned_tag(std::int32_t tag) {
+    return static_cast<std::int32_t>(std::abs(static_cast<std::int64_t>(tag)) & 0x7fffffff);
 }
 
 /** Passes a list of tags with its count in front. */
@@ -66,9 +71,7 @@ void read_entity(Cursor& cursor, int dimension, bool is_partitioned, FileMesh& m
     const auto n_groups = cursor.value<std::uint64_t>();
     cursor.check_count(n_groups, 1, sizeof(std::int32_t), "physical groups");
     for (std::uint64_t index = 0; index < n_groups; ++index) {
-        // The sign tells the orientation.
-        const auto group = std::abs(static_cast<std::int64_t>(cursor.value<std::int32_t>()));
-        mesh.entity_groups.try_emplace({dimension, tag}, static_cast<std::int32_t>(group));
+        mesh.entity_groups[{dimension, tag}].push_back(unsigned_tag(cursor.value<std::int32_t>()));
     }
     if (dimension > 0) {
         skip_tags(cursor); // boundary
@@ -84,7 +87,7 @@ void read_nodes_4(Cursor& cursor, FileMesh& mesh) {
     check_total(cursor, mesh.node_tags.size() + n_nodes, "nodes");
     std::uint64_t left = n_nodes;
     for (std::uint64_t block = 0; block < n_blocks; ++block) {
-        const std::size_t begin = cursor.at();
+        const std::size_t begin = cursor.next();
         const auto dimension = cursor.value<std::int32_t>();
         cursor.value<std::int32_t>(); // entity
         const bool has_parameters = cursor.value<std::int32_t>() != 0;
@@ -127,7 +130,7 @@ void read_nodes_2(Cursor& cursor, FileMesh& mesh) {
 }
 
 ElementType read_type(Cursor& cursor) {
-    const std::size_t begin = cursor.at();
+    const std::size_t begin = cursor.next();
     const auto number = cursor.value<std::int32_t>();
     const std::optional<ElementType> type = element_type(number);
     if (!type) {
@@ -147,7 +150,7 @@ void read_elements_4(Cursor& cursor, FileMesh& mesh) {
     mesh.labels_are_entities = true;
     std::uint64_t left = n_elements;
     for (std::uint64_t block = 0; block < n_blocks; ++block) {
-        const std::size_t begin = cursor.at();
+        const std::size_t begin = cursor.next();
         const auto entity_dimension = cursor.value<std::int32_t>();
         const auto entity = cursor.value<std::int32_t>();
         const ElementType type = read_type(cursor);
@@ -183,8 +186,7 @@ void read_element_2(Cursor& cursor, std::uint64_t tag, const ElementType& type, 
     for (std::int32_t label = 0; label < n_labels; ++label) {
         const auto value = cursor.value<std::int32_t>();
         if (label == 0) {
-            // The sign tells the orientation.
-            group = value < 0 ? static_cast<std::int32_t>(-static_cast<std::int64_t>(value) & 0x7fffffff) : value;
+            group = unsigned_tag(value);
         }
     }
     mesh.element_tags.push_back(tag);
@@ -196,7 +198,7 @@ void read_element_2(Cursor& cursor, std::uint64_t tag, const ElementType& type, 
 }
 
 std::int32_t read_label_count(Cursor& cursor) {
-    const std::size_t begin = cursor.at();
+    const std::size_t begin = cursor.next();
     const auto count = cursor.value<std::int32_t>();
     if (count < 0) {
         cursor.fail_at(begin, "a negative number of element tags");
@@ -219,7 +221,7 @@ void read_elements_2(Cursor& cursor, FileMesh& mesh) {
         return;
     }
     for (std::uint64_t done = 0; done < n_elements;) {
-        const std::size_t begin = cursor.at();
+        const std::size_t begin = cursor.next();
         const ElementType type = read_type(cursor);
         const auto count = cursor.value<std::int32_t>();
         const std::int32_t n_labels = read_label_count(cursor);

@@ -31,8 +31,8 @@ struct FileMesh {
     std::vector<std::uint64_t> element_nodes;
 
     bool labels_are_entities = false;
-    /** (dimension, tag) of a model entity to the tag of its first physical group. */
-    std::map<std::pair<int, std::int32_t>, std::int32_t> entity_groups;
+    /** (dimension, tag) of a model entity to the tags of its physical groups. */
+    std::map<std::pair<int, std::int32_t>, std::vector<std::int32_t>> entity_groups;
     /** (dimension, tag) of a physical group to its name. */
     std::map<std::pair<int, std::int32_t>, std::string> group_names;
 

@@ -39,7 +39,7 @@ std::uint64_t read_integers(Cursor& cursor, DataSection& section) {
         cursor.fail("less than three integer tags: time step, components and number of records are needed");
     }
     section.step = cursor.text<std::int32_t>();
-    const std::size_t begin = cursor.at();
+    const std::size_t begin = cursor.next();
     section.n_components = cursor.text<std::uint32_t>();
     if (section.n_components != 1 && section.n_components != 3 && section.n_components != 9) {
         cursor.fail_at(begin, std::to_string(section.n_components) + " components; Gmsh's views have 1, 3 or 9");
@@ -123,7 +123,7 @@ DataSection read_data(Cursor& cursor, DataKind kind) {
     const std::size_t n_components = section.n_components;
     cursor.check_count(n_records, 1 + n_components, 4 + 8 * n_components, "records");
     for (std::uint64_t record = 0; record < n_records; ++record) {
-        const std::size_t begin = cursor.at();
+        const std::size_t begin = cursor.next();
         const auto tag = cursor.value<std::int32_t>();
         if (tag <= 0) {
             cursor.fail_at(begin, "tag " + std::to_string(tag) + ", where Gmsh's tags are above 0");
@@ -151,7 +151,7 @@ std::pair<std::string, Scheme> read_scheme(Cursor& cursor) {
     result.first = cursor.quoted();
     const auto n_topologies = cursor.text<std::uint64_t>();
     for (std::uint64_t index = 0; index < n_topologies; ++index) {
-        const std::size_t begin = cursor.at();
+        const std::size_t begin = cursor.next();
         const auto number = cursor.text<std::int32_t>();
         const auto n_matrices = cursor.text<std::int32_t>();
         if (number < 1 || number > 10 || n_matrices != 2) {

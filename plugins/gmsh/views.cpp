@@ -44,31 +44,34 @@ const Basis* scheme_of(const View& view, Topology topology) {
     return found == view.scheme.end() ? nullptr : found->second.get();
 }
 
+/** Fails unless each scheme basis of a view on nodes has as many functions as the elements have nodes. */
+void check_scheme_on_nodes(const Mesh& mesh, const View& view, const DataSection& section) {
+    for (std::uint32_t element = 0; !view.scheme.empty() && element < mesh.n_elements(); ++element) {
+        const Basis* const basis = scheme_of(view, mesh.type(element).topology);
+        if (basis && basis->size() != mesh.nodes(element).size()) {
+            fail(section, "scheme '" + section.scheme + "' has " + std::to_string(basis->size()) +
+                              " functions for the elements of type " + name(mesh.type(element)));
+        }
+    }
+}
+
 /** Fails unless the values of each element are as many as some basis has functions. */
 void check_counts(const Mesh& mesh, const View& view, const DataSection& section,
                   std::span<const std::pair<std::uint32_t, std::size_t>> records) {
-    if (section.kind == DataKind::node) {
-        for (std::uint32_t element = 0; !view.scheme.empty() && element < mesh.n_elements(); ++element) {
-            const Basis* const basis = scheme_of(view, mesh.type(element).topology);
-            if (basis && basis->size() != mesh.nodes(element).size()) {
-                fail(section, "scheme '" + section.scheme + "' has " + std::to_string(basis->size()) +
-                                  " functions for the elements of type " + name(mesh.type(element)));
-            }
-        }
-        return;
-    }
     for (const auto& [element, record] : records) {
         const ElementType& type = mesh.type(element);
         const std::size_t count = (section.first[record + 1] - section.first[record]) / section.n_components;
-        const std::string place = "element " + std::to_string(section.tags[record]) + " (" + name(type) + ") has " +
-                                  std::to_string(count) + " values a component; ";
+        const auto place = [&] {
+            return "element " + std::to_string(section.tags[record]) + " (" + name(type) + ") has " + std::to_string(count) +
+                   " values a component; ";
+        };
         if (const Basis* const basis = scheme_of(view, type.topology)) {
             if (count != basis->size()) {
-                fail(section, place + "scheme '" + section.scheme + "' has " + std::to_string(basis->size()) + " functions");
+                fail(section, place() + "scheme '" + section.scheme + "' has " + std::to_string(basis->size()) + " functions");
             }
         } else if (section.kind == DataKind::element_node && count != 1 && count != n_nodes(type) &&
                    count != static_cast<std::size_t>(n_corners(type.topology))) {
-            fail(section, place + "without a scheme, one for each node, one for each corner, or a single one is expected");
+            fail(section, place() + "without a scheme, one for each node, one for each corner, or a single one is expected");
         }
     }
 }
@@ -105,6 +108,9 @@ Growing& view_of(const DataSection& section, const std::map<std::string, Scheme>
             }
             return candidate;
         }
+    }
+    if (views.size() == max_views) {
+        fail(section, "more than " + std::to_string(max_views) + " views");
     }
     Growing added;
     added.view.kind = section.kind;
@@ -216,7 +222,8 @@ const Basis* View::read(const Mesh& mesh, const BasisSet& bases, const StepData&
         return count == n_nodes(type) ? &bases.lagrange(type) : &bases.linear(type.topology);
     }
     const std::span<const std::uint32_t> nodes = mesh.nodes(element);
-    std::size_t n_found = 0;
+    // All nodes have values: no need to look.
+    std::size_t n_found = !nodal && step.size() == mesh.n_nodes() ? nodes.size() : 0;
     for (; n_found < nodes.size(); ++n_found) {
         const std::span<const double> values = step.find(nodes[n_found]);
         if (values.empty()) {
@@ -247,7 +254,13 @@ std::vector<View> collect_views(const Mesh& mesh, const BasisSet& bases, const s
         host.check_cancelled();
         Growing& target = view_of(section, schemes, growing);
         const auto records = resolve(mesh, section);
-        check_counts(mesh, target.view, section, records);
+        if (section.kind == DataKind::node) {
+            if (target.view.steps.empty()) {
+                check_scheme_on_nodes(mesh, target.view, section);
+            }
+        } else {
+            check_counts(mesh, target.view, section, records);
+        }
         target.partitions.insert({section.step, section.partition});
         target.view.steps.try_emplace(section.step, section.time).first->second.add(section, records);
     }

@@ -25,6 +25,8 @@ public:
     explicit StepData(double time) : m_time(time) {}
 
     double time() const { return m_time; }
+    /** Number of entities that have values. */
+    std::size_t size() const { return m_entities.size(); }
     /** Values of one entity; empty if there are none. */
     std::span<const double> find(std::uint32_t entity) const;
 
@@ -51,6 +53,9 @@ private:
     std::map<ElementType, std::unique_ptr<const Basis>> m_lagrange;
     std::map<Topology, std::unique_ptr<const Basis>> m_constant;
 };
+
+/** As many fields as the host accepts. */
+constexpr std::size_t max_views = 4096;
 
 struct View {
     DataKind kind = DataKind::node;

@@ -195,12 +195,12 @@ TEST_CASE("solid elements of order 7 to 9 are exact", "[gmsh]") {
     }
 }
 
-TEST_CASE("solid serendipity elements of order 2 to 9 are exact", "[gmsh]") {
+TEST_CASE("solid serendipity elements are exact", "[gmsh]") {
     std::set<int> seen;
-    for (int order = 2; order <= 9; ++order) {
+    for (const int order : {2, 3, 4, 5, 7, 9}) {
         check_order(order, true, 3, seen);
     }
-    for (const int type : {17, 18, 19, 137, 99, 111, 32, 100, 112, 33, 101, 113, 79, 80, 81, 82, 102, 103, 104, 105}) {
+    for (const int type : {17, 18, 19, 137, 99, 111, 32, 100, 112, 33, 101, 113, 80, 82, 103, 105, 115, 117}) {
         INFO("element type " << type);
         CHECK(seen.contains(type));
     }
