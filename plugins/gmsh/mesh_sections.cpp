@@ -60,8 +60,10 @@ void skip_tags(Cursor& cursor) {
 
 void read_entity(Cursor& cursor, int dimension, bool is_partitioned, FileMesh& mesh) {
     const auto tag = cursor.value<std::int32_t>();
+    // An interface between partitions inherits the groups of its parent, a solid: they do not make a boundary of it.
+    bool has_own_groups = true;
     if (is_partitioned) {
-        cursor.value<std::int32_t>(); // parent dimension
+        has_own_groups = cursor.value<std::int32_t>() == dimension;
         cursor.value<std::int32_t>(); // parent tag
         skip_tags(cursor);            // partitions
     }
@@ -71,7 +73,10 @@ void read_entity(Cursor& cursor, int dimension, bool is_partitioned, FileMesh& m
     const auto n_groups = cursor.value<std::uint64_t>();
     cursor.check_count(n_groups, 1, sizeof(std::int32_t), "physical groups");
     for (std::uint64_t index = 0; index < n_groups; ++index) {
-        mesh.entity_groups[{dimension, tag}].push_back(unsigned_tag(cursor.value<std::int32_t>()));
+        const std::int32_t group = unsigned_tag(cursor.value<std::int32_t>());
+        if (has_own_groups) {
+            mesh.entity_groups[{dimension, tag}].push_back(group);
+        }
     }
     if (dimension > 0) {
         skip_tags(cursor); // boundary
@@ -116,7 +121,7 @@ void read_nodes_4(Cursor& cursor, FileMesh& mesh) {
     }
 }
 
-void read_nodes_2(Cursor& cursor, FileMesh& mesh) {
+void read_nodes_2(Cursor& cursor, bool have_parameters, FileMesh& mesh) {
     const auto n_nodes = cursor.text<std::uint64_t>();
     cursor.end_of_line();
     cursor.check_count(n_nodes, 4, 28, "nodes");
@@ -125,6 +130,14 @@ void read_nodes_2(Cursor& cursor, FileMesh& mesh) {
         mesh.node_tags.push_back(read_int_tag(cursor, "node"));
         for (int axis = 0; axis < 3; ++axis) {
             mesh.positions.push_back(read_coordinate(cursor));
+        }
+        if (have_parameters) {
+            // Curves give one, surfaces two; points and solids none.
+            const auto dimension = cursor.value<std::int32_t>();
+            cursor.value<std::int32_t>(); // entity
+            for (int parameter = 0; parameter < (dimension == 1 || dimension == 2 ? dimension : 0); ++parameter) {
+                cursor.value<double>();
+            }
         }
     }
 }
@@ -269,8 +282,10 @@ void read_entities(Cursor& cursor, bool are_partitioned, FileMesh& mesh) {
 }
 
 void read_nodes(Cursor& cursor, Version version, FileMesh& mesh) {
-    version == Version::v4_1 ? read_nodes_4(cursor, mesh) : read_nodes_2(cursor, mesh);
+    version == Version::v4_1 ? read_nodes_4(cursor, mesh) : read_nodes_2(cursor, false, mesh);
 }
+
+void read_parametric_nodes(Cursor& cursor, FileMesh& mesh) { read_nodes_2(cursor, true, mesh); }
 
 void read_elements(Cursor& cursor, Version version, FileMesh& mesh) {
     version == Version::v4_1 ? read_elements_4(cursor, mesh) : read_elements_2(cursor, mesh);

@@ -44,6 +44,8 @@ void read_physical_names(Cursor& cursor, FileMesh& mesh);
 /** $Entities, or $PartitionedEntities. */
 void read_entities(Cursor& cursor, bool are_partitioned, FileMesh& mesh);
 void read_nodes(Cursor& cursor, Version version, FileMesh& mesh);
+/** $ParametricNodes, which stands for $Nodes in MSH 2.2 files made with Mesh.SaveParametric. */
+void read_parametric_nodes(Cursor& cursor, FileMesh& mesh);
 void read_elements(Cursor& cursor, Version version, FileMesh& mesh);
 
 } // namespace gmsh

@@ -50,6 +50,8 @@ bool read_section(Cursor& cursor, const std::string& section, Version version, M
         read_entities(cursor, true, file.mesh);
     } else if (section == "Nodes") {
         read_nodes(cursor, version, file.mesh);
+    } else if (section == "ParametricNodes" && version == Version::v2_2) {
+        read_parametric_nodes(cursor, file.mesh);
     } else if (section == "Elements") {
         read_elements(cursor, version, file.mesh);
     } else if (section == "NodeData") {

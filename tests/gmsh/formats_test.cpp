@@ -76,6 +76,22 @@ TEST_CASE("all formats of the gmsh program hold the same mesh and groups", "[gms
     }
 }
 
+TEST_CASE("partitions, ghosts and parameters of nodes do not matter", "[gmsh]") {
+    for (const std::string options : {"-format msh41", "-format msh41 -bin", "-format msh2", "-format msh2 -bin"}) {
+        INFO(options);
+        const TemporaryFolder folder;
+        run_gmsh(folder, ball_script, "-3 -order 2 -o whole.msh -setnumber Mesh.SaveParametric 1 " + options);
+        run_gmsh(folder, ball_script,
+                 "-3 -order 2 -o parts.msh -part 3 -setnumber Mesh.PartitionCreateGhostCells 1 " + options);
+        const auto whole = open_msh({folder.path("whole.msh")}), parts = open_msh({folder.path("parts.msh")});
+        CHECK(parts.info().n_elements == whole.info().n_elements);
+        CHECK(parts.boundary_groups() == whole.boundary_groups());
+        CHECK(faces_by_group(parts) == faces_by_group(whole));
+        CHECK(faces_by_group(parts).at("skin") > 10);
+        CHECK(Converted(parts).report().n_boundary_faces == Converted(whole).report().n_boundary_faces);
+    }
+}
+
 TEST_CASE("curves are the groups of plane meshes", "[gmsh]") {
     const TemporaryFolder folder;
     make_all_formats(folder, disc_script, 2, 2);
