@@ -130,3 +130,42 @@ TEST_CASE("interpolation schemes are exact on all shapes", "[gmsh]") {
         }
     }
 }
+
+TEST_CASE("matrices that gmsh writes say what it draws", "[gmsh]") {
+    for (const int order : {1, 2, 3, 5}) {
+        const TemporaryFolder folder;
+        // The program fails on views with prisms above order 2.
+        const std::string options =
+            " -format msh41 -3 -order " + std::to_string(order) + " -setnumber prisms " + (order > 2 ? "0" : "1");
+        run_gmsh(folder, boxes_script, "-o straight.msh" + options);
+        run_gmsh(folder, boxes_script, "-o curved.msh -setnumber curved 1" + options);
+        const MshMesh straight = read_mesh(folder.path("straight.msh")), curved = read_mesh(folder.path("curved.msh"));
+        const auto elements = curved.of_dimension(3);
+        ViewText view{.section = "ElementNodeData", .name = "f"};
+        std::vector<SpaceFunction> functions;
+        for (std::size_t element = 0; element < elements.size(); ++element) {
+            const SpaceFunction& function = functions.emplace_back(facts(elements[element].type));
+            std::vector<double> values;
+            for (const Point& node : nodes_from_straight(straight, straight.of_dimension(3)[element])) {
+                values.push_back(function(node));
+            }
+            view.records.push_back({elements[element].tag, values});
+        }
+        folder.write("view.msh", read_file(folder.path("curved.msh")) + write_view(view, {}));
+        run_gmsh(folder,
+                 "Merge \"view.msh\"; PostProcessing.SaveInterpolationMatrices = 1; PostProcessing.SaveMesh = 1;"
+                 "Save View[0] \"saved.msh\";\n",
+                 "-parse_and_exit");
+        REQUIRE(read_file(folder.path("saved.msh")).find("\"INTERPOLATION_SCHEME\"\n1\n") != std::string::npos);
+        const auto source = open_msh({folder.path("saved.msh")});
+        double error = 0;
+        for (std::size_t element = 0; element < elements.size(); ++element) {
+            for (int trial = 0; trial < 10; ++trial) {
+                const Point xi = random_point(shape_of(source, element));
+                error = std::max(error, std::abs(sample(source, element, xi)[0] - functions[element](xi)));
+            }
+        }
+        WARN("order " << order << ": " << error);
+        CHECK(error <= 1e-11);
+    }
+}

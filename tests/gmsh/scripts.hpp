@@ -8,12 +8,13 @@
 
 /**
  * Four parallelepipeds side by side: tetrahedra, a hexahedron, prisms, and pyramids with tetrahedra (as many as n_boxes, counted
- * from the first). With `curved`, one edge of each base is an arc of a circle. In two dimensions (-2), their bases: triangles
+ * from the first; without prisms if that variable is 0). With `curved`, one edge of each base is an arc of a circle. In two dimensions (-2), their bases: triangles
  * and quadrilaterals.
  */
 inline const std::string boxes_script = R"(
 If(!Exists(curved)) curved = 0; EndIf
 If(!Exists(n_boxes)) n_boxes = 4; EndIf
+If(!Exists(prisms)) prisms = 1; EndIf
 For i In {0:n_boxes-1}
   x = 2*i; z = curved ? 0 : 0.1;
   p = newp; Point(p) = {x,0,0}; Point(p+1) = {x+1,0.1,0}; Point(p+2) = {x+1.2,1.1,z}; Point(p+3) = {x+0.2,1,z};
@@ -33,7 +34,7 @@ For i In {0:n_boxes-1}
     Extrude {0.2,0.1,1} { Surface{s}; Layers{1}; }
   ElseIf(i == 3)
     Extrude {0.2,0.1,1} { Surface{s}; Layers{1}; Recombine; QuadTriAddVerts; }
-  Else
+  ElseIf(i == 1 || prisms)
     Extrude {0.2,0.1,1} { Surface{s}; Layers{1}; Recombine; }
   EndIf
 EndFor
