@@ -186,8 +186,9 @@ void append_prism(int n, const double* x, Functions& out) {
 }
 
 /**
- * Space of M. Bergot, G. Cohen, M. Durufle, "Higher-order finite elements for hybrid meshes using new nodal pyramidal elements",
- * J. Sci. Comput. 42 (2010) 345-381. Serendipity: only those with i + j <= n, or i + j = n + 1 and a factor of degree 1.
+ * Space of M. Bergot, G. Cohen, M. Durufle, "Higher-order finite elements for hybrid meshes using new nodal pyramidal
+ * elements", J. Sci. Comput. 42 (2010) 345-381. Serendipity: only those with i + j <= n, or i + j = n + 1 and a factor of
+ * degree 1.
  */
 void append_pyramid(int n, bool is_serendipity, const double* x, Functions& out) {
     const double rest = 1 - x[2];

@@ -1,6 +1,7 @@
 /**
  * @file basis.hpp
- * Functions that interpolate values of an element's nodes: Gmsh's Lagrange bases on equispaced nodes, and bases given in a file.
+ * Functions that interpolate values of an element's nodes: Gmsh's Lagrange bases on equispaced nodes, and bases given in a
+ * file.
  */
 #pragma once
 
@@ -21,8 +22,8 @@ namespace gmsh {
 std::span<const int> source_corners(Topology topology);
 
 /**
- * Gmsh's reference coordinates (u, v, w) of a native reference point. The map keeps the orientation: elements that are not inside
- * out in Gmsh are not inside out here.
+ * Gmsh's reference coordinates (u, v, w) of a native reference point. The map keeps the orientation: elements that are not
+ * inside out in Gmsh are not inside out here.
  */
 std::array<double, 3> source_point(Topology topology, const double* xi);
 

@@ -43,7 +43,8 @@ void Cursor::fail_number(bool is_integral) const {
         ++length;
     }
     std::string found(m_data.data() + m_at, length);
-    std::replace_if(found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::replace_if(
+        found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     fail("'" + found + "' where " + (is_integral ? "a whole number" : "a number") + " of moderate size is expected");
 }
 

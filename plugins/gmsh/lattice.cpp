@@ -66,7 +66,9 @@ void append_face(Nodes& nodes, const Template& shape, const std::array<int, 4>& 
     if (inner_order < 0) {
         return;
     }
-    const auto corner = [&](int which) { return shape.corners[static_cast<std::size_t>(face[static_cast<std::size_t>(which)])]; };
+    const auto corner = [&](int which) {
+        return shape.corners[static_cast<std::size_t>(face[static_cast<std::size_t>(which)])];
+    };
     const LatticeIndex origin = corner(0), first = corner(1), second = corner(is_triangle ? 2 : 3);
     for (const LatticeIndex& inner : complete(is_triangle ? triangle : quadrilateral, inner_order)) {
         LatticeIndex node{};
@@ -133,7 +135,8 @@ Nodes complete(Topology topology, int n) {
 } // namespace
 
 std::vector<LatticeIndex> lattice(const ElementType& type) {
-    return type.is_serendipity ? corners_and_edges(template_of(type.topology), type.order) : complete(type.topology, type.order);
+    return type.is_serendipity ? corners_and_edges(template_of(type.topology), type.order)
+                               : complete(type.topology, type.order);
 }
 
 std::array<double, 3> lattice_point(Topology topology, int order, const LatticeIndex& index) {

@@ -116,8 +116,7 @@ void Mesh::drop_copies(const std::string& path) {
     for (std::size_t element = 0; element < types.size(); ++element) {
         renumbered[element] = static_cast<std::uint32_t>(m_types.size());
         if (original[element] == element) {
-            keep_element(types[element],
-                         {all_nodes.data() + first_node[element], all_nodes.data() + first_node[element + 1]});
+            keep_element(types[element], {all_nodes.data() + first_node[element], all_nodes.data() + first_node[element + 1]});
         }
     }
     for (std::uint32_t& element : m_converted) {

@@ -121,7 +121,9 @@ std::uint32_t probe_msh(const char* path) {
     if (head.starts_with("$MeshFormat")) {
         return 100;
     }
-    return head.starts_with("$Comments") && head.find("\n$MeshFormat") != std::string::npos ? 90 : head.starts_with("$NOD") ? 10 : 0;
+    return head.starts_with("$Comments") && head.find("\n$MeshFormat") != std::string::npos ? 90
+           : head.starts_with("$NOD")                                                       ? 10
+                                                                                            : 0;
 }
 
 } // namespace gmsh

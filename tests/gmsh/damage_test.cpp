@@ -59,7 +59,8 @@ std::string damage(std::string bytes) {
     case 2: { // another number in the text
         const std::size_t at = bytes.find_first_of("0123456789", draw(bytes.size()));
         if (at != std::string::npos) {
-            static const char* const numbers[] = {"-1", "0", "4294967295", "18446744073709551615", "1e308", "nan", "99", "2147483647"};
+            static const char* const numbers[] = {"-1",    "0",   "4294967295", "18446744073709551615",
+                                                  "1e308", "nan", "99",         "2147483647"};
             bytes.replace(at, bytes.find_first_not_of("0123456789.", at) - at, numbers[draw(8)]);
         }
         break;
@@ -166,8 +167,8 @@ TEST_CASE("damaged files are refused or accepted, and do no harm", "[gmsh]") {
     rusage usage{};
     REQUIRE(getrusage(RUSAGE_SELF, &usage) == 0);
     WARN(n_refused << " of " << n_all << " refused in "
-                   << std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() << " s, slowest " << slowest
-                   << " s, largest memory " << usage.ru_maxrss / 1024 << " MiB");
+                   << std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() << " s, slowest "
+                   << slowest << " s, largest memory " << usage.ru_maxrss / 1024 << " MiB");
     CHECK(n_refused > n_all / 2);
     CHECK(usage.ru_maxrss / 1024 < 1024);
     CHECK(slowest < 5);

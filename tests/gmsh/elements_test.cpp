@@ -59,11 +59,12 @@ MshMesh bend(MshMesh mesh) {
 }
 
 /**
- * Writes three views into a file of gmsh's (or, without name, one of the mesh given): positions and (on straight meshes) a polynomial at nodes, and in each element another
- * function of its space at the nodes' reference points. Compares at random points.
+ * Writes three views into a file of gmsh's (or, without name, one of the mesh given): positions and (on straight meshes) a
+ * polynomial at nodes, and in each element another function of its space at the nodes' reference points. Compares at random
+ * points.
  */
-Errors check(const TemporaryFolder& folder, const std::string& name, const MshMesh& mesh, const NodesByType& nodes, int dimension,
-             bool is_straight, bool with_conversion, std::set<int>& seen) {
+Errors check(const TemporaryFolder& folder, const std::string& name, const MshMesh& mesh, const NodesByType& nodes,
+             int dimension, bool is_straight, bool with_conversion, std::set<int>& seen) {
     const std::vector<MshElement> elements = mesh.of_dimension(dimension);
     ViewText positions{.name = "positions", .n_components = 3}, values{.name = "polynomial"},
         in_elements{.section = "ElementNodeData", .name = "in elements"};

@@ -34,7 +34,8 @@ void run_gmsh(const TemporaryFolder& folder, const std::string& script, const st
     INFO("the gmsh program is needed (apt-get install gmsh), and is looked for when the build is configured");
     REQUIRE(std::filesystem::exists(GMSH_PROGRAM));
     folder.write("mesh.geo", script);
-    const std::string command = "cd '" + folder.path("") + "' && '" + GMSH_PROGRAM + "' mesh.geo -v 2 " + options + " >log 2>&1";
+    const std::string command =
+        "cd '" + folder.path("") + "' && '" + GMSH_PROGRAM + "' mesh.geo -v 2 " + options + " >log 2>&1";
     const int status = std::system(command.c_str());
     INFO(read_file(folder.path("log")));
     REQUIRE(status == 0);

@@ -17,8 +17,8 @@ void make_all_formats(const TemporaryFolder& folder, std::string script, int dim
     script += "Mesh.ElementOrder = " + std::to_string(order) + ";\nMesh " + std::to_string(dimension) + ";\n";
     for (const char* const version : {"41", "22"}) {
         for (const char* const binary : {"", "b"}) {
-            script += std::string("Mesh.MshFileVersion = ") + version[0] + "." + version[1] + "; Mesh.Binary = " +
-                      (*binary ? "1" : "0") + "; Save \"v" + version + binary + ".msh\";\n";
+            script += std::string("Mesh.MshFileVersion = ") + version[0] + "." + version[1] +
+                      "; Mesh.Binary = " + (*binary ? "1" : "0") + "; Save \"v" + version + binary + ".msh\";\n";
         }
     }
     run_gmsh(folder, script, "-parse_and_exit");
@@ -102,7 +102,8 @@ TEST_CASE("curves are the groups of plane meshes", "[gmsh]") {
         std::vector<std::string> groups = source.boundary_groups();
         std::ranges::sort(groups);
         REQUIRE(groups == std::vector<std::string>{"one", "others"});
-        const auto others = static_cast<int>(std::ranges::find(source.boundary_groups(), "others") - source.boundary_groups().begin());
+        const auto others =
+            static_cast<int>(std::ranges::find(source.boundary_groups(), "others") - source.boundary_groups().begin());
         // Edges of the curves lie in x = 0, y = 0 or on the circle; no other edge has a group.
         int n_found = 0;
         std::vector<elvis_source_element> elements(source.info().n_elements);

@@ -69,7 +69,8 @@ struct TopologyScheme {
 };
 
 Exponents complete(int topology, int order) {
-    return monomials({.dimension = topology <= 4 ? 2 : 3, .n_nodes = 0, .topology = topology, .order = order, .is_serendipity = false});
+    return monomials(
+        {.dimension = topology <= 4 ? 2 : 3, .n_nodes = 0, .topology = topology, .order = order, .is_serendipity = false});
 }
 
 } // namespace

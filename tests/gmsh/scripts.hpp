@@ -7,9 +7,9 @@
 #include <string>
 
 /**
- * Four parallelepipeds side by side: tetrahedra, a hexahedron, prisms, and pyramids with tetrahedra (as many as n_boxes, counted
- * from the first; without prisms if that variable is 0). With `curved`, one edge of each base is an arc of a circle. In two dimensions (-2), their bases: triangles
- * and quadrilaterals.
+ * Four parallelepipeds side by side: tetrahedra, a hexahedron, prisms, and pyramids with tetrahedra (as many as n_boxes,
+ * counted from the first; without prisms if that variable is 0). With `curved`, one edge of each base is an arc of a circle. In
+ * two dimensions (-2), their bases: triangles and quadrilaterals.
  */
 inline const std::string boxes_script = R"(
 If(!Exists(curved)) curved = 0; EndIf

@@ -33,8 +33,8 @@ MshMesh two_tetrahedra() {
         return found->second;
     };
     const auto tetrahedron = [&](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
-        return std::vector<std::int64_t>{a,            b,            c,            d,            middle(a, b),
-                                         middle(b, c), middle(c, a), middle(d, a), middle(d, c), middle(d, b)};
+        return std::vector<std::int64_t>{
+            a, b, c, d, middle(a, b), middle(b, c), middle(c, a), middle(d, a), middle(d, c), middle(d, b)};
     };
     mesh.elements.push_back({.tag = 9, .type = 2, .label = 4, .nodes = {20, 500, 3}});
     mesh.elements.push_back({.tag = 1000000, .type = 11, .label = 1, .nodes = tetrahedron(70, 20, 500, 3)});
@@ -53,7 +53,8 @@ std::string with(const MshMesh& mesh, const std::vector<ViewText>& views) {
 }
 
 ViewText constant(const std::string& name, int step, double time, double value) {
-    return {.section = "ElementData", .name = name, .time = time, .step = step, .records = {{12, {value}}, {1000000, {value + 1}}}};
+    return {
+        .section = "ElementData", .name = name, .time = time, .step = step, .records = {{12, {value}}, {1000000, {value + 1}}}};
 }
 
 const Point inside{-0.5, -0.6, -0.7};
@@ -64,9 +65,9 @@ TEST_CASE("time steps of views become time steps", "[gmsh]") {
     const TemporaryFolder folder;
     const MshMesh mesh = two_tetrahedra();
     // Steps in no order, one view that has just one, and one that lacks a step.
-    const auto source = open_msh({folder.write("mesh.msh", with(mesh, {constant("a", 2, 0.9, 30), constant("a", 0, 0.1, 10),
-                                                                      constant("a", 1, 0.4, 20), constant("b", 0, 0.0, 5),
-                                                                      constant("c", 0, 0.1, 1), constant("c", 2, 0.9, 2)}))});
+    const auto source = open_msh(
+        {folder.write("mesh.msh", with(mesh, {constant("a", 2, 0.9, 30), constant("a", 0, 0.1, 10), constant("a", 1, 0.4, 20),
+                                              constant("b", 0, 0.0, 5), constant("c", 0, 0.1, 1), constant("c", 2, 0.9, 2)}))});
     REQUIRE(source.times() == std::vector<double>{0.1, 0.4, 0.9});
     REQUIRE(source.fields().size() == 3);
     for (std::uint32_t step = 0; step < 3; ++step) {
@@ -102,7 +103,8 @@ TEST_CASE("values at some nodes or elements only", "[gmsh]") {
     const TemporaryFolder folder;
     const MshMesh mesh = two_tetrahedra();
     ViewText corners{.name = "corners"}, half{.name = "half"}, in_corners{.section = "ElementNodeData", .name = "in corners"},
-        one{.section = "ElementNodeData", .name = "one"}, surface{.section = "ElementData", .name = "surface", .records = {{9, {1}}}},
+        one{.section = "ElementNodeData", .name = "one"},
+        surface{.section = "ElementData", .name = "surface", .records = {{9, {1}}}},
         tensor{.section = "ElementData", .name = "tensor", .n_components = 9, .records = {{12, {1, 2, 3, 4, 5, 6, 7, 8, 9}}}};
     for (const auto& [tag, x] : mesh.nodes) {
         if (tag < 100000) {
@@ -153,7 +155,8 @@ TEST_CASE("views of one name stay apart", "[gmsh]") {
     for (const auto& [tag, x] : mesh.nodes) {
         nodes.records.push_back({tag, {linear(x)}});
     }
-    const auto source = open_msh({folder.write("mesh.msh", with(mesh, {constant("a", 0, 0, 1), nodes, constant("a", 0, 0, 7)}))});
+    const auto source =
+        open_msh({folder.write("mesh.msh", with(mesh, {constant("a", 0, 0, 1), nodes, constant("a", 0, 0, 7)}))});
     REQUIRE(source.fields().size() == 3);
     CHECK(source.fields()[1].name == "a (2)");
     CHECK(sample(source, 1, inside)[2] == 7);
