@@ -10,7 +10,7 @@ packages=(
     libboost-filesystem-dev libeigen3-dev libhdf5-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libpng-dev
     libpugixml-dev zlib1g-dev
 )
-test_packages=(catch2 vulkan-validationlayers python3-h5py)
+test_packages=(catch2 vulkan-validationlayers python3-h5py gmsh)
 
 usage() {
     cat <<'END'
