@@ -1,5 +1,6 @@
 #include "basis.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace elvis_vtk {
@@ -200,12 +201,20 @@ void pyramid_5(double x, double y, double z, std::span<double> values) {
     values[4] = 0.5 * (1 + z);
 }
 
+/**
+ * As VTK 9 has them: those of a serendipity hexahedron whose upper nodes are one (K.-J. Bathe, Finite Element
+ * Procedures, 5.3.2), with the corrections that make the triangular faces quadratic triangles. z is 1 at the apex.
+ */
 void pyramid_13(double x, double y, double z, std::span<double> values) {
-    const std::array<double, 20> hexahedron = hexahedron_20(x, y, z);
-    for (std::size_t i = 0; i < 4; ++i) {
-        values[i] = hexahedron[i];
-        values[5 + i] = hexahedron[8 + i];
-        values[9 + i] = hexahedron[16 + i];
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+        const double sx = corner_signs[corner][0] * x, sy = corner_signs[corner][1] * y;
+        values[corner] =
+            (1 + sx) * (1 + sy) * (1 - z) * (-4 + 3 * (sx + sy) - 2 * sx * sy - 2 * z + (sx + sy) * z - 2 * sx * sy * z) / 16;
+        values[9 + corner] = 0.25 * (1 + sx) * (1 + sy) * (1 - z * z);
+        // Of the two signs of an edge one is zero.
+        const double sum = edge_signs[corner][0] * x + edge_signs[corner][1] * y;
+        const double along = edge_signs[corner][0] == 0 ? x : y;
+        values[5 + corner] = 0.125 * (1 - along * along) * (1 + sum) * (1 - z) * (2 - sum - sum * z);
     }
     values[4] = 0.5 * z * (1 + z);
 }

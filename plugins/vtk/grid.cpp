@@ -168,7 +168,7 @@ private:
             unify_node_order(m_grid.points, m_grid.connectivity, std::span(m_grid.cells).subspan(piece.first_cell),
                              m_piece_kinds, !m_file.is_at_least(2, 1));
         if (!notes.empty()) {
-            m_host.log(ELVIS_LOG_WARNING, m_file.path() + ": " + notes + "told by the positions of the points");
+            m_host.log(ELVIS_LOG_INFO, m_file.path() + ": " + notes + "told by the positions of the points");
         }
         mark_rational(first_connection, piece);
         adopt_kinds(piece);

@@ -1,0 +1,105 @@
+// Every form in which VTK writes arrays holds the same field; pieces and steps are put together.
+#include "vtk_fixture.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <regex>
+
+using namespace elvis;
+
+TEST_CASE("every encoding holds the same numbers", "[vtk]") {
+    const std::vector<VtkReference> references = read_reference("small.ref");
+    for (const char* name : {"small_binary", "small_binary_zlib", "small_binary_lz4_big", "small_raw", "small_raw_big",
+                             "small_raw_lz4", "small_base64", "small_base64_zlib"}) {
+        INFO(name);
+        const SourceVolume source = open_vtk({sample_file(std::string(name) + ".vtu")});
+        CHECK(source.info().mantissa_bits == 53);
+        const Difference difference = source_difference(source, references);
+        CHECK(difference.position < 1e-14);
+        CHECK(difference.value < 1e-14);
+    }
+}
+
+TEST_CASE("text tells its precision by its digits", "[vtk]") {
+    const SourceVolume source = open_vtk({sample_file("small_ascii.vtu")});
+    // VTK 9.1 writes all digits.
+    CHECK(source.info().mantissa_bits == 53);
+    std::vector<double> values(source.n_values());
+    for (const VtkReference& reference : read_reference("small.ref")) {
+        const auto [r, s, t] = reference.parametric;
+        source.sample(0, reference.cell, native::Point{2 * r - 1, 2 * s - 1, 2 * t - 1}, values);
+        CHECK(values[0] == Approx(reference.values[0]).margin(1e-14));
+    }
+}
+
+TEST_CASE("pieces are joined by the positions of their corners", "[vtk]") {
+    // Two unit cubes side by side, a file each, and one that names both.
+    const std::string head = R"(<VTKFile type="UnstructuredGrid" version="2.2" byte_order="LittleEndian"><UnstructuredGrid>)";
+    const auto cube = [&](int x) {
+        std::string points, values;
+        for (int node = 0; node < 8; ++node) {
+            const int i = x + (node % 4 == 1 || node % 4 == 2), j = node % 4 > 1, k = node / 4;
+            points += std::to_string(i) + " " + std::to_string(j) + " " + std::to_string(k) + "\n";
+            values += std::to_string(i * i * 0.25) + " ";
+        }
+        return head +
+               R"(<Piece NumberOfPoints="8" NumberOfCells="1"><Points><DataArray type="Float32" NumberOfComponents="3">)" +
+               points + R"(</DataArray></Points><Cells><DataArray type="Int64" Name="connectivity" format="ascii">
+               0 1 2 3 4 5 6 7</DataArray><DataArray type="Int64" Name="offsets">8</DataArray>
+               <DataArray type="UInt8" Name="types">12</DataArray></Cells><PointData><DataArray type="Float64" Name="p">)" +
+               values + "</DataArray></PointData></Piece></UnstructuredGrid></VTKFile>";
+    };
+    const TemporaryFolder folder;
+    folder.write("0.vtu", cube(0));
+    folder.write("1.vtu", cube(1));
+    const std::string both = folder.write("all.pvtu", R"(<VTKFile type="PUnstructuredGrid" version="1.0"><PUnstructuredGrid>
+        <Piece Source="0.vtu"/><Piece Source="1.vtu"/></PUnstructuredGrid></VTKFile>)");
+    const SourceVolume source = open_vtk({both});
+    CHECK(source.info().n_elements == 2);
+    // Points are Float32 in few digits, hence exact in 24 bits; values have six digits.
+    CHECK(source.info().mantissa_bits == 20);
+    const ConvertedVolume volume(source);
+    CHECK(volume.report().n_faces == 11);
+    CHECK(volume.report().n_boundary_faces == 10);
+    CHECK(volume.report().fields.at(0).max_jump < 1e-15);
+    CHECK(volume.report().fields.at(0).continuity == ELVIS_CONTINUITY_CONTINUOUS);
+
+    // The same twice as time steps, out of order.
+    const std::string steps = folder.write("all.pvd", R"(<VTKFile type="Collection" version="0.1"><Collection>
+        <DataSet timestep="2.5" part="0" file="all.pvtu"/><DataSet timestep="0.5" part="0" file="0.vtu"/>
+        <DataSet timestep="0.5" part="1" file="1.vtu"/></Collection></VTKFile>)");
+    const SourceVolume in_time = open_vtk({steps});
+    CHECK(in_time.times() == std::vector<double>{0.5, 2.5});
+    CHECK(in_time.info().n_elements == 2);
+}
+
+TEST_CASE("points that cells share make a field continuous", "[vtk]") {
+    const std::string shared = R"(<VTKFile type="UnstructuredGrid" version="2.2"><UnstructuredGrid>
+        <Piece NumberOfPoints="5" NumberOfCells="3"><Points><DataArray type="Float64" NumberOfComponents="3">
+        0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataArray></Points><Cells><DataArray type="Int32" Name="connectivity">
+        0 1 2 3 1 2 3 4 0 1</DataArray><DataArray type="Int32" Name="offsets">4 8 10</DataArray>
+        <DataArray type="UInt8" Name="types">10 10 3</DataArray></Cells>
+        <PointData><DataArray type="Float64" Name="p">0 1 2 3 4</DataArray></PointData>
+        <CellData><DataArray type="Int32" Name="p">7 8 9</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>)";
+    const TemporaryFolder folder;
+    const SourceVolume source = open_vtk({folder.write("shared.vtu", shared)});
+    // The line is left out, its cell data too.
+    CHECK(source.info().n_elements == 2);
+    CHECK(source.info().n_corner_ids == 5);
+    CHECK(source.fields().at(0).continuity == ELVIS_CONTINUITY_CONTINUOUS);
+    CHECK(source.fields().at(1).name == "p (cells)");
+    CHECK(source.fields().at(1).continuity == ELVIS_CONTINUITY_DISCONTINUOUS);
+    const ConvertedVolume volume(source);
+    CHECK(volume.value(1, 1, {-0.5, -0.5, -0.5}) == 8);
+    CHECK(volume.report().n_faces == 7);
+    CHECK(volume.report().fields.at(0).exact);
+}
+
+TEST_CASE("the order of a hexahedron's nodes is told by its version and by its points", "[vtk]") {
+    // MFEM's data set has version 0.1 and the order of VTK 8. Here the version alone is changed: the points decide.
+    std::string content = content_of(sample_file("small_raw.vtu"));
+    content.replace(content.find("version=\"2.2\""), 13, "version=\"0.1\"");
+    const TemporaryFolder folder;
+    const SourceVolume source = open_vtk({folder.write("old.vtu", content)});
+    CHECK(source_difference(source, read_reference("small.ref")).value < 1e-14);
+}
