@@ -93,7 +93,7 @@ bool has_reversed_face(const CellKind& kind) {
     return kind.family == Family::wedge && kind.degree[0] > 2 && kind.degree[2] > 1;
 }
 
-/** First node of the face r = 0, whose rows older writers run from s = 1 to s = 0. */
+/** First node of the face r = 0, whose rows run from s = 1 to s = 0 since VTK 9.1 and the other way before. */
 std::size_t reversed_face(const CellKind& kind) {
     const std::size_t n = kind.degree[0], m = kind.degree[2];
     return 6 + 6 * (n - 1) + 3 * (m - 1) + (n - 1) * (n - 2) + 2 * (n - 1) * (m - 1);
@@ -106,7 +106,7 @@ void weigh_wedge(const Mesh& mesh, const Cell& cell, const CellKind& kind, Evide
             Line line;
             line.add(mesh.at(cell, edge + k));
             for (std::size_t j = 0; j + 1 < n; ++j) {
-                line.add(mesh.at(cell, face + k * (n - 1) + (is_standard ? j : n - 2 - j)));
+                line.add(mesh.at(cell, face + k * (n - 1) + (is_standard ? n - 2 - j : j)));
             }
             line.add(mesh.at(cell, edge + 2 * (m - 1) + k));
             (is_standard ? evidence.standard : evidence.other) += line.length();
@@ -178,7 +178,7 @@ std::string unify_node_order(std::span<const double> points, std::span<std::int6
                           : "hexahedra are in the node order of VTK 9, although the file's version is below 2.1; ";
     }
     if (reverse) {
-        notes += "wedges have the nodes of their face r = 0 in rows from s = 1 to s = 0; ";
+        notes += "wedges are in the node order of VTK 9.0 and older; ";
     }
     return notes;
 }

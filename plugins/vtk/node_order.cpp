@@ -144,7 +144,7 @@ std::vector<LatticePoint> wedge_nodes(int degree, int degree_t) {
     add_rows(m);
     add_grid(nodes, {0, 0, 0}, {1, 0, 0}, n, {0, 0, 1}, m);
     add_grid(nodes, {n, 0, 0}, {-1, 1, 0}, n, {0, 0, 1}, m);
-    add_grid(nodes, {0, 0, 0}, {0, 1, 0}, n, {0, 0, 1}, m);
+    add_grid(nodes, {0, n, 0}, {0, -1, 0}, n, {0, 0, 1}, m);
     for (int k = 1; k < m; ++k) {
         add_rows(k);
     }
