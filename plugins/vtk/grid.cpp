@@ -23,6 +23,9 @@ pugi::xml_node find_array(pugi::xml_node parent, const std::string& name) {
     return {};
 }
 
+/** A flag or degree that was read as a number; -1 for what is neither. */
+int small_integer(double number) { return number >= 0 && number <= 1000 ? static_cast<int>(number) : -1; }
+
 /** Adds the pieces of one file to a grid. */
 class GridReader {
 public:
@@ -152,12 +155,12 @@ private:
             }
             const std::span points(connectivity.data() + begin, static_cast<std::size_t>(end - begin));
             begin = end;
-            if (!ghosts.empty() && (static_cast<int>(ghosts[index]) & (ghost_duplicate | ghost_hidden)) != 0) {
+            if (!ghosts.empty() && (small_integer(ghosts[index]) & (ghost_duplicate | ghost_hidden)) != 0) {
                 continue;
             }
             std::array<int, 3> degree{};
             for (std::size_t i = 0; i < 3 && !degrees.empty(); ++i) {
-                degree[i] = static_cast<int>(std::clamp(degrees[3 * index + i], -1.0, 1000.0));
+                degree[i] = small_integer(degrees[3 * index + i]);
             }
             if (types[index] < 0 || types[index] > 255) {
                 m_file.fail(cells, "cell " + std::to_string(index) + " has type " + std::to_string(types[index]));

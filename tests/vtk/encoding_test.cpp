@@ -103,3 +103,26 @@ TEST_CASE("the order of a hexahedron's nodes is told by its version and by its p
     const SourceVolume source = open_vtk({folder.write("old.vtu", content)});
     CHECK(source_difference(source, read_reference("small.ref")).value < 1e-14);
 }
+
+TEST_CASE("the order of a wedge's nodes is told by its points", "[vtk]") {
+    const std::vector<VtkReference> references = read_reference("wedge.ref");
+    CHECK(source_difference(open_vtk({sample_file("wedge.vtu")}), references).value < 1e-14);
+    CHECK(source_difference(open_vtk({sample_file("wedge_old.vtu")}), references).value < 1e-14);
+}
+
+TEST_CASE("cells of another piece are left out", "[vtk]") {
+    const std::string ghost = R"(<VTKFile type="UnstructuredGrid" version="2.2"><UnstructuredGrid>
+        <Piece NumberOfPoints="5" NumberOfCells="2"><Points><DataArray type="Float64" NumberOfComponents="3">
+        0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataArray></Points><Cells><DataArray type="Int32" Name="connectivity">
+        0 1 2 3 1 2 3 4</DataArray><DataArray type="Int32" Name="offsets">4 8</DataArray>
+        <DataArray type="UInt8" Name="types">10 10</DataArray></Cells>
+        <CellData><DataArray type="Int32" Name="p">7 8</DataArray>
+        <DataArray type="UInt8" Name="vtkGhostType">1 0</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>)";
+    const TemporaryFolder folder;
+    const SourceVolume source = open_vtk({folder.write("ghost.vtu", ghost)});
+    CHECK(source.info().n_elements == 1);
+    REQUIRE(source.fields().size() == 1);
+    std::array<double, 1> value;
+    source.sample(0, 0, native::Point{-0.5, -0.5, -0.5}, value);
+    CHECK(value[0] == 8);
+}

@@ -205,5 +205,20 @@ def main():
     write(small, "small_base64.vtu", "appended", "none", 32, encode=True)
     write(small, "small_base64_zlib.vtu", "appended", "zlib", 64, encode=True, block=256)
 
+    wedge = make_grid(3, [(vtk.VTK_LAGRANGE_WEDGE, 60, (4, 4, 3))], False)
+    write(wedge, "wedge.vtu")
+    write_reference(wedge, "wedge.ref")
+    # The order of VTK 9.0: rows of the face r = 0 the other way round.
+    ids = vtk.vtkIdList()
+    wedge.GetCellPoints(0, ids)
+    nodes = [ids.GetId(i) for i in range(60)]
+    first = 6 + 6 * 3 + 3 * 2 + 2 * 3 + 2 * 6
+    for row in (first, first + 3):
+        nodes[row:row + 3] = reversed(nodes[row:row + 3])
+    old = vtk.vtkUnstructuredGrid()
+    old.DeepCopy(wedge)
+    old.GetCells().ReplaceCellAtId(0, 60, nodes)
+    write(old, "wedge_old.vtu")
+
 
 main()
