@@ -3,9 +3,27 @@
 
 #include <catch2/catch.hpp>
 
-#include <regex>
+#include <cstdint>
 
 using namespace elvis;
+
+namespace {
+
+std::string base64(const void* data, std::size_t size) {
+    constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const auto* const bytes = static_cast<const unsigned char*>(data);
+    std::string text;
+    for (std::size_t at = 0; at < size; at += 3) {
+        unsigned group = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            group = group << 8 | (at + i < size ? bytes[at + i] : 0u);
+        for (std::size_t i = 0; i < 4; ++i)
+            text += at + i > size ? '=' : alphabet[group >> (18 - 6 * i) & 63];
+    }
+    return text;
+}
+
+} // namespace
 
 TEST_CASE("every encoding holds the same numbers", "[vtk]") {
     const std::vector<VtkReference> references = read_reference("small.ref");
@@ -18,6 +36,26 @@ TEST_CASE("every encoding holds the same numbers", "[vtk]") {
         CHECK(difference.position < 1e-14);
         CHECK(difference.value < 1e-14);
     }
+}
+
+TEST_CASE("header and data may be encoded apart, and lines broken", "[vtk]") {
+    const std::array<double, 12> points{0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2};
+    const std::uint32_t size = sizeof points;
+    std::string data = base64(points.data(), size);
+    data.insert(50, "\n    ");
+    const std::string text = R"(<VTKFile type="UnstructuredGrid" version="2.2"><UnstructuredGrid>
+        <Piece NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3" format="binary">
+        <InformationKey name="L2_NORM_RANGE" location="vtkDataArray" length="2"><Value index="0">0</Value></InformationKey>
+        )" + base64(&size, sizeof size) +
+                             data + R"(
+        </DataArray></Points><Cells><DataArray type="Int32" Name="connectivity">0 1 2 3</DataArray>
+        <DataArray type="Int32" Name="offsets">4</DataArray><DataArray type="UInt8" Name="types">10</DataArray></Cells>
+        </Piece></UnstructuredGrid></VTKFile>)";
+    const TemporaryFolder folder;
+    const SourceVolume source = open_vtk({folder.write("apart.vtu", text)});
+    std::array<double, 3> x;
+    source.evaluate_mapping(0, native::Point{-0.5, -0.25, -0.75}, x);
+    CHECK(x == std::array<double, 3>{0.5, 0.75, 0.25});
 }
 
 TEST_CASE("text tells its precision by its digits", "[vtk]") {

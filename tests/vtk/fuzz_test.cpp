@@ -91,6 +91,22 @@ TEST_CASE("damaged files neither crash nor hang nor take memory", "[vtk]") {
             }
         }
     }
+    // Files that name others: small_raw.vtu as the one piece of the one step.
+    folder.write("piece.vtu", content_of(sample_file("small_raw.vtu")));
+    const std::string parallel = R"(<VTKFile type="PUnstructuredGrid" version="1.0"><PUnstructuredGrid GhostLevel="0">
+        <Piece Source="piece.vtu"/></PUnstructuredGrid></VTKFile>)";
+    const std::string collection = R"(<VTKFile type="Collection" version="0.1"><Collection>
+        <DataSet timestep="0" part="0" file="all.pvtu"/><DataSet timestep="1" file="piece.vtu"/></Collection></VTKFile>)";
+    for (int variant = 0; variant < 200; ++variant) {
+        INFO("collection, variant " << variant);
+        folder.write("all.pvtu", variant % 2 == 0 ? damaged(parallel, random) : parallel);
+        try {
+            open_vtk({folder.write("all.pvd", variant % 2 == 0 ? collection : damaged(collection, random))});
+            ++n_read;
+        } catch (const Error&) {
+            ++n_refused;
+        }
+    }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     WARN(n_refused << " refused, " << n_read << " read, at most " << usage.ru_maxrss / 1024 << " MiB of memory");

@@ -55,6 +55,7 @@ TEST_CASE("rational cells are those of VTK and their conversion is not called ex
                                                  << " in value; conversion leaves a residual of "
                                                  << volume.report().fields.at(0).residual);
     CHECK_FALSE(volume.report().fields.at(0).exact);
+    CHECK_FALSE(volume.report().geometry_exact);
     CHECK(volume.report().fields.at(0).residual > 1e-6);
     CHECK(volume.report().fields.at(0).residual < 0.2);
 }
