@@ -10,7 +10,8 @@ namespace elvis_vtk {
 
 namespace {
 
-/** Lengths of lines of nodes are evidence if they differ by more than this factor; right and wrong differ by two and more. */
+/** Bends of lines of nodes are evidence if they differ by more than this factor; edges that are much longer than apart may not.
+ */
 constexpr double clear_ratio = 1.2;
 
 using Vector = std::array<double, 3>;
@@ -26,26 +27,28 @@ struct Mesh {
     }
 };
 
-/** Squared length of the steps from node to node; a zigzag is longer whatever the spacing of the nodes. */
+/** Sum of squared second differences along a line of nodes: zero if it is straight and even, large if it zigzags. */
 class Line {
 public:
     void add(const Vector& x) {
-        if (m_has_last) {
-            const Vector d{x[0] - m_last[0], x[1] - m_last[1], x[2] - m_last[2]};
-            m_length += d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        for (std::size_t i = 0; i < 3 && m_n_points > 1; ++i) {
+            const double difference = x[i] - 2 * m_last[i] + m_before[i];
+            m_bend += difference * difference;
         }
+        m_before = m_last;
         m_last = x;
-        m_has_last = true;
+        ++m_n_points;
     }
-    double length() const { return m_length; }
+    double bend() const { return m_bend; }
 
 private:
     Vector m_last{};
-    bool m_has_last = false;
-    double m_length = 0;
+    Vector m_before{};
+    std::size_t m_n_points = 0;
+    double m_bend = 0;
 };
 
-/** Total lengths in the order of node_order.hpp and in the other one. */
+/** Total bend in the order of node_order.hpp and in the other one. */
 struct Evidence {
     double standard = 0;
     double other = 0;
@@ -55,8 +58,7 @@ struct Evidence {
 };
 
 bool has_old_order(const CellKind& kind) {
-    // VTK_TRIQUADRATIC_HEXAHEDRON is of this kind too; its positions say that it needs no change.
-    return kind.shape == ELVIS_SHAPE_HEXAHEDRON && kind.family == Family::tensor && kind.degree[2] > 1;
+    return kind.is_of_any_degree && kind.shape == ELVIS_SHAPE_HEXAHEDRON && kind.degree[2] > 1;
 }
 
 /** First node of the edges from corners 2 and 3 upward, which the old order exchanges. */
@@ -77,7 +79,7 @@ void weigh_hexahedron(const Mesh& mesh, const Cell& cell, const CellKind& kind, 
                 line.add(mesh.at(cell, first + k));
             }
             line.add(mesh.at(cell, corner + 4));
-            (is_standard ? evidence.standard : evidence.other) += line.length();
+            (is_standard ? evidence.standard : evidence.other) += line.bend();
         }
     }
 }
@@ -109,7 +111,7 @@ void weigh_wedge(const Mesh& mesh, const Cell& cell, const CellKind& kind, Evide
                 line.add(mesh.at(cell, face + k * (n - 1) + (is_standard ? n - 2 - j : j)));
             }
             line.add(mesh.at(cell, edge + 2 * (m - 1) + k));
-            (is_standard ? evidence.standard : evidence.other) += line.length();
+            (is_standard ? evidence.standard : evidence.other) += line.bend();
         }
     }
 }

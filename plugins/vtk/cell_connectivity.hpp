@@ -23,8 +23,8 @@ struct Cell {
  * Brings Lagrange and Bezier hexahedra and wedges of one file into the order of node_order.hpp, and marks wedges as mirrored
  * where that gives positive Jacobians to most of them. `declares_old_hexahedra`: the file's version is below 2.1.
  *
- * Nodes of the wrong order make a cell zigzag, so that the positions of points decide: lines of nodes through the cells are
- * measured in both orders, and the file's version counts only where the lengths do not tell.
+ * Nodes of the wrong order make a cell zigzag, so that the positions of points decide: how much lines of nodes through the
+ * cells bend is measured in both orders, and the file's version counts only where that does not tell.
  *
  * Returns what a person should know, empty if all is as declared.
  */

@@ -117,6 +117,7 @@ template <class Count> int degree_from(std::size_t n_points, int type, Count&& c
 
 CellKind arbitrary_order_kind(int type, std::size_t n, const std::array<int, 3>& degrees) {
     CellKind kind;
+    kind.is_of_any_degree = true;
     kind.is_bezier = type >= 75;
     const int shape = kind.is_bezier ? type - 76 : type - 69;
     if (!kind.is_bezier && ((shape == 0 && n == 7) || (shape == 2 && n == 15) || (shape == 4 && n == 21))) {

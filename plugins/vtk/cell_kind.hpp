@@ -39,6 +39,8 @@ struct CellKind {
     elvis_shape shape = ELVIS_SHAPE_HEXAHEDRON;
     /** Along r, s, t. */
     std::array<std::uint8_t, 3> degree{1, 1, 1};
+    /** A Lagrange or Bezier type: versions of VTK differ in the order of their nodes. */
+    bool is_of_any_degree = false;
     /** Bernstein polynomials instead of Lagrange polynomials on equidistant nodes. */
     bool is_bezier = false;
     /** Bezier with unequal weights. */

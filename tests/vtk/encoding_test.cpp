@@ -142,6 +142,38 @@ TEST_CASE("the order of a hexahedron's nodes is told by its version and by its p
     CHECK(source_difference(source, read_reference("small.ref")).value < 1e-14);
 }
 
+TEST_CASE("thin hexahedra of old files have their nodes where they belong", "[vtk]") {
+    // Edges along t are a hundred times longer than apart. Lagrange cells are in the order of VTK 8, which exchanges the
+    // middles of the last two edges; the triquadratic type has always had one order.
+    for (const int type : {29, 72}) {
+        const std::array<std::array<int, 3>, 27> new_order{
+            {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}, {1, 0, 0},
+             {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1},
+             {2, 2, 1}, {0, 2, 1}, {0, 1, 1}, {2, 1, 1}, {1, 0, 1}, {1, 2, 1}, {1, 1, 0}, {1, 1, 2}, {1, 1, 1}}};
+        std::string points, connectivity;
+        for (std::size_t node = 0; node < 27; ++node) {
+            const auto& [i, j, k] = new_order[node];
+            points += std::to_string(0.01 * i) + " " + std::to_string(0.01 * j) + " " + std::to_string(k) + "\n";
+            const std::size_t exchanged = type == 72 && node == 18 ? 19 : type == 72 && node == 19 ? 18 : node;
+            connectivity += std::to_string(exchanged) + " ";
+        }
+        const TemporaryFolder folder;
+        const SourceVolume source = open_vtk({folder.write("thin.vtu", R"(<VTKFile type="UnstructuredGrid" version="0.1">
+            <UnstructuredGrid><Piece NumberOfPoints="27" NumberOfCells="1"><Points>
+            <DataArray type="Float64" NumberOfComponents="3">)" + points + R"(</DataArray></Points><Cells>
+            <DataArray type="Int32" Name="connectivity">)" + connectivity + R"(</DataArray>
+            <DataArray type="Int32" Name="offsets">27</DataArray><DataArray type="UInt8" Name="types">)" +
+                                                                           std::to_string(type) + R"(</DataArray></Cells>
+            </Piece></UnstructuredGrid></VTKFile>)")});
+        std::array<double, 3> x;
+        source.evaluate_mapping(0, native::Point{0.5, 0.25, -0.2}, x);
+        INFO("type " << type);
+        CHECK(x[0] == Approx(0.015).margin(1e-14));
+        CHECK(x[1] == Approx(0.0125).margin(1e-14));
+        CHECK(x[2] == Approx(0.8).margin(1e-14));
+    }
+}
+
 TEST_CASE("the order of a wedge's nodes is told by its points", "[vtk]") {
     const std::vector<VtkReference> references = read_reference("wedge.ref");
     CHECK(source_difference(open_vtk({sample_file("wedge.vtu")}), references).value < 1e-14);
