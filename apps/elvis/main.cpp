@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
     elvis::commands::add_bench(app);
     elvis::commands::add_convert(app);
     elvis::commands::add_devices(app);
+    elvis::commands::add_export(app);
     elvis::commands::add_info(app);
     elvis::commands::add_plugins(app);
     elvis::commands::add_probe(app);

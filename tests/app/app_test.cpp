@@ -97,6 +97,23 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     }
 }
 
+TEST_CASE("A volume is exported and converted back") {
+    const Workplace place;
+    const Outcome exported = place.run("export ball.h5 -o ball.vtu");
+    INFO(exported.err);
+    REQUIRE(exported.status == 0);
+    const Outcome back = place.run("convert ball.vtu -o back.h5 --json");
+    INFO(back.err);
+    REQUIRE(back.status == 0);
+    CHECK(nlohmann::json::parse(back.out)["fields"][0]["exact"] == true);
+    const Outcome probe = place.run("probe back.h5 --point 0.1,-0.2,0.3 --json");
+    REQUIRE(probe.status == 0);
+    CHECK(std::abs(nlohmann::json::parse(probe.out)["points"][0]["fields"]["sphere"][0].get<double>() - 0.14) < 1e-12);
+    CHECK(place.run("export ball.h5 -o ball.obj").status == 2);
+    CHECK(place.run("export ball.h5 -o late.vtu --time-step 3").status == 1);
+    CHECK_FALSE(fs::exists(place.path("late.vtu")));
+}
+
 TEST_CASE("A scene file and the same options give the same picture") {
     const Workplace place;
     place.write("scene.json",

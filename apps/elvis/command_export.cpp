@@ -1,0 +1,58 @@
+#include "commands.hpp"
+#include "long_task.hpp"
+#include "volume_argument.hpp"
+
+#include <core/export/vtu_export.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace elvis::commands {
+
+namespace {
+
+struct Arguments {
+    std::string volume;
+    std::string output;
+    std::string plugin;
+    std::uint32_t time_step = 0;
+    int order = 0;
+};
+
+void run(const Arguments& arguments) {
+    if (!arguments.output.ends_with(".vtu")) {
+        throw UsageError("--output", "'" + arguments.output + "' does not end in .vtu, the one format that is written");
+    }
+    const PluginRegistry registry;
+    const RuntimeVolume volume = open_volume(registry, arguments.volume, arguments.plugin, {});
+    ExportOptions options;
+    options.time_step = arguments.time_step;
+    if (arguments.order > 0) {
+        options.order = static_cast<std::uint32_t>(arguments.order);
+    }
+    TaskControl control;
+    const ProgressBar progress(control);
+    const InterruptGuard guard(control);
+    const ExportReport report = export_vtu(volume, arguments.output, options, control);
+    std::printf("%llu cells of order up to %u with %llu points written to %s\n",
+                static_cast<unsigned long long>(report.n_cells), report.largest_order,
+                static_cast<unsigned long long>(report.n_points), arguments.output.c_str());
+}
+
+} // namespace
+
+void add_export(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("export", "Write a volume as VTK's Lagrange cells (.vtu), for ParaView and others");
+    command->add_option("volume", arguments->volume, "Volume file")->required();
+    command->add_option("-o,--output", arguments->output, "File to write, .vtu")->required();
+    command->add_option("--plugin", arguments->plugin, "Runtime plugin by id; default: the one surest of the file");
+    command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
+    command
+        ->add_option("--order", arguments->order,
+                     "Order of the cells; default: the largest of geometry and fields in each element, which is exact")
+        ->check(CLI::Range(1, 20));
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace elvis::commands

@@ -1,0 +1,84 @@
+/**
+ * @file long_task.hpp
+ * What a command does around a task that takes its time: a way to stop it and a sign that it goes on.
+ */
+#pragma once
+
+#include <core/base/cancel.hpp>
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+namespace elvis::commands {
+
+inline std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/** Ctrl-C and a polite kill ask the task to stop instead of ending the process, as long as this lives. */
+class InterruptGuard {
+public:
+    explicit InterruptGuard(TaskControl& control)
+        : m_previous_interrupt(std::signal(SIGINT, on_signal)), m_previous_terminate(std::signal(SIGTERM, on_signal)),
+          m_watcher([&control](const std::stop_token& stop) {
+              while (!stop.stop_requested()) {
+                  control.cancelled = interrupted.load();
+                  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+              }
+          }) {}
+    ~InterruptGuard() {
+        std::signal(SIGINT, m_previous_interrupt);
+        std::signal(SIGTERM, m_previous_terminate);
+    }
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+private:
+    static void on_signal(int) { interrupted = true; }
+
+    void (*m_previous_interrupt)(int);
+    void (*m_previous_terminate)(int);
+    std::jthread m_watcher;
+};
+
+/** One line on a terminal that shows how far the task has come. */
+class ProgressBar {
+public:
+    explicit ProgressBar(TaskControl& control) {
+        if (::isatty(STDERR_FILENO) == 0) {
+            return;
+        }
+        control.on_progress = [this](double fraction, std::string_view activity) {
+            const std::lock_guard lock(m_mutex);
+            const auto now = std::chrono::steady_clock::now();
+            if (now - m_last < std::chrono::milliseconds(100)) {
+                return;
+            }
+            m_last = now;
+            m_is_drawn = true;
+            const int done = fraction < 0 ? 0 : static_cast<int>(40 * fraction);
+            std::fprintf(stderr, "\r[%.*s%*s] %-24.*s", done, "========================================", 40 - done, "",
+                         static_cast<int>(activity.size()), activity.data());
+        };
+    }
+    ~ProgressBar() {
+        if (m_is_drawn) {
+            std::fprintf(stderr, "\r\033[K");
+        }
+    }
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+private:
+    std::mutex m_mutex;
+    std::chrono::steady_clock::time_point m_last{};
+    bool m_is_drawn = false;
+};
+
+} // namespace elvis::commands
