@@ -64,7 +64,7 @@ MshMesh bend(MshMesh mesh) {
  * points.
  */
 Errors check(const TemporaryFolder& folder, const std::string& name, const MshMesh& mesh, const NodesByType& nodes,
-             int dimension, bool is_straight, bool with_conversion, std::set<int>& seen) {
+             int dimension, bool is_straight, std::set<int>& seen) {
     const std::vector<MshElement> elements = mesh.of_dimension(dimension);
     ViewText positions{.name = "positions", .n_components = 3}, values{.name = "polynomial"},
         in_elements{.section = "ElementNodeData", .name = "in elements"};
@@ -94,14 +94,11 @@ Errors check(const TemporaryFolder& folder, const std::string& name, const MshMe
     const auto source = open_msh({folder.write("views.msh", text)});
     REQUIRE(source.info().n_elements == elements.size());
     REQUIRE(source.n_values() == 5);
-    std::unique_ptr<Converted> converted;
-    if (with_conversion) {
-        converted = std::make_unique<Converted>(source);
-        CHECK(converted->report().geometry_exact);
-        for (const auto& field : converted->report().fields) {
-            INFO(name << " " << field.name << " residual " << field.residual);
-            CHECK(field.exact);
-        }
+    const Converted converted(source);
+    CHECK(converted.report().geometry_exact);
+    for (const auto& field : converted.report().fields) {
+        INFO(name << " " << field.name << " residual " << field.residual);
+        CHECK(field.exact);
     }
     Errors errors;
     for (std::size_t index = 0; index < elements.size(); ++index) {
@@ -124,17 +121,15 @@ Errors check(const TemporaryFolder& folder, const std::string& name, const MshMe
                 raise(errors.node_data, value[3] - polynomial(degree, x));
             }
             raise(errors.element_node_data, value[4] - functions[index](xi));
-            if (converted) {
-                const Point y = converted->position(index, xi);
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    raise(errors.converted, y[axis] - x[axis]);
-                    raise(errors.converted, converted->value(0, index, xi)[axis] - x[axis]);
-                }
-                if (is_straight) {
-                    raise(errors.converted, converted->value(1, index, xi)[0] - polynomial(degree, x));
-                }
-                raise(errors.converted, converted->value(2, index, xi)[0] - functions[index](xi));
+            const Point y = converted.position(index, xi);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                raise(errors.converted, y[axis] - x[axis]);
+                raise(errors.converted, converted.value(0, index, xi)[axis] - x[axis]);
             }
+            if (is_straight) {
+                raise(errors.converted, converted.value(1, index, xi)[0] - polynomial(degree, x));
+            }
+            raise(errors.converted, converted.value(2, index, xi)[0] - functions[index](xi));
         }
     }
     return errors;
@@ -160,7 +155,7 @@ void check_order(int order, bool is_serendipity, int dimension, std::set<int>& s
     const MshMesh curved = gmsh_bends ? read_mesh(folder.path("curved.msh")) : bend(straight);
     for (const bool is_straight : {true, false}) {
         const Errors errors = check(folder, is_straight || !gmsh_bends ? "" : "curved.msh", is_straight ? straight : curved,
-                                    nodes, dimension, is_straight, dimension == 3, seen);
+                                    nodes, dimension, is_straight, seen);
         WARN(dimension << "D, order " << order << (is_serendipity ? ", serendipity" : "")
                        << (is_straight ? ", straight" : ", curved") << ": mapping " << errors.mapping << ", $NodeData "
                        << errors.node_data << ", $ElementNodeData " << errors.element_node_data << ", converted "
