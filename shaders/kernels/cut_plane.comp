@@ -61,13 +61,8 @@ void main() {
         row += 1u;
     }
 
-    // Has the driver ended a loop, of the snippet too, before it was done? Then this one ends before its second turn, and no pixel of
-    // the column is to be trusted.
-    uint canary = 0u;
-    while (canary < 2u + (core_size.x >> 31)) {
-        canary += 1u;
-    }
-    const bool is_cut_short = end_row > first_row && (canary < 2u || row < end_row);
+    // Then no pixel of the column is to be trusted.
+    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up());
     for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
         core_samples[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }

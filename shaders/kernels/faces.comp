@@ -2,7 +2,7 @@
 // field there.
 //
 // A face is a map of (u, v), both from -1 to 1, with u + v <= 0 in a triangle. A ray o + t d meets it where x(u, v) = o + t d. Newton's
-// method starts from the face's centre. A bound of its error (library/newton.glsl; along the face, oblique rays stretch it) tells most faces
+// method starts from the face's centre. A bound of its error (library/prediction.glsl; along the face, oblique rays stretch it) tells most faces
 // that are missed after one step, and shows where no second crossing is possible. Elsewhere it starts again from the centres of
 // CORE_PATCHES^2 patches of the face; a patch is left after one evaluation if the linear model there puts the solution more than one
 // patch away, because its neighbours start closer. A ray that crosses a face twice near its silhouette has a twin crossing in the
@@ -14,6 +14,7 @@
 layout(local_size_x = 32) in;
 
 #include "library/precision.glsl"
+#include "library/prediction.glsl"
 #include "library/cut_frame.glsl"
 #include "library/face_frame.glsl"
 #include "library/hierarchy.glsl"
@@ -93,15 +94,6 @@ uvec2 core_face_of(uint item) {
 
 elvis_real core_excess_of(elvis_real u, elvis_real v, bool is_triangle) {
     return is_triangle ? max(max(-u, -v) - elvis_real(1), u + v) : max(abs(u), abs(v)) - elvis_real(1);
-}
-
-// Most by which (u, v) of a prediction is in error whose step from a point of the face had this length: library/newton.glsl, with C for
-// the ray's equation in place of the mapping's.
-elvis_real core_face_error(elvis_real curvature, elvis_real step) {
-    const elvis_real discriminant = elvis_real(1) - elvis_real(4) * curvature * step;
-    const elvis_real near = elvis_real(2) * step / (elvis_real(1) + sqrt(max(discriminant, elvis_real(0))));
-    const elvis_real d = discriminant > elvis_real(0) ? min(near, elvis_real(2)) : elvis_real(2);
-    return curvature * d * d;
 }
 
 // Where a start lies.
@@ -208,8 +200,9 @@ void main() {
         const uvec4 record = elvis_fetch4_core_elements(element, 0u);
         const elvis_real curvature = elvis_real(core_curvature(record.y)) * oblique * stretch * stretch;
         const elvis_real constraint_norm = elvis_real(face.is_triangle ? 2 : 1);
+        // The bound holds for starts in the face.
         const bool is_inside = core_excess_of(a, b, face.is_triangle) <= elvis_real(1e-3LF);
-        const bool has_missed = is_regular && is_inside && excess > constraint_norm * (core_face_error(curvature, step) + elvis_real(2) * error);
+        const bool has_missed = is_regular && is_inside && excess > constraint_norm * (core_prediction_error(curvature, step) + elvis_real(2) * error);
         is_single = is_single || (start == 0u && steps == 0u && is_regular && curvature < elvis_real(0.45LF));
 
         const bool is_first = steps == 0u;
@@ -283,6 +276,7 @@ void main() {
 
     const bool has_found = found.element != CORE_NO_ELEMENT;
     const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
+    found.is_cut_short = found.is_cut_short || core_has_driver_given_up();
     core_cut_point point;
     point.is_hit = has_found;
     point.t = nearest;

@@ -101,7 +101,7 @@ core_newton core_newton_start(uint element, elvis_vec3 target) {
 // Whether the start alone, a prediction from the centroid, is far enough outside.
 bool core_is_outside(core_newton state) {
     return core_excess(state.x, state.y, state.z) >
-           core_prediction_error(state.curvature, state.last_step) + CORE_CONSTRAINT_NORM * CORE_START_ERROR;
+           CORE_CONSTRAINT_NORM * (core_prediction_error(state.curvature, state.last_step) + CORE_START_ERROR);
 }
 
 core_location core_locate(core_cut_point point, uint n_entries, inout core_track track) {

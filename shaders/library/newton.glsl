@@ -16,12 +16,8 @@
 
 #include "library/finite.glsl"
 #include "library/precision.glsl"
+#include "library/prediction.glsl"
 #include "library/shape_region.glsl"
-
-// The error of a prediction that started from a point of the element at distance d from the solution is at most C d^2, where the
-// curvature C is half the Lipschitz constant of the Jacobian, relative to the Jacobian: all in the maximum norm of reference
-// coordinates (the remainder of Newton's method; e.g. J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, theorem 5.3.2).
-// C is measured for each element when a volume is opened (kernels/linearize.comp).
 
 #define CORE_NEWTON_RUNNING 0u
 #define CORE_NEWTON_CONVERGED 1u
@@ -54,8 +50,6 @@ struct core_inverse {
     elvis_real error0, error1, error2;
 };
 
-#define CORE_UNKNOWN_CURVATURE elvis_real(1e9LF)
-
 // `guess_step`: length of the step of first order that led to the guess; negative if none did.
 core_newton core_newton_begin(elvis_real guess_x, elvis_real guess_y, elvis_real guess_z, elvis_real guess_step,
                               elvis_real curvature) {
@@ -70,15 +64,6 @@ core_newton core_newton_begin(elvis_real guess_x, elvis_real guess_y, elvis_real
     state.outside_steps = 0u;
     state.always_outside = true;
     return state;
-}
-
-// Most by which the face constraints of a point can be in error, whose prediction took a step of this length from inside.
-elvis_real core_prediction_error(elvis_real curvature, elvis_real step) {
-    // The solution's distance d from where the step started is at most step + C d^2, and no two points are farther apart than 2.
-    const elvis_real discriminant = elvis_real(1) - elvis_real(4) * curvature * step;
-    const elvis_real near = elvis_real(2) * step / (elvis_real(1) + sqrt(max(discriminant, elvis_real(0))));
-    const elvis_real d = discriminant > elvis_real(0) ? min(near, elvis_real(2)) : elvis_real(2);
-    return CORE_CONSTRAINT_NORM * curvature * d * d;
 }
 
 void core_newton_restart(inout core_newton state) {
@@ -143,7 +128,7 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     const bool is_predicted = was_inside && step * step <= tolerance &&
                               step * step * step <= elvis_real(0.25LF) * tolerance * state.last_step * state.last_step;
     const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));
-    const elvis_real prediction_error = min(core_prediction_error(state.curvature, step),
+    const elvis_real prediction_error = min(CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step),
                                             has_change && state.steps > 0u ? elvis_real(8) * change : CORE_UNKNOWN_CURVATURE);
     const bool outside = is_regular && excess > prediction_error + elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
 

@@ -66,3 +66,12 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
     }
     return is_shown ? core_end_component - core_first_component : 0u;
 }
+
+// Whether the driver has ended a loop, of the snippet too, before it was done: then this one ends before its second turn.
+bool core_has_driver_given_up() {
+    uint canary = 0u;
+    while (canary < 2u + (core_surface >> 31)) {
+        canary += 1u;
+    }
+    return canary < 2u;
+}
