@@ -2,8 +2,8 @@
 // field there.
 //
 // A face is a map of (u, v), both from -1 to 1, with u + v <= 0 in a triangle. A ray o + t d meets it where x(u, v) = o + t d. Newton's
-// method starts from the face's centre. A bound of its error (library/prediction.glsl; along the face, oblique rays stretch it) tells most faces
-// that are missed after one step, and shows where no second crossing is possible. Elsewhere it starts again from the centres of
+// method starts from the face's centre. A bound of its error (library/prediction.glsl; along the face, oblique rays stretch it) tells
+// most faces that are missed after one step, and shows where no second crossing is possible. Elsewhere it starts again from the centres of
 // CORE_PATCHES^2 patches of the face; a patch is left after one evaluation if the linear model there puts the solution more than one
 // patch away, because its neighbours start closer. A ray that crosses a face twice near its silhouette has a twin crossing in the
 // direction that projects onto the ray: it is looked for from both sides of each crossing found. All crossings are found while the
@@ -100,8 +100,8 @@ elvis_real core_excess_of(elvis_real u, elvis_real v, bool is_triangle) {
 elvis_vec2 core_start(uint number, bool is_triangle) {
     const uint start = max(number, 1u) - 1u;
     const elvis_real width = elvis_real(2) / elvis_real(CORE_PATCHES);
-    const elvis_vec2 centre = (elvis_vec2(elvis_real(start % uint(CORE_PATCHES)), elvis_real(start / uint(CORE_PATCHES))) + elvis_real(0.5LF)) * width -
-                              elvis_real(1);
+    const elvis_vec2 patch_number = elvis_vec2(elvis_real(start % uint(CORE_PATCHES)), elvis_real(start / uint(CORE_PATCHES)));
+    const elvis_vec2 centre = (patch_number + elvis_real(0.5LF)) * width - elvis_real(1);
     return number > 0u ? centre : elvis_vec2(is_triangle ? elvis_real(-1) / elvis_real(3) : elvis_real(0));
 }
 
@@ -153,7 +153,8 @@ void main() {
             n_twins = n_spawned = 0u;
             is_twin = false;
             is_single = false;
-            const elvis_vec2 first = core_start(0u, core_face_frame(int(core_face_of(item != CORE_NO_ELEMENT ? item : 0u).y)).is_triangle);
+            const uint local_face = core_face_of(item != CORE_NO_ELEMENT ? item : 0u).y;
+            const elvis_vec2 first = core_start(0u, core_face_frame(int(local_face)).is_triangle);
             a = first.x;
             b = first.y;
         }
@@ -183,15 +184,17 @@ void main() {
         const elvis_real step_a = dot(row_a, left), step_b = dot(row_b, left);
         const elvis_real step = max(abs(step_a), abs(step_b));
         // Rounding of positions, and what the inverse makes of it.
-        const elvis_vec3 noise = elvis_vec3(ray.error) + elvis_real(4) * CORE_ROUNDOFF * (abs(shift) + size + abs(x) + abs(t * ray.direction));
+        const elvis_vec3 terms = abs(shift) + size + abs(x) + abs(t * ray.direction);
+        const elvis_vec3 noise = elvis_vec3(ray.error) + elvis_real(4) * CORE_ROUNDOFF * terms;
         const elvis_real error = max(dot(abs(row_a), noise), dot(abs(row_b), noise)) + elvis_real(4) * CORE_ROUNDOFF;
         const elvis_real excess = core_excess_of(a + step_a, b + step_b, face.is_triangle);
 
         // The bound for this ray: along the direction of the ray, what the remainder has across the face moves along it.
         const elvis_mat3 full = core_full_jacobian(jacobian);
         const elvis_vec3 covector = cross(half_a, half_b);
-        const elvis_vec3 ray_in_xi = elvis_vec3(dot(cross(full[1], full[2]), ray.direction), dot(cross(full[2], full[0]), ray.direction),
-                                                dot(cross(full[0], full[1]), ray.direction));
+        const elvis_vec3 ray_in_xi =
+            elvis_vec3(dot(cross(full[1], full[2]), ray.direction), dot(cross(full[2], full[0]), ray.direction),
+                       dot(cross(full[0], full[1]), ray.direction));
         const elvis_real largest = max(max(abs(ray_in_xi.x), abs(ray_in_xi.y)), abs(ray_in_xi.z));
         const elvis_real oblique = elvis_real(1) + (abs(covector.x) + abs(covector.y) + abs(covector.z)) * largest /
                                                        max(abs(dot(covector, ray_in_xi)), elvis_real(1e-30LF));
