@@ -32,10 +32,10 @@ KernelRequest request(const char* kernel, Precision precision, std::uint32_t n_b
 } // namespace
 
 ColorPass::ColorPass(const Device& device, Precision precision)
-    : m_device(device), m_precision(precision), m_color(device, request("color", precision, 3, sizeof(ColorParameters))) {}
+    : m_device(device), m_precision(precision), m_color(device, request("color", precision, 4, sizeof(ColorParameters))) {}
 
-void ColorPass::draw(const Buffer& samples, const Buffer& colors, std::uint32_t n_pixels, const ColorTable& table,
-                     const Color& background, double offset, std::uint32_t common_flags) const {
+void ColorPass::draw(const SampleTarget& target, const Buffer& colors, const ColorTable& table, const Color& background,
+                     double offset, std::uint32_t common_flags) const {
     std::vector<double> numbers;
     for (const ColorTable::Point& point : table.points) {
         numbers.insert(numbers.end(), {point.value - offset, point.rgb[0], point.rgb[1], point.rgb[2]});
@@ -45,8 +45,9 @@ void ColorPass::draw(const Buffer& samples, const Buffer& colors, std::uint32_t 
     }
     const Buffer points(m_device, numbers.size() * real_bytes(m_precision));
     write_reals(points, m_precision, numbers);
+    const std::uint32_t n_pixels = target.width * target.height;
     const ColorParameters parameters{n_pixels, groups_x, static_cast<std::uint32_t>(table.points.size()), common_flags};
-    const std::array<const Buffer*, 3> bindings = {&samples, &points, &colors};
+    const std::array<const Buffer*, 4> bindings = {&target.samples, &points, &colors, &target.marks};
     m_color.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), groups_x, groups_y(n_pixels));
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/render/frame.hpp>
+#include <core/render/samples.hpp>
 #include <core/shader/composer.hpp>
 
 namespace elvis {
@@ -15,8 +16,8 @@ public:
 
     /** Colours the samples; values of the table lack `offset`, as the samples do. `common_flags` are set on every pixel that is
      * hit. */
-    void draw(const Buffer& samples, const Buffer& colors, std::uint32_t n_pixels, const ColorTable& table,
-              const Color& background, double offset, std::uint32_t common_flags) const;
+    void draw(const SampleTarget& target, const Buffer& colors, const ColorTable& table, const Color& background, double offset,
+              std::uint32_t common_flags) const;
 
 private:
     const Device& m_device;

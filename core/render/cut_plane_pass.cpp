@@ -62,7 +62,8 @@ CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, co
         request.bindings = {{0, BindingType::uniform_buffer},
                             {1, BindingType::storage_buffer},
                             {2, BindingType::storage_buffer},
-                            {3, BindingType::storage_buffer}};
+                            {3, BindingType::storage_buffer},
+                            {4, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(device, request);
         m_kernels.push_back(std::move(kernels));
@@ -86,7 +87,7 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
         const std::array<const Buffer*, 2> tiles_bindings = {&m_frame, &*m_tiles};
         kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
                                 divided_up(tiles.n_tiles, tiles_group_size));
-        const std::array<const Buffer*, 4> bindings = {&m_frame, &target.samples, &*m_tiles, &m_counts};
+        const std::array<const Buffer*, 5> bindings = {&m_frame, &target.samples, &*m_tiles, &m_counts, &target.marks};
         for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
             const PixelsParameters pixels{target.width,
                                           target.height,

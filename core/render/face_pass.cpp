@@ -61,7 +61,8 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         request.bindings = {{0, BindingType::uniform_buffer},
                             {1, BindingType::storage_buffer},
                             {2, BindingType::storage_buffer},
-                            {3, BindingType::storage_buffer}};
+                            {3, BindingType::storage_buffer},
+                            {4, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(Parameters);
         m_kernels.push_back(std::make_unique<ComposedKernel>(device, request));
     }
@@ -72,7 +73,7 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     m_counts.fill(0);
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / target.width);
-    const std::array<const Buffer*, 4> bindings = {&m_frame, &target.samples, &normals, &m_counts};
+    const std::array<const Buffer*, 5> bindings = {&m_frame, &target.samples, &normals, &m_counts, &target.marks};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         for (std::uint32_t first_row = 0; first_row < target.height; first_row += rows_a_dispatch) {
             const Parameters parameters{target.width,

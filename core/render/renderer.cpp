@@ -46,10 +46,7 @@ FieldRange magnitude_range(const std::vector<FieldRange>& components) {
 /** One sample as the device writes it (shaders/library/samples.glsl). */
 template <class Real> struct Sample {
     Real value, depth;
-    std::uint32_t owner, number, flags;
-
-    /** Counted from 1; 0 where nothing was drawn. */
-    std::uint32_t surface() const { return owner >> 4u; }
+    std::uint32_t number;
 };
 
 } // namespace
@@ -71,7 +68,7 @@ struct Renderer::Impl {
     std::uint32_t selected_step = 0;
     RendererTimes times;
     /** Kept from frame to frame: fresh memory costs a page fault for each page. */
-    std::optional<Buffer> samples, colors, normals;
+    std::optional<Buffer> samples, marks, colors, normals;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
         : device(on), volume(of), precision(with), control(task), data(on, of, with, task), color_pass(on, with) {
@@ -94,6 +91,8 @@ void Renderer::Impl::provide_buffers(std::uint64_t n_pixels) {
         samples.reset();
         colors.reset();
         samples.emplace(device, n_pixels * sample_bytes(precision));
+        marks.reset();
+        marks.emplace(device, n_pixels * sizeof(Mark));
         colors.emplace(device, 4 * n_pixels * real_bytes(precision));
         normals.reset();
     }
@@ -198,16 +197,17 @@ void Renderer::Impl::read_samples(const std::vector<Vector3>& plane_normals, dou
     const std::size_t n_pixels = frame.counts.pixels;
     const std::vector<Real> read_colors = colors->read_items<Real>(4 * n_pixels);
     frame.color.assign(read_colors.begin(), read_colors.end());
-    const std::vector<Sample<Real>> read = samples->read_items<Sample<Real>>(n_pixels);
-    for (const Sample<Real>& sample : read) {
-        frame.counts.hit_pixels += sample.surface() != 0 ? 1 : 0;
-        frame.counts.undecided_pixels += (sample.flags & pixel_flag::undecided) != 0 ? 1 : 0;
-        frame.counts.nan_pixels += (sample.flags & pixel_flag::nan) != 0 ? 1 : 0;
-        frame.counts.work_limit_pixels += (sample.flags & pixel_flag::work_limit) != 0 ? 1 : 0;
+    const std::vector<Mark> read_marks = marks->read_items<Mark>(n_pixels);
+    for (const Mark& mark : read_marks) {
+        frame.counts.hit_pixels += mark.surface() != 0 ? 1 : 0;
+        frame.counts.undecided_pixels += (mark.flags & pixel_flag::undecided) != 0 ? 1 : 0;
+        frame.counts.nan_pixels += (mark.flags & pixel_flag::nan) != 0 ? 1 : 0;
+        frame.counts.work_limit_pixels += (mark.flags & pixel_flag::work_limit) != 0 ? 1 : 0;
     }
     if (!with_buffers) {
         return;
     }
+    const std::vector<Sample<Real>> read = samples->read_items<Sample<Real>>(n_pixels);
     frame.value.assign(n_pixels, not_a_number);
     frame.depth.assign(n_pixels, not_a_number);
     frame.normal.assign(3 * n_pixels, not_a_number);
@@ -216,15 +216,16 @@ void Renderer::Impl::read_samples(const std::vector<Vector3>& plane_normals, dou
     const std::vector<Real> of_faces = this->normals ? this->normals->read_items<Real>(3 * n_pixels) : std::vector<Real>();
     for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
         const Sample<Real>& sample = read[pixel];
-        frame.flags[pixel] = sample.flags;
-        if (sample.surface() != 0) {
+        const Mark& mark = read_marks[pixel];
+        frame.flags[pixel] = mark.flags;
+        if (mark.surface() != 0) {
             frame.value[pixel] = static_cast<double>(sample.value) + offset;
             frame.depth[pixel] = static_cast<double>(sample.depth);
             frame.element[pixel] = sample.number;
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const bool is_plane = sample.surface() <= plane_normals.size();
+                const bool is_plane = mark.surface() <= plane_normals.size();
                 frame.normal[3 * pixel + axis] =
-                    is_plane ? plane_normals[sample.surface() - 1][axis] : static_cast<double>(of_faces[3 * pixel + axis]);
+                    is_plane ? plane_normals[mark.surface() - 1][axis] : static_cast<double>(of_faces[3 * pixel + axis]);
             }
         }
     }
@@ -273,21 +274,21 @@ Frame Renderer::render(const FrameRequest& request) {
                                    field.continuity != ELVIS_CONTINUITY_CONTINUOUS};
     std::vector<Vector3> normals;
     const DeviceTimer timer(impl.device);
-    impl.samples->fill(0);
+    impl.marks->fill(0);
+    const SampleTarget target{*impl.samples, *impl.marks, request.width, request.height};
     for (std::uint32_t surface = 0; surface < request.cut_planes.size(); ++surface) {
         const CutPlaneGeometry geometry =
             cut_plane_geometry(request.cut_planes[surface], request.camera, request.width, request.height, impl.data.centre());
         normals.push_back(geometry.normal);
-        impl.cut_planes->draw(geometry, surface + 1, component, {*impl.samples, request.width, request.height}, frame.counts);
+        impl.cut_planes->draw(geometry, surface + 1, component, target, frame.counts);
     }
     if (impl.faces) {
         const CutPlaneGeometry view = cut_plane_geometry(impl.plane_across(request.camera), request.camera, request.width,
                                                          request.height, impl.data.centre());
-        impl.faces->draw(view, static_cast<std::uint32_t>(request.cut_planes.size()) + 1, component,
-                         {*impl.samples, request.width, request.height}, *impl.normals, frame.counts);
+        impl.faces->draw(view, static_cast<std::uint32_t>(request.cut_planes.size()) + 1, component, target, *impl.normals,
+                         frame.counts);
     }
-    impl.color_pass.draw(*impl.samples, *impl.colors, static_cast<std::uint32_t>(n_pixels), request.colors, request.background,
-                         offset, common_flags);
+    impl.color_pass.draw(target, *impl.colors, request.colors, request.background, offset, common_flags);
     frame.render_milliseconds = timer.wall_milliseconds();
     frame.device_milliseconds = timer.milliseconds();
 

@@ -1,6 +1,6 @@
 /**
  * @file samples.hpp
- * What passes draw into: one core_sample a pixel (shaders/library/samples.glsl).
+ * What passes draw into: one core_sample and one core_mark a pixel (shaders/library/samples.glsl).
  */
 #pragma once
 
@@ -11,10 +11,21 @@
 namespace elvis {
 
 /** Bytes of one sample. */
-inline std::size_t sample_bytes(Precision precision) { return precision == Precision::float64 ? 32 : 20; }
+inline std::size_t sample_bytes(Precision precision) { return precision == Precision::float64 ? 24 : 12; }
+
+/** One core_mark. */
+struct Mark {
+    std::uint32_t owner = 0;
+    std::uint32_t flags = 0;
+
+    /** Counted from 1; 0 where nothing was drawn. */
+    std::uint32_t surface() const { return owner >> 4u; }
+};
 
 struct SampleTarget {
     const Buffer& samples;
+    /** All zero before the first pass. */
+    const Buffer& marks;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
 };

@@ -4,10 +4,11 @@
 #include "library/samples.glsl"
 
 layout(local_size_x = 32) in;
-layout(set = 0, binding = 0, std430) buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 0, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 // Points of the table, then below, above, NaN and background.
 layout(set = 0, binding = 1, std430) readonly buffer core_table_block { elvis_vec4 core_table[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
+layout(set = 0, binding = 3, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
@@ -19,9 +20,12 @@ layout(push_constant) uniform core_parameters {
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * 32u + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
-    const uint owner = is_inside ? core_samples[pixel].owner : 0u;
+    const uint owner = is_inside ? core_marks[pixel].owner : 0u;
     const bool is_drawn = owner != 0u;
-    const elvis_real value = core_samples[pixel].value;
+    elvis_real value = elvis_real(0);
+    for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
+        value = core_samples[pixel].value;
+    }
     const bool is_nan = !core_is_finite(value);
 
     // How many points are not above the value.
@@ -51,6 +55,6 @@ void main() {
     const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
     const uint flags = core_common_flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
     for (uint turn = 0u; turn < (is_drawn && flags != 0u ? 1u : 0u); ++turn) {
-        core_samples[pixel].flags |= flags;
+        core_marks[pixel].flags |= flags;
     }
 }

@@ -15,6 +15,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_first_tile_row;
@@ -64,7 +65,7 @@ void main() {
     // Then no pixel of the column is to be trusted.
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up());
     for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
-        core_samples[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
+        core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
 
     for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {

@@ -25,6 +25,7 @@ layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample cor
 // Three numbers a pixel.
 layout(set = 0, binding = 2, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_first_row;
@@ -296,7 +297,7 @@ void main() {
         core_normals[3u * pixel] = unit.x;
         core_normals[3u * pixel + 1u] = unit.y;
         core_normals[3u * pixel + 2u] = unit.z;
-        core_samples[pixel].flags |= is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+        core_marks[pixel].flags |= is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     }
 
     const uint all_evaluations = subgroupAdd(n_evaluations);

@@ -1,14 +1,19 @@
-// What a pixel sees of the surfaces drawn so far. All zero: nothing.
+// What a pixel sees of the surfaces drawn so far.
 
+// Of pixels with an owner.
 struct core_sample {
     // Field value, lacking the field's offset.
     elvis_real value;
     // Distance from the ray's origin.
     elvis_real depth;
-    // Surface, counted from 1, and the bits below.
-    uint owner;
     // The element's number.
     uint number;
+};
+
+// Apart from the samples, because pixels in which nothing is seen need no more.
+struct core_mark {
+    // Surface, counted from 1, and the bits below; 0 where nothing is seen.
+    uint owner;
     // CORE_FLAG_...: the same bits as in the picture's buffers.
     uint flags;
 };

@@ -1,7 +1,7 @@
 // What is found along a pixel's ray, and how it gets into the picture: the nearest surface wins; on one surface, the element on the
 // viewer's side, then the lowest number.
 //
-// The kernel brings library/cut_frame.glsl, library/samples.glsl, core_samples, core_surface, core_first_component, core_end_component and
+// The kernel brings library/cut_frame.glsl, library/samples.glsl, core_samples, core_marks, core_surface, core_first_component, core_end_component and
 // core_is_discontinuous.
 
 #define CORE_NO_ELEMENT 0xffffffffu
@@ -38,7 +38,7 @@ elvis_real core_shown_value(uint element, elvis_vec3 xi) {
 // Puts what was found into the picture, unless another surface or element goes before it. Returns the number of field evaluations.
 uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_real value) {
     const elvis_real depth = (point.t + core_reference.w) * length(point.direction);
-    const uint old_owner = core_samples[pixel].owner;
+    const uint old_owner = core_marks[pixel].owner;
     const uint old_surface = old_owner >> CORE_OWNER_BITS;
     const uint old_number = core_samples[pixel].number;
     const bool has_found = found.element != CORE_NO_ELEMENT;
@@ -54,10 +54,10 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
                           : old_owner;
     const bool is_shared = has_found && (is_same_surface || (is_shown && found.n_candidates > 1u));
     owner |= is_shared ? CORE_OWNER_SHARED : 0u;
-    core_samples[pixel].owner = owner;
+    core_marks[pixel].owner = owner;
     const uint flags = (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u);
     for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
-        core_samples[pixel].flags |= flags;
+        core_marks[pixel].flags |= flags;
     }
     for (uint turn = 0u; turn < (is_shown ? 1u : 0u); ++turn) {
         core_samples[pixel].value = value;
