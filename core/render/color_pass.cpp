@@ -7,7 +7,7 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t group_size = 256;
 /** Groups along x; more pixels go along y, because a device need not allow more than 65535 in one direction. */
 constexpr std::uint32_t groups_x = 1024;
 

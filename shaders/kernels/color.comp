@@ -3,7 +3,7 @@
 #include "library/finite.glsl"
 #include "library/samples.glsl"
 
-layout(local_size_x = 32) in;
+layout(local_size_x = 256) in;
 layout(set = 0, binding = 0, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 // Points of the table, then below, above, NaN and background.
 layout(set = 0, binding = 1, std430) readonly buffer core_table_block { elvis_vec4 core_table[]; };
@@ -18,7 +18,7 @@ layout(push_constant) uniform core_parameters {
 };
 
 void main() {
-    const uint pixel = gl_WorkGroupID.y * core_groups_x * 32u + gl_GlobalInvocationID.x;
+    const uint pixel = gl_WorkGroupID.y * core_groups_x * 256u + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
     const uint owner = is_inside ? core_marks[pixel].owner : 0u;
     const bool is_drawn = owner != 0u;
