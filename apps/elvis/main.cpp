@@ -2,11 +2,33 @@
 
 #include <core/base/error.hpp>
 #include <core/base/log.hpp>
+#include <core/scene/json_reader.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 namespace {
+
+/** The first word that is no option, where a command should stand. */
+void check_command(const CLI::App& app, int argc, char** argv) {
+    std::vector<std::string> known;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        known.push_back(command->get_name());
+    }
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word.empty() || word.front() != '-') {
+            if (std::ranges::find(known, word) == known.end()) {
+                throw elvis::UsageError(word, "is no command; the nearest is '" + elvis::nearest_word(word, known) +
+                                                  "', and elvis --help lists all");
+            }
+            return;
+        }
+    }
+}
 
 /** 0: all was done; 2: wrong usage; 1: anything else. */
 int run(int argc, char** argv) {
@@ -32,6 +54,7 @@ int run(int argc, char** argv) {
     elvis::commands::add_render(app);
 
     try {
+        check_command(app, argc, argv);
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;

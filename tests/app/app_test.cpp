@@ -140,6 +140,8 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
         int status;
         const char* says;
     } cases[] = {
+        {"rendr ball.h5 -o x.png", 2, "render"},
+        {"render ball.h5 --boundary lid -o x.png", 1, "sphere"},
         {"render missing.h5 -o x.png", 1, "missing.h5"},
         {"render not_a_volume.h5 -o x.png", 1, "not_a_volume.h5"},
         {"render ball.json -o x.png", 1, "elvis convert"},
