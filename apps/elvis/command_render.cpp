@@ -199,7 +199,8 @@ nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Fr
                       {"newton_failures", counts.newton_failures},
                       {"undecided_pixels", counts.undecided_pixels},
                       {"nan_pixels", counts.nan_pixels},
-                      {"work_limit_pixels", counts.work_limit_pixels}};
+                      {"work_limit_pixels", counts.work_limit_pixels},
+                      {"estimated_pixels", counts.estimated_pixels}};
     const RendererMemory memory = renderer.memory();
     root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
     if (!repeated.empty()) {

@@ -91,6 +91,8 @@ struct FrameCounts {
     std::uint64_t undecided_pixels = 0;
     std::uint64_t nan_pixels = 0;
     std::uint64_t work_limit_pixels = 0;
+    /** Pixels of faces where a crossing could be missed. */
+    std::uint64_t estimated_pixels = 0;
 };
 
 /** One picture, top row first; every vector has width * height entries (times components), if asked for. */

@@ -203,6 +203,7 @@ void Renderer::Impl::read_samples(const std::vector<Vector3>& plane_normals, dou
         frame.counts.undecided_pixels += (mark.flags & pixel_flag::undecided) != 0 ? 1 : 0;
         frame.counts.nan_pixels += (mark.flags & pixel_flag::nan) != 0 ? 1 : 0;
         frame.counts.work_limit_pixels += (mark.flags & pixel_flag::work_limit) != 0 ? 1 : 0;
+        frame.counts.estimated_pixels += (mark.flags & pixel_flag::estimated) != 0 ? 1 : 0;
     }
     if (!with_buffers) {
         return;
@@ -254,8 +255,8 @@ Frame Renderer::render(const FrameRequest& request) {
         throw Error("image", "a picture of " + std::to_string(request.width) + " x " + std::to_string(request.height) +
                                  " pixels cannot be drawn");
     }
-    if (impl.is_surface() && !request.cut_planes.empty()) {
-        throw Error(impl.volume.path(), "is two-dimensional: it is drawn as a surface, and planes do not cut it");
+    if (impl.is_surface() && (!request.cut_planes.empty() || request.boundary)) {
+        throw Error(impl.volume.path(), "is two-dimensional: it is drawn as a surface, without planes or boundary");
     }
     impl.select(request.field, request.time_step);
     const double offset =

@@ -36,6 +36,9 @@ std::vector<bool> chosen_groups(const RuntimeVolume& volume, const std::vector<s
 
 /** In the order of elements. */
 std::vector<Place> boundary(const RuntimeVolume& volume, const std::vector<std::string>& groups, const TaskControl* control) {
+    if (volume.n_faces() == 0) {
+        throw Error(volume.path(), "does not tell its faces, so that its boundary cannot be drawn");
+    }
     const std::vector<bool> is_chosen = chosen_groups(volume, groups);
     std::vector<Place> places;
     std::vector<elvis_face> faces;

@@ -206,7 +206,8 @@ void main() {
         const elvis_real constraint_norm = elvis_real(face.is_triangle ? 2 : 1);
         // The bound holds for starts in the face.
         const bool is_inside = core_excess_of(a, b, face.is_triangle) <= elvis_real(1e-3LF);
-        const bool has_missed = is_regular && is_inside && excess > constraint_norm * (core_prediction_error(curvature, step) + elvis_real(2) * error);
+        const elvis_real most = constraint_norm * (core_prediction_error(curvature, step) + elvis_real(2) * error);
+        const bool has_missed = is_regular && is_inside && excess > most;
         is_single = is_single || (start == 0u && steps == 0u && is_regular && curvature < elvis_real(0.45LF));
 
         const bool is_first = steps == 0u;
@@ -297,7 +298,10 @@ void main() {
         core_normals[3u * pixel] = unit.x;
         core_normals[3u * pixel + 1u] = unit.y;
         core_normals[3u * pixel + 2u] = unit.z;
-        core_marks[pixel].flags |= is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+    }
+    // That nothing was found may be for the same reason.
+    for (uint turn = 0u; turn < (is_pixel && is_estimated ? 1u : 0u); ++turn) {
+        core_marks[pixel].flags |= CORE_FLAG_ESTIMATED;
     }
 
     const uint all_evaluations = subgroupAdd(n_evaluations);
