@@ -4,15 +4,15 @@
 #include <core/base/error.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/buffers_file.hpp>
-#include <core/scene/color_map.hpp>
+#include <core/scene/frame_request.hpp>
 #include <core/scene/output_file.hpp>
 #include <core/scene/png_file.hpp>
-#include <core/scene/resolve.hpp>
 #include <core/scene/scene.hpp>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -36,6 +36,8 @@ struct Arguments {
     std::vector<std::string> cut_planes;
     std::vector<std::string> boundary_groups;
     bool boundary = false;
+    std::string contours;
+    bool mesh_lines = false;
     std::string color_map;
     std::string range;
     std::string eye, look_at, up;
@@ -87,25 +89,38 @@ Vector3 vector3(const char* option, const std::string& text) {
     return {list[0], list[1], list[2]};
 }
 
-/** What the command line says goes before what the file says. */
-void apply_options(const Arguments& arguments, Scene& scene) {
-    if (!arguments.field.empty()) {
-        scene.field = arguments.field;
-    }
+/** Surfaces of the command line stand instead of those of the file. */
+void apply_surfaces(const Arguments& arguments, Scene& scene) {
     if (!arguments.cut_planes.empty() || arguments.boundary) {
-        scene.cut_planes.clear();
-        scene.boundary.reset();
-    }
-    if (arguments.boundary) {
-        scene.boundary = arguments.boundary_groups;
+        scene.surfaces.clear();
     }
     for (const std::string& text : arguments.cut_planes) {
         const std::vector<double> list = numbers("--cut-plane", text, 4, 4);
         if (list[0] == 0 && list[1] == 0 && list[2] == 0) {
             throw UsageError("--cut-plane", "'" + text + "' has a normal of length zero");
         }
-        scene.cut_planes.push_back({{list[0], list[1], list[2], list[3]}});
+        scene.surfaces.push_back({CutPlane{{list[0], list[1], list[2], list[3]}}});
     }
+    if (arguments.boundary) {
+        scene.surfaces.push_back({BoundaryFaces{arguments.boundary_groups}});
+    }
+    if (!arguments.contours.empty()) {
+        scene.contours = SceneContours{};
+        scene.contours->values = numbers("--contours", arguments.contours, 1, 1000);
+        std::sort(scene.contours->values.begin(), scene.contours->values.end());
+        scene.contours->style.color = Rgb{0, 0, 0};
+    }
+    if (arguments.mesh_lines) {
+        scene.mesh_lines = SceneLineStyle{};
+    }
+}
+
+/** What the command line says goes before what the file says. */
+void apply_options(const Arguments& arguments, Scene& scene) {
+    if (!arguments.field.empty()) {
+        scene.field = arguments.field;
+    }
+    apply_surfaces(arguments, scene);
     if (!arguments.color_map.empty()) {
         const bool is_file = std::filesystem::exists(arguments.color_map);
         scene.color_map.name = is_file ? "" : arguments.color_map;
@@ -162,22 +177,6 @@ void apply_options(const Arguments& arguments, Scene& scene) {
     }
 }
 
-FieldChoice choose_field(const RuntimeVolume& volume, const Scene& scene) {
-    if (volume.fields().empty()) {
-        throw Error(volume.path(), "has no field to draw");
-    }
-    const FieldExpression expression =
-        scene.field ? parse_field_expression(*scene.field) : FieldExpression{volume.fields()[0].name, -1};
-    FieldChoice choice;
-    choice.field = volume.field_index(expression.name);
-    const std::uint32_t n_components = volume.fields()[choice.field].n_components;
-    if (expression.component >= static_cast<std::int32_t>(n_components)) {
-        throw Error("field '" + *scene.field + "'", "has only " + std::to_string(n_components) + " components, counted from 0");
-    }
-    choice.component = expression.component >= 0 ? expression.component : n_components > 1 ? -1 : 0;
-    return choice;
-}
-
 nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,
                                   double load, double total, const std::vector<double>& repeated) {
     nlohmann::ordered_json root;
@@ -200,7 +199,12 @@ nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Fr
                       {"undecided_pixels", counts.undecided_pixels},
                       {"nan_pixels", counts.nan_pixels},
                       {"work_limit_pixels", counts.work_limit_pixels},
-                      {"estimated_pixels", counts.estimated_pixels}};
+                      {"estimated_pixels", counts.estimated_pixels},
+                      {"contour_pixels", counts.contour_pixels},
+                      {"undecided_contour_pixels", counts.undecided_contour_pixels},
+                      {"mesh_line_pixels", counts.mesh_line_pixels},
+                      {"undecided_mesh_line_pixels", counts.undecided_mesh_line_pixels},
+                      {"refined_pixels", counts.refined_pixels}};
     const RendererMemory memory = renderer.memory();
     root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
     if (!repeated.empty()) {
@@ -224,6 +228,14 @@ void warn_about(const FrameCounts& counts) {
     }
     if (counts.undecided_pixels > 0) {
         spdlog::info("{} pixels are undecided within rounding", counts.undecided_pixels);
+    }
+    if (counts.undecided_contour_pixels > 0) {
+        spdlog::info("for {} pixels it is undecided whether they meet a contour; they carry flag 2",
+                     counts.undecided_contour_pixels);
+    }
+    if (counts.undecided_mesh_line_pixels > 0) {
+        spdlog::info("for {} pixels it is undecided whether they meet a mesh line; they carry flag 512",
+                     counts.undecided_mesh_line_pixels);
     }
 }
 
@@ -250,42 +262,12 @@ void run(const Arguments& arguments) {
 
     const PluginRegistry registry;
     const RuntimeVolume volume = open_volume(registry, scene.volume, scene.plugin, scene.plugin_options);
-    if (scene.time_step >= volume.times().size()) {
-        throw Error(scene.volume, "has " + std::to_string(volume.times().size()) +
-                                      " time steps, counted from 0; there is no step " + std::to_string(scene.time_step));
-    }
-    FrameRequest request;
-    request.field = choose_field(volume, scene);
     const double load = milliseconds_since(start);
 
     const Device device(arguments.device, arguments.validation);
     spdlog::info("device: {}", device.summary().name);
     Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
-    request.width = scene.size[0];
-    request.height = scene.size[1];
-    request.background = scene.background;
-    request.time_step = scene.time_step;
-    request.cut_planes = scene.cut_planes;
-    request.boundary = scene.boundary;
-    std::vector<CutPlane> looked_at = request.cut_planes;
-    if (volume.dimension() == 2) {
-        looked_at = plane_of_flat(renderer.bounds());
-    } else if (looked_at.empty() && !scene.boundary && volume.n_faces() > 0) {
-        request.boundary.emplace();
-    } else if (looked_at.empty() && !scene.boundary) {
-        request.cut_planes = looked_at = {central_plane(renderer.bounds())};
-    }
-    request.camera =
-        resolve_camera(scene.camera, renderer.bounds(), looked_at, static_cast<double>(request.width) / request.height);
-    std::array<double, 2> range{};
-    if (scene.color_map.range) {
-        range = *scene.color_map.range;
-    } else {
-        const FieldRange of_field = renderer.field_range(request.field, scene.time_step);
-        range = {of_field.lower, of_field.upper};
-    }
-    request.colors = make_color_table(scene.color_map, range);
-
+    FrameRequest request = make_frame_request(scene, volume, renderer);
     request.with_buffers = !arguments.buffers.empty();
     const Frame frame = renderer.render(request);
     std::vector<double> repeated;
@@ -322,6 +304,8 @@ void add_render(CLI::App& app) {
         command->add_option("--boundary", a->boundary_groups, "The boundary, or one of its groups by name; may be repeated")
             ->expected(0, 1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--contours", a->contours, "V,V,..: values of contour lines");
+    command->add_flag("--mesh-lines", a->mesh_lines, "Draw where boundaries of elements meet the surfaces");
     command->add_option("--color-map", a->color_map, "Built-in name, or file (ParaView JSON, ElVis XML)");
     command->add_option("--range", a->range, "LOW,HIGH: values at the ends of the colour map");
     command->add_option("--eye", a->eye, "x,y,z of the camera");

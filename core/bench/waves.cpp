@@ -56,10 +56,12 @@ FrameRequest waves_cut_plane(std::uint32_t size) {
     request.camera.up = {0, 0, 1};
     request.camera.field_of_view = 40;
     request.background = {1, 1, 1, 1};
-    request.colors.points = {{-2, {0, 0, 1}}, {0, {1, 1, 1}}, {2, {1, 0, 0}}};
-    request.colors.below = {0, 0, 0.5, 1};
-    request.colors.above = {0.5, 0, 0, 1};
-    request.cut_planes = {{{0.3, 0.25, 1, -0.05 * std::sqrt(0.3 * 0.3 + 0.25 * 0.25 + 1)}}};
+    Surface surface;
+    surface.colors.points = {{-2, {0, 0, 1}}, {0, {1, 1, 1}}, {2, {1, 0, 0}}};
+    surface.colors.below = {0, 0, 0.5, 1};
+    surface.colors.above = {0.5, 0, 0, 1};
+    surface.geometry = CutPlane{{0.3, 0.25, 1, -0.05 * std::sqrt(0.3 * 0.3 + 0.25 * 0.25 + 1)}};
+    request.surfaces = {surface};
     return request;
 }
 

@@ -1,11 +1,12 @@
 /**
  * @file color_pass.hpp
- * Samples to colours.
+ * Samples of a surface to colours: colour map, lines, clipping, opacity.
  */
 #pragma once
 
+#include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
-#include <core/render/samples.hpp>
+#include <core/render/layer.hpp>
 #include <core/shader/composer.hpp>
 
 namespace elvis {
@@ -14,15 +15,19 @@ class ColorPass {
 public:
     ColorPass(const Device& device, Precision precision);
 
-    /** Colours the samples; values of the table lack `offset`, as the samples do. `common_flags` are set on every pixel that is
-     * hit. */
-    void draw(const SampleTarget& target, const Buffer& colors, const ColorTable& table, const Color& background, double offset,
-              std::uint32_t common_flags) const;
+    /**
+     * Colours the layer of a surface. Its field lacks `offset` on the device. `background`: colour where the surface is not
+     * seen; its opacity must be 0 for a layer that is to be merged. `common_flags` are set on every pixel that is hit. `view`: the
+     * geometry of any plane: only its rays matter.
+     */
+    void draw(const Layer& layer, const Surface& surface, const CutPlaneGeometry& view, const Color& background, double offset,
+              std::uint32_t common_flags);
 
 private:
     const Device& m_device;
     Precision m_precision;
     ComposedKernel m_color;
+    Buffer m_frame;
 };
 
 } // namespace elvis

@@ -71,9 +71,9 @@ CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, co
 }
 
 void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
-                        const SampleTarget& target, FrameCounts& counts) {
-    const std::uint32_t tiles_a_row = divided_up(target.width, m_tile_width);
-    const std::uint32_t tile_rows = divided_up(target.height, tile_height);
+                        const LayerTarget& target, FrameCounts& counts) {
+    const std::uint32_t tiles_a_row = divided_up(target.layer.width, m_tile_width);
+    const std::uint32_t tile_rows = divided_up(target.layer.height, tile_height);
     const std::uint64_t bytes = std::uint64_t{tiles_a_row} * tile_rows * tile_stride * sizeof(std::uint32_t);
     if (!m_tiles || m_tiles->bytes() != bytes) {
         m_tiles.reset();
@@ -87,10 +87,10 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
         const std::array<const Buffer*, 2> tiles_bindings = {&m_frame, &*m_tiles};
         kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
                                 divided_up(tiles.n_tiles, tiles_group_size));
-        const std::array<const Buffer*, 5> bindings = {&m_frame, &target.samples, &*m_tiles, &m_counts, &target.marks};
+        const std::array<const Buffer*, 5> bindings = {&m_frame, &target.layer.samples, &*m_tiles, &m_counts, &target.layer.marks};
         for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
-            const PixelsParameters pixels{target.width,
-                                          target.height,
+            const PixelsParameters pixels{target.layer.width,
+                                          target.layer.height,
                                           first_row,
                                           surface,
                                           component.first(),

@@ -6,7 +6,7 @@
 
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
-#include <core/render/samples.hpp>
+#include <core/render/layer.hpp>
 #include <core/volume/device_volume.hpp>
 
 #include <memory>
@@ -22,7 +22,7 @@ public:
 
     /** Draws one plane as surface number `surface`, at least 1; adds to the counts. */
     void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
-              const SampleTarget& target, FrameCounts& counts);
+              const LayerTarget& target, FrameCounts& counts);
 
 private:
     struct ClassKernels {

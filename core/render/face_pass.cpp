@@ -69,23 +69,23 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
 }
 
 void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const ShownComponent& component,
-                    const SampleTarget& target, const Buffer& normals, FrameCounts& counts) {
+                    const LayerTarget& target, FrameCounts& counts) {
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     m_counts.fill(0);
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / target.width);
-    const std::array<const Buffer*, 5> bindings = {&m_frame, &target.samples, &normals, &m_counts, &target.marks};
+    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / target.layer.width);
+    const std::array<const Buffer*, 5> bindings = {&m_frame, &target.layer.samples, &target.layer.normals, &m_counts, &target.layer.marks};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
-        for (std::uint32_t first_row = 0; first_row < target.height; first_row += rows_a_dispatch) {
-            const Parameters parameters{target.width,
-                                        target.height,
+        for (std::uint32_t first_row = 0; first_row < target.layer.height; first_row += rows_a_dispatch) {
+            const Parameters parameters{target.layer.width,
+                                        target.layer.height,
                                         first_row,
                                         first_surface + index,
                                         component.first(),
                                         component.end(),
                                         component.is_discontinuous ? 1u : 0u};
             m_kernels[index]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                                       (target.width + group_width - 1) / group_width,
-                                       std::min(rows_a_dispatch, target.height - first_row));
+                                       (target.layer.width + group_width - 1) / group_width,
+                                       std::min(rows_a_dispatch, target.layer.height - first_row));
         }
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);

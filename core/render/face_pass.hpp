@@ -6,7 +6,7 @@
 
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
-#include <core/render/samples.hpp>
+#include <core/render/layer.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/face_set.hpp>
 
@@ -22,11 +22,10 @@ public:
     FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces);
 
     /**
-     * Draws the faces; each class is a surface of its own, numbered from `first_surface`. `normals` receives three numbers a
-     * pixel (unit, towards the viewer) where a face is seen. `view` is the geometry of any plane: only its rays matter.
+     * Draws the faces; each class is a surface of its own, numbered from `first_surface`. `view` is the geometry of any plane: only its rays matter.
      */
     void draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const ShownComponent& component,
-              const SampleTarget& target, const Buffer& normals, FrameCounts& counts);
+              const LayerTarget& target, FrameCounts& counts);
 
 private:
     Precision m_precision;

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/render/surface.hpp>
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -29,54 +31,27 @@ struct Camera {
     std::array<double, 2> image_shift{};
 };
 
-/** Display values in [0, 1]. */
-using Color = std::array<double, 4>;
-
-/** A colour map, piecewise linear in display RGB: what the device interpolates. */
-struct ColorTable {
-    struct Point {
-        double value = 0; ///< field value, ascending; two equal values make a step
-        std::array<double, 3> rgb{};
-    };
-    std::vector<Point> points; ///< at least one
-    Color below{};             ///< for values below the first point
-    Color above{};
-    Color nan{};
-};
-
-/** The plane a x + b y + c z + d = 0; (a, b, c) need not be of unit length but not zero. */
-struct CutPlane {
-    std::array<double, 4> plane{};
-};
-
-/** Which number of a field is drawn. */
-struct FieldChoice {
-    std::uint32_t field = 0;
-    /** Component, or -1 for the magnitude of a vector. A scalar has component 0. */
-    std::int32_t component = 0;
-};
-
 struct FrameRequest {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     Camera camera;
     Color background{};
-    FieldChoice field;
     std::uint32_t time_step = 0;
-    ColorTable colors;
     /** The nearest hit wins. */
-    std::vector<CutPlane> cut_planes;
-    /** The boundary, if it is drawn: names of groups; empty for all of it. */
-    std::optional<std::vector<std::string>> boundary;
+    std::vector<Surface> surfaces;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
     bool with_buffers = true;
 };
 
 /** Bits of Frame::flags; the same numbers in `--buffers` files. */
 namespace pixel_flag {
+inline constexpr std::uint32_t contour = 1;
+inline constexpr std::uint32_t contour_undecided = 2;
+inline constexpr std::uint32_t mesh_line = 4;
 inline constexpr std::uint32_t newton_failure = 8;
 inline constexpr std::uint32_t nan = 16;
 inline constexpr std::uint32_t undecided = 256;
+inline constexpr std::uint32_t mesh_line_undecided = 512;
 inline constexpr std::uint32_t work_limit = 1024;
 inline constexpr std::uint32_t estimated = 2048;
 inline constexpr std::uint32_t range_too_fine = 4096;
@@ -93,6 +68,12 @@ struct FrameCounts {
     std::uint64_t work_limit_pixels = 0;
     /** Pixels of faces where a crossing could be missed. */
     std::uint64_t estimated_pixels = 0;
+    std::uint64_t contour_pixels = 0;
+    std::uint64_t undecided_contour_pixels = 0;
+    std::uint64_t mesh_line_pixels = 0;
+    std::uint64_t undecided_mesh_line_pixels = 0;
+    /** Pixels that had to be looked at more closely for lines. */
+    std::uint64_t refined_pixels = 0;
 };
 
 /** One picture, top row first; every vector has width * height entries (times components), if asked for. */

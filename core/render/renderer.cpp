@@ -4,7 +4,8 @@
 #include <core/render/device_time.hpp>
 #include <core/render/face_pass.hpp>
 #include <core/render/field_range.hpp>
-#include <core/render/real_array.hpp>
+#include <core/render/layer.hpp>
+#include <core/render/merge_pass.hpp>
 #include <core/render/renderer.hpp>
 
 #include <core/base/error.hpp>
@@ -43,11 +44,15 @@ FieldRange magnitude_range(const std::vector<FieldRange>& components) {
     return {std::sqrt(lower), std::sqrt(upper)};
 }
 
-/** One sample as the device writes it (shaders/library/samples.glsl). */
-template <class Real> struct Sample {
-    Real value, depth;
-    std::uint32_t number;
+/** What the picture's samples lack of a surface's. */
+struct SurfaceFacts {
+    double offset = 0;
+    /** Of a plane. */
+    std::optional<Vector3> normal;
 };
+
+/** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
+constexpr std::uint32_t max_rounds = 64;
 
 } // namespace
 
@@ -58,67 +63,78 @@ struct Renderer::Impl {
     const TaskControl* control;
     DeviceVolume data;
     ColorPass color_pass;
+    MergePass merge_pass;
     std::optional<CutPlanePass> cut_planes;
-    /** Boundary faces by the groups asked for, and the pass that draws those of the last frame. */
+    /** By the groups asked for; the passes are of the selected field. */
     std::map<std::vector<std::string>, FaceSet> face_sets;
-    std::optional<FacePass> faces;
-    std::optional<std::vector<std::string>> drawn_boundary;
+    std::map<std::vector<std::string>, FacePass> boundaries;
+    std::optional<FacePass> flat_elements;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::vector<FieldRange>, elvis_certainty>> ranges;
     std::optional<FieldChoice> selected;
     std::uint32_t selected_step = 0;
     RendererTimes times;
     /** Kept from frame to frame: fresh memory costs a page fault for each page. */
-    std::optional<Buffer> samples, marks, colors, normals;
+    std::unique_ptr<Layer> layer;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
-        : device(on), volume(of), precision(with), control(task), data(on, of, with, task), color_pass(on, with) {
+        : device(on), volume(of), precision(with), control(task), data(on, of, with, task), color_pass(on, with),
+          merge_pass(on, with) {
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
     }
 
     const std::pair<std::vector<FieldRange>, elvis_certainty>& component_ranges(std::uint32_t field, std::uint32_t time_step);
     void select(const FieldChoice& field, std::uint32_t time_step);
-    template <class Real>
-    void read_samples(const std::vector<Vector3>& plane_normals, double offset, bool with_buffers, Frame& frame) const;
-    std::uint32_t flags_of_range(const FrameRequest& request, double offset);
-    void provide_buffers(std::uint64_t n_pixels);
-    void provide_faces(const FrameRequest& request, std::uint64_t n_pixels);
-    bool is_surface() const { return volume.dimension() == 2; }
-    CutPlane plane_across(const Camera& camera) const;
+    std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
+    void check(const FrameRequest& request) const;
+    void provide_passes(const Surface& surface);
+    FacePass& boundary(const BoundaryFaces& faces);
+    void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
+                      std::vector<SurfaceFacts>& facts);
+    void draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target, FrameCounts& counts);
+    template <class Real> void read(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) const;
+    CutPlaneGeometry view(const FrameRequest& request, const Surface& surface) const;
+    bool is_flat() const { return volume.dimension() == 2; }
 };
 
-void Renderer::Impl::provide_buffers(std::uint64_t n_pixels) {
-    if (!samples || samples->bytes() != n_pixels * sample_bytes(precision)) {
-        samples.reset();
-        colors.reset();
-        samples.emplace(device, n_pixels * sample_bytes(precision));
-        marks.reset();
-        marks.emplace(device, n_pixels * sizeof(Mark));
-        colors.emplace(device, 4 * n_pixels * real_bytes(precision));
-        normals.reset();
+void Renderer::Impl::check(const FrameRequest& request) const {
+    const std::uint64_t n_pixels = std::uint64_t{request.width} * request.height;
+    if (n_pixels == 0 || n_pixels >= 0x7fffffffu) {
+
+        throw Error("image", "a picture of " + std::to_string(request.width) + " x " + std::to_string(request.height) +
+                                 " pixels cannot be drawn");
+    }
+    if (request.surfaces.empty()) {
+        throw Error("picture", "has nothing to show");
+    }
+    for (const Surface& surface : request.surfaces) {
+        if (is_flat() != std::holds_alternative<FlatElements>(surface.geometry)) {
+            throw Error(volume.path(), is_flat() ? "is two-dimensional: it is drawn as a surface, without planes or boundary"
+                                                 : "is no surface: planes through it or its boundary can be drawn");
+        }
     }
 }
 
-/** The pass that draws what the request asks for, if any, and where it writes normals. */
-void Renderer::Impl::provide_faces(const FrameRequest& request, std::uint64_t n_pixels) {
-    if (!is_surface() && request.boundary != drawn_boundary) {
-        faces.reset();
-        drawn_boundary = request.boundary;
+FacePass& Renderer::Impl::boundary(const BoundaryFaces& faces) {
+    auto found = boundaries.find(faces.groups);
+    if (found == boundaries.end()) {
+        const auto [set, is_new] =
+            face_sets.try_emplace(faces.groups, device, volume, precision, data.centre(), faces.groups, control);
+        found = boundaries.try_emplace(faces.groups, device, volume, data, &set->second).first;
     }
-    const bool is_wanted = is_surface() || request.boundary.has_value();
-    if (is_wanted && !faces) {
-        const FaceSet* set = nullptr;
-        if (!is_surface()) {
-            const auto [found, is_new] =
-                face_sets.try_emplace(*request.boundary, device, volume, precision, data.centre(), *request.boundary, control);
-            set = &found->second;
-        }
-        const Clock::time_point start = Clock::now();
-        faces.emplace(device, volume, data, set);
-        times.compile_milliseconds += milliseconds_since(start);
+    return found->second;
+}
+
+/** Compiles what the surface needs and is not there yet. */
+void Renderer::Impl::provide_passes(const Surface& surface) {
+    const Clock::time_point start = Clock::now();
+    if (std::holds_alternative<CutPlane>(surface.geometry) && !cut_planes) {
+        cut_planes.emplace(device, volume, data);
+    } else if (const auto* faces = std::get_if<BoundaryFaces>(&surface.geometry)) {
+        boundary(*faces);
+    } else if (std::holds_alternative<FlatElements>(surface.geometry) && !flat_elements) {
+        flat_elements.emplace(device, volume, data, nullptr);
     }
-    if (is_wanted && !normals) {
-        normals.emplace(device, 3 * n_pixels * real_bytes(precision));
-    }
+    times.compile_milliseconds += milliseconds_since(start);
 }
 
 const std::pair<std::vector<FieldRange>, elvis_certainty>& Renderer::Impl::component_ranges(std::uint32_t field,
@@ -158,75 +174,125 @@ void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
     // What a field's buffers hold depends on the offset: fill them again for another component.
     data.select(field.field, time_step, offset);
     times.upload_milliseconds = data.upload_milliseconds();
-    const Clock::time_point start = Clock::now();
-    faces.reset();
-    if (!is_surface()) {
-        cut_planes.emplace(device, volume, data);
-    }
-    times.compile_milliseconds = milliseconds_since(start);
+    cut_planes.reset();
+    boundaries.clear();
+    flat_elements.reset();
     selected = field;
     selected_step = time_step;
 }
 
-std::uint32_t Renderer::Impl::flags_of_range(const FrameRequest& request, double offset) {
-    if (precision == Precision::float64 || request.colors.points.size() < 2) {
+std::uint32_t Renderer::Impl::flags_of_range(const Surface& surface, std::uint32_t time_step, double offset) {
+    if (precision == Precision::float64 || surface.colors.points.size() < 2) {
         return 0;
     }
-    const auto& [components, certainty] = component_ranges(request.field.field, request.time_step);
-    const FieldRange range = request.field.component < 0 ? magnitude_range(components)
-                                                         : components[static_cast<std::size_t>(request.field.component)];
+    const auto& [components, certainty] = component_ranges(surface.field.field, time_step);
+    const FieldRange range = surface.field.component < 0 ? magnitude_range(components)
+                                                         : components[static_cast<std::size_t>(surface.field.component)];
     const double largest = std::max(std::abs(range.lower - offset), std::abs(range.upper - offset));
-    const double extent = request.colors.points.back().value - request.colors.points.front().value;
+    const double extent = surface.colors.points.back().value - surface.colors.points.front().value;
     return float32_value_error * largest > channel_tolerance * extent ? pixel_flag::range_too_fine : 0;
 }
 
-/** Across the view, through the middle of the volume: what rays are anchored at. */
-CutPlane Renderer::Impl::plane_across(const Camera& camera) const {
+/** The rays of the picture, anchored at the surface if it is a plane, else at the middle of the volume. */
+CutPlaneGeometry Renderer::Impl::view(const FrameRequest& request, const Surface& surface) const {
     CutPlane plane;
-    const std::array<double, 6>& bounds = data.bounds();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        plane.plane[axis] = camera.look_at[axis] - camera.eye[axis];
-        plane.plane[3] -= plane.plane[axis] * 0.5 * (bounds[axis] + bounds[axis + 3]);
+    if (const auto* given = std::get_if<CutPlane>(&surface.geometry)) {
+        plane = *given;
+    } else {
+        const std::array<double, 6>& bounds = data.bounds();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            plane.plane[axis] = request.camera.look_at[axis] - request.camera.eye[axis];
+            plane.plane[3] -= plane.plane[axis] * 0.5 * (bounds[axis] + bounds[axis + 3]);
+        }
     }
-    return plane;
+    return cut_plane_geometry(plane, request.camera, request.width, request.height, data.centre());
+}
+
+void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target,
+                                   FrameCounts& counts) {
+    const CutPlaneGeometry rays = view(request, surface);
+    const FieldInfo& field = volume.fields()[surface.field.field];
+    const ShownComponent component{surface.field.component, field.n_components,
+                                   field.continuity != ELVIS_CONTINUITY_CONTINUOUS};
+    // A layer holds one surface; each class of faces counts as one, so that the nearest wins.
+    constexpr std::uint32_t first = 1;
+    if (std::holds_alternative<CutPlane>(surface.geometry)) {
+        cut_planes->draw(rays, first, component, target, counts);
+    } else if (const auto* faces = std::get_if<BoundaryFaces>(&surface.geometry)) {
+        boundary(*faces).draw(rays, first, component, target, counts);
+    } else {
+        flat_elements->draw(rays, first, component, target, counts);
+    }
+}
+
+void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
+                                  std::vector<SurfaceFacts>& facts) {
+    const Surface& surface = request.surfaces[index];
+    const double offset =
+        surface.field.component < 0 ? 0.0 : data.field_offset(static_cast<std::uint32_t>(surface.field.component));
+    const CutPlaneGeometry rays = view(request, surface);
+    const bool is_plane = std::holds_alternative<CutPlane>(surface.geometry);
+    facts.push_back({offset, is_plane ? std::optional<Vector3>(rays.normal) : std::nullopt});
+    const std::uint32_t common_flags = flags_of_range(surface, request.time_step, offset);
+    const Buffer* beyond = nullptr;
+    std::uint32_t n_wanted = 1;
+    for (std::uint32_t round = 0; n_wanted > 0 && round < max_rounds; ++round) {
+        layer->marks.fill(0);
+        draw_geometry(request, surface, {*layer, beyond}, frame.counts);
+        color_pass.draw(*layer, surface, rays, is_alone ? request.background : Color{}, offset, common_flags);
+        n_wanted = is_alone ? 0
+                            : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane,
+                                               surface.is_see_through());
+        // A plane is met once; faces do not yet look beyond the nearest.
+        n_wanted = 0;
+        beyond = &merge_pass.beyond();
+    }
+    frame.counts.work_limit_pixels += n_wanted;
 }
 
 template <class Real>
-void Renderer::Impl::read_samples(const std::vector<Vector3>& plane_normals, double offset, bool with_buffers,
-                                  Frame& frame) const {
+void Renderer::Impl::read(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) const {
     const std::size_t n_pixels = frame.counts.pixels;
-    const std::vector<Real> read_colors = colors->read_items<Real>(4 * n_pixels);
-    frame.color.assign(read_colors.begin(), read_colors.end());
-    const std::vector<Mark> read_marks = marks->read_items<Mark>(n_pixels);
-    for (const Mark& mark : read_marks) {
-        frame.counts.hit_pixels += mark.surface() != 0 ? 1 : 0;
-        frame.counts.undecided_pixels += (mark.flags & pixel_flag::undecided) != 0 ? 1 : 0;
-        frame.counts.nan_pixels += (mark.flags & pixel_flag::nan) != 0 ? 1 : 0;
-        frame.counts.work_limit_pixels += (mark.flags & pixel_flag::work_limit) != 0 ? 1 : 0;
-        frame.counts.estimated_pixels += (mark.flags & pixel_flag::estimated) != 0 ? 1 : 0;
+    const std::vector<Real> colors = from.colors.read_items<Real>(4 * n_pixels);
+    frame.color.assign(colors.begin(), colors.end());
+    std::vector<Mark> marks = from.marks.read_items<Mark>(n_pixels);
+    FrameCounts& counts = frame.counts;
+    for (Mark& mark : marks) {
+        // The upper half: of surfaces that are not seen there (shaders/kernels/merge.comp).
+        mark.flags = (mark.flags | (mark.flags >> 16u)) & 0xffffu;
+        const auto has = [&mark](std::uint32_t flag) { return (mark.flags & flag) != 0 ? 1u : 0u; };
+        counts.hit_pixels += mark.surface() != 0 ? 1 : 0;
+        counts.undecided_pixels += has(pixel_flag::undecided);
+        counts.nan_pixels += has(pixel_flag::nan);
+        counts.work_limit_pixels += has(pixel_flag::work_limit);
+        counts.estimated_pixels += has(pixel_flag::estimated);
+        counts.contour_pixels += has(pixel_flag::contour);
+        counts.undecided_contour_pixels += has(pixel_flag::contour_undecided);
+        counts.mesh_line_pixels += has(pixel_flag::mesh_line);
+        counts.undecided_mesh_line_pixels += has(pixel_flag::mesh_line_undecided);
     }
     if (!with_buffers) {
         return;
     }
-    const std::vector<Sample<Real>> read = samples->read_items<Sample<Real>>(n_pixels);
+    const std::vector<Sample<Real>> samples = from.samples.read_items<Sample<Real>>(n_pixels);
+    const std::vector<Real> normals = from.normals.read_items<Real>(3 * n_pixels);
     frame.value.assign(n_pixels, not_a_number);
     frame.depth.assign(n_pixels, not_a_number);
     frame.normal.assign(3 * n_pixels, not_a_number);
     frame.element.assign(n_pixels, -1);
     frame.flags.resize(n_pixels);
-    const std::vector<Real> of_faces = this->normals ? this->normals->read_items<Real>(3 * n_pixels) : std::vector<Real>();
     for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
-        const Sample<Real>& sample = read[pixel];
-        const Mark& mark = read_marks[pixel];
+        const Mark& mark = marks[pixel];
         frame.flags[pixel] = mark.flags;
         if (mark.surface() != 0) {
-            frame.value[pixel] = static_cast<double>(sample.value) + offset;
-            frame.depth[pixel] = static_cast<double>(sample.depth);
-            frame.element[pixel] = sample.number;
+            // A picture of one surface may number its classes of faces.
+            const SurfaceFacts& surface = facts[std::min<std::size_t>(mark.surface(), facts.size()) - 1];
+            frame.value[pixel] = static_cast<double>(samples[pixel].value) + surface.offset;
+            frame.depth[pixel] = static_cast<double>(samples[pixel].depth);
+            frame.element[pixel] = samples[pixel].number;
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const bool is_plane = mark.surface() <= plane_normals.size();
                 frame.normal[3 * pixel + axis] =
-                    is_plane ? plane_normals[mark.surface() - 1][axis] : static_cast<double>(of_faces[3 * pixel + axis]);
+                    surface.normal ? (*surface.normal)[axis] : static_cast<double>(normals[3 * pixel + axis]);
             }
         }
     }
@@ -250,53 +316,42 @@ FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_st
 
 Frame Renderer::render(const FrameRequest& request) {
     Impl& impl = *m_impl;
-    const std::uint64_t n_pixels = std::uint64_t{request.width} * request.height;
-    if (n_pixels == 0 || n_pixels >= 0x7fffffffu) {
-        throw Error("image", "a picture of " + std::to_string(request.width) + " x " + std::to_string(request.height) +
-                                 " pixels cannot be drawn");
-    }
-    if (impl.is_surface() && (!request.cut_planes.empty() || request.boundary)) {
-        throw Error(impl.volume.path(), "is two-dimensional: it is drawn as a surface, without planes or boundary");
-    }
-    impl.select(request.field, request.time_step);
-    const double offset =
-        request.field.component < 0 ? 0.0 : impl.data.field_offset(static_cast<std::uint32_t>(request.field.component));
-    const std::uint32_t common_flags = impl.flags_of_range(request, offset);
-
+    impl.check(request);
     Frame frame;
     frame.width = request.width;
     frame.height = request.height;
-    frame.counts.pixels = n_pixels;
-
-    impl.provide_buffers(n_pixels);
-    impl.provide_faces(request, n_pixels);
-    const FieldInfo& field = impl.volume.fields()[request.field.field];
-    const ShownComponent component{request.field.component, field.n_components,
-                                   field.continuity != ELVIS_CONTINUITY_CONTINUOUS};
-    std::vector<Vector3> normals;
+    frame.counts.pixels = std::uint64_t{request.width} * request.height;
+    if (!impl.layer || impl.layer->width != request.width || impl.layer->height != request.height) {
+        impl.layer.reset();
+        impl.layer = std::make_unique<Layer>(impl.device, impl.precision, request.width, request.height);
+    }
+    // A single surface that hides what is behind it needs no merging.
+    const bool is_alone = request.surfaces.size() == 1 && !request.surfaces[0].is_see_through();
+    if (!is_alone) {
+        impl.merge_pass.begin(request.width, request.height, request.background);
+    }
+    std::vector<SurfaceFacts> facts;
+    double wall = 0, device = 0;
+    for (std::size_t index = 0; index < request.surfaces.size(); ++index) {
+        impl.select(request.surfaces[index].field, request.time_step);
+        impl.provide_passes(request.surfaces[index]);
+        const DeviceTimer timer(impl.device);
+        impl.draw_surface(request, index, is_alone, frame, facts);
+        wall += timer.wall_milliseconds();
+        device += timer.milliseconds();
+    }
     const DeviceTimer timer(impl.device);
-    impl.marks->fill(0);
-    const SampleTarget target{*impl.samples, *impl.marks, request.width, request.height};
-    for (std::uint32_t surface = 0; surface < request.cut_planes.size(); ++surface) {
-        const CutPlaneGeometry geometry =
-            cut_plane_geometry(request.cut_planes[surface], request.camera, request.width, request.height, impl.data.centre());
-        normals.push_back(geometry.normal);
-        impl.cut_planes->draw(geometry, surface + 1, component, target, frame.counts);
+    if (!is_alone) {
+        impl.merge_pass.finish();
     }
-    if (impl.faces) {
-        const CutPlaneGeometry view = cut_plane_geometry(impl.plane_across(request.camera), request.camera, request.width,
-                                                         request.height, impl.data.centre());
-        impl.faces->draw(view, static_cast<std::uint32_t>(request.cut_planes.size()) + 1, component, target, *impl.normals,
-                         frame.counts);
-    }
-    impl.color_pass.draw(target, *impl.colors, request.colors, request.background, offset, common_flags);
-    frame.render_milliseconds = timer.wall_milliseconds();
-    frame.device_milliseconds = timer.milliseconds();
+    frame.render_milliseconds = wall + timer.wall_milliseconds();
+    frame.device_milliseconds = device + timer.milliseconds();
 
+    const Layer& drawn = is_alone ? *impl.layer : impl.merge_pass.picture();
     if (impl.precision == Precision::float64) {
-        impl.read_samples<double>(normals, offset, request.with_buffers, frame);
+        impl.read<double>(drawn, facts, request.with_buffers, frame);
     } else {
-        impl.read_samples<float>(normals, offset, request.with_buffers, frame);
+        impl.read<float>(drawn, facts, request.with_buffers, frame);
     }
     return frame;
 }

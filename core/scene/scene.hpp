@@ -40,6 +40,31 @@ struct SceneCamera {
     std::array<double, 2> image_shift{};
 };
 
+struct SceneLineStyle {
+    double width = 1;
+    std::optional<Rgb> color, undecided_color;
+};
+
+/** The values, or how many of them divide a range evenly. */
+struct SceneContours {
+    std::vector<double> values;
+    std::uint32_t count = 0;
+    /** Of the colour map if absent. */
+    std::optional<std::array<double, 2>> range;
+    SceneLineStyle style;
+};
+
+/** What it lacks it takes from the scene. */
+struct SceneSurface {
+    SurfaceGeometry geometry;
+    std::optional<std::string> field{};
+    std::optional<SceneColorMap> color_map{};
+    std::optional<SceneContours> contours{};
+    std::optional<SceneLineStyle> mesh_lines{};
+    std::vector<std::array<double, 4>> clip{};
+    double opacity = 1;
+};
+
 struct Scene {
     std::string volume;
     std::string plugin;
@@ -52,9 +77,11 @@ struct Scene {
     std::array<std::uint32_t, 2> size{1024, 768};
     std::array<double, 4> background{1, 1, 1, 1};
     SceneColorMap color_map;
-    std::vector<CutPlane> cut_planes;
-    /** The boundary, if it is drawn: names of groups; empty for all of it. */
-    std::optional<std::vector<std::string>> boundary;
+    std::optional<SceneContours> contours;
+    std::optional<SceneLineStyle> mesh_lines;
+    /** How often a pixel is halved at most to decide whether it meets a line. */
+    std::uint32_t subdivisions = Surface{}.subdivisions;
+    std::vector<SceneSurface> surfaces;
 };
 
 /** Reads a scene file; paths in it become relative to the working directory. Throws Error naming file, key and cause. */

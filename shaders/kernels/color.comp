@@ -1,51 +1,138 @@
-// Colours of the samples: a table of (value, r, g, b), piecewise linear, with colours of its own below, above and for NaN.
+// Colours of a surface's samples: a table of (value, r, g, b), piecewise linear, with colours of its own below, above and for NaN; lines
+// over it; nothing where it is clipped.
 
+layout(local_size_x = CORE_GROUP_SIZE) in;
+
+#include "library/precision.glsl"
+#include "library/cut_frame.glsl"
 #include "library/finite.glsl"
 #include "library/samples.glsl"
 
-layout(local_size_x = 256) in;
-layout(set = 0, binding = 0, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
-// Points of the table, then below, above, NaN and background.
-layout(set = 0, binding = 1, std430) readonly buffer core_table_block { elvis_vec4 core_table[]; };
-layout(set = 0, binding = 2, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
-layout(set = 0, binding = 3, std430) buffer core_marks_block { core_mark core_marks[]; };
+layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
+// In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of contours, of undecided ones,
+// of mesh lines and undecided ones; opacity; planes that clip; isovalues.
+layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
+    uint core_width;
     uint core_n_points;
+    uint core_n_isovalues;
+    uint core_n_clips;
     // Flags of every pixel that is hit.
     uint core_common_flags;
+    // CORE_STYLE_...
+    uint core_contour_style;
+    uint core_mesh_style;
+    // In pixels, from one that meets the line to the farthest that is drawn.
+    float core_contour_reach;
+    float core_mesh_reach;
 };
 
+#define CORE_STYLE_UNDECIDED 1u
+#define CORE_STYLE_COLOR 2u
+
+elvis_vec4 core_special(uint which) { return core_rows[core_n_points + which]; }
+
+// Whether the point that the pixel sees is cut away.
+bool core_is_clipped(uint pixel, elvis_real depth) {
+    const core_cut_column column = core_cut_begin(elvis_real(pixel % core_width));
+    const elvis_real down = elvis_real(pixel / core_width) - column.row0;
+    const elvis_vec3 direction = (column.direction + down * column.direction_row).xyz;
+    const elvis_vec3 position =
+        (column.base + down * column.base_row).xyz + (depth / length(direction) - column.reference_distance) * direction;
+    bool is_clipped = false;
+    for (uint i = 0u; i < core_n_clips; ++i) {
+        const elvis_vec4 plane = core_special(9u + i);
+        is_clipped = is_clipped || dot(plane.xyz, position) + plane.w < elvis_real(0);
+    }
+    return is_clipped;
+}
+
+// The isovalue nearest to a value.
+elvis_real core_nearest_isovalue(elvis_real value) {
+    elvis_real nearest = value, distance = elvis_real(3.0e38LF);
+    for (uint i = 0u; i < core_n_isovalues; ++i) {
+        const elvis_real isovalue = core_special(9u + core_n_clips + i).x;
+        nearest = abs(isovalue - value) < distance ? isovalue : nearest;
+        distance = min(distance, abs(isovalue - value));
+    }
+    return nearest;
+}
+
+// Flags of the pixel and of those within reach of it.
+uint core_flags_near(uint pixel, float reach) {
+    uint flags = core_marks[pixel].flags;
+    const int width = int(core_width), height = int(core_n_pixels / core_width);
+    const int column = int(pixel) % width, row = int(pixel) / width;
+    const int most = int(reach);
+    for (int down = -most; down <= most; ++down) {
+        for (int across = -most; across <= most; ++across) {
+            const int there_row = row + down, there_column = column + across;
+            const bool is_near = float(down * down + across * across) <= reach * reach + 0.25;
+            const bool is_inside = there_row >= 0 && there_row < height && there_column >= 0 && there_column < width;
+            flags |= is_near && is_inside ? core_marks[there_row * width + there_column].flags : 0u;
+        }
+    }
+    return flags;
+}
+
 void main() {
-    const uint pixel = gl_WorkGroupID.y * core_groups_x * 256u + gl_GlobalInvocationID.x;
+    const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
     const uint owner = is_inside ? core_marks[pixel].owner : 0u;
     const bool is_drawn = owner != 0u;
     elvis_real value = elvis_real(0);
+    bool is_clipped = false;
+    bool is_contour = false, is_contour_undecided = false, is_mesh_line = false, is_mesh_undecided = false;
     for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
         value = core_samples[pixel].value;
+        const uint contour = core_flags_near(pixel, core_contour_reach);
+        is_contour = (contour & CORE_FLAG_CONTOUR) != 0u;
+        is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
+        const uint mesh = core_flags_near(pixel, core_mesh_reach);
+        is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u;
+        is_mesh_undecided = (mesh & CORE_FLAG_MESH_UNDECIDED) != 0u;
+    }
+    for (uint turn = 0u; turn < (is_drawn && core_n_clips > 0u ? 1u : 0u); ++turn) {
+        is_clipped = core_is_clipped(pixel, core_samples[pixel].depth);
     }
     const bool is_nan = !core_is_finite(value);
+    for (uint turn = 0u; turn < (is_contour && !is_nan && (core_contour_style & CORE_STYLE_COLOR) == 0u ? 1u : 0u); ++turn) {
+        value = core_nearest_isovalue(value);
+    }
 
     // How many points are not above the value.
     uint low = 0u;
     uint high = is_drawn && !is_nan ? core_n_points : 0u;
     while (low < high) {
         const uint middle = (low + high) / 2u;
-        const bool is_below = core_table[middle].x <= value;
+        const bool is_below = core_rows[middle].x <= value;
         low = is_below ? middle + 1u : low;
         high = is_below ? high : middle;
     }
-    const elvis_vec4 from = core_table[low > 0u ? low - 1u : 0u];
-    const elvis_vec4 to = core_table[min(low, core_n_points - 1u)];
+    const elvis_vec4 from = core_rows[low > 0u ? low - 1u : 0u];
+    const elvis_vec4 to = core_rows[min(low, core_n_points - 1u)];
     const elvis_real extent = to.x - from.x;
     const elvis_real t = extent > elvis_real(0) ? (value - from.x) / extent : elvis_real(0);
     const bool is_below = low == 0u, is_above = low == core_n_points && value > from.x;
-    const uint special = is_drawn ? (is_nan ? 2u : (is_below ? 0u : 1u)) : 3u;
-    const bool is_special = !is_drawn || is_nan || is_below || is_above;
-    const elvis_vec4 interpolated = elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
-    const elvis_vec4 color = is_special ? core_table[core_n_points + special] : interpolated;
+    const bool is_seen = is_drawn && !is_clipped;
+    const uint special = is_seen ? (is_nan ? 2u : (is_below ? 0u : 1u)) : 3u;
+    const bool is_special = !is_seen || is_nan || is_below || is_above;
+    elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+
+    // What is decided goes over what is not, contours over mesh lines.
+    const bool has_contour_color = is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;
+    const bool has_undecided_color = is_contour_undecided && (core_contour_style & CORE_STYLE_UNDECIDED) != 0u;
+    const bool has_mesh_color = is_mesh_line && (core_mesh_style & CORE_STYLE_COLOR) != 0u;
+    const bool has_mesh_undecided_color = is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) != 0u;
+    color = is_seen && has_mesh_undecided_color ? core_special(7u) : color;
+    color = is_seen && has_mesh_color ? core_special(6u) : color;
+    color = is_seen && has_undecided_color ? core_special(5u) : color;
+    color = is_seen && has_contour_color ? core_special(4u) : color;
+    color.w *= is_seen ? core_special(8u).x : elvis_real(1);
     if (is_inside) {
         core_colors[pixel] = color;
     }

@@ -1,5 +1,8 @@
 // What a pixel sees of the surfaces drawn so far.
 
+// A depth behind everything.
+#define CORE_FAR elvis_real(3.0e38LF)
+
 // Of pixels with an owner.
 struct core_sample {
     // Field value, lacking the field's offset.
@@ -28,9 +31,13 @@ struct core_mark {
 #define CORE_OWNER_AMBIGUOUS 8u
 #define CORE_OWNER_BITS 4
 
+#define CORE_FLAG_CONTOUR 1u
+#define CORE_FLAG_CONTOUR_UNDECIDED 2u
+#define CORE_FLAG_MESH_LINE 4u
 #define CORE_FLAG_NEWTON_FAILURE 8u
 #define CORE_FLAG_NAN 16u
 #define CORE_FLAG_UNDECIDED 256u
+#define CORE_FLAG_MESH_UNDECIDED 512u
 #define CORE_FLAG_WORK_LIMIT 1024u
 #define CORE_FLAG_ESTIMATED 2048u
 #define CORE_FLAG_RANGE_TOO_FINE 4096u

@@ -49,7 +49,7 @@ int run(const Arguments& arguments) {
     const Model model(read_volume(arguments.volume, field, arguments.time_step));
     const CutPlane plane{{arguments.plane[0], arguments.plane[1], arguments.plane[2], arguments.plane[3]}};
     FrameRequest request = view_of(model, plane, arguments.width, arguments.height, 0, 1, arguments.tilt);
-    request.field = {field, volume.fields()[field].n_components == 1 ? 0 : -1};
+    request.surfaces[0].field = {field, volume.fields()[field].n_components == 1 ? 0 : -1};
     request.time_step = arguments.time_step;
     if (!arguments.eye.empty())
         request.camera.eye = {arguments.eye[0], arguments.eye[1], arguments.eye[2]};
@@ -66,7 +66,7 @@ int run(const Arguments& arguments) {
         low = arguments.range[0];
         high = arguments.range[1];
     }
-    request.colors = view_of(model, plane, 1, 1, low, high).colors;
+    request.surfaces[0].colors = view_of(model, plane, 1, 1, low, high).surfaces[0].colors;
     const Picture exact = draw(model, request);
     std::printf(
         "oracle: %zu elements, range [%.9g, %.9g], %zu alternatives, %llu inversions (%llu subdivided, %llu unresolved), "

@@ -73,7 +73,8 @@ void check(Shape shape, double bend, const Vector3& eye) {
     request.camera.eye = eye;
     request.camera.up = {0, 0, 1};
     request.camera.field_of_view = 40;
-    request.colors.points = {{-2, {0, 0, 0}}, {3, {1, 1, 1}}};
+    request.surfaces = {Surface{FlatElements{}}};
+    request.surfaces[0].colors.points = {{-2, {0, 0, 0}}, {3, {1, 1, 1}}};
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         Renderer renderer(device(), volume, precision);
         const Frame frame = renderer.render(request);
@@ -140,8 +141,8 @@ FrameRequest boundary_view(std::uint32_t size) {
     request.camera.eye = {3.1, 2.3, 1.9};
     request.camera.up = {0, 0, 1};
     request.camera.field_of_view = 50;
-    request.colors.points = {{-2, {0, 0, 0}}, {3, {1, 1, 1}}};
-    request.boundary.emplace();
+    request.surfaces = {Surface{BoundaryFaces{}}};
+    request.surfaces[0].colors.points = {{-2, {0, 0, 0}}, {3, {1, 1, 1}}};
     return request;
 }
 

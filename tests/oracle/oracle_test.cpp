@@ -25,8 +25,10 @@ FrameRequest request_of(const Vector3& eye, const CutPlane& plane, std::uint32_t
     request.camera.eye = eye;
     request.camera.up = {0, 0, 1};
     request.camera.height = height;
-    request.colors.points = {{0, {0, 0, 0}}, {10, {1, 1, 1}}};
-    request.cut_planes = {plane};
+    Surface surface;
+    surface.colors.points = {{0, {0, 0, 0}}, {10, {1, 1, 1}}};
+    surface.geometry = plane;
+    request.surfaces = {surface};
     return request;
 }
 

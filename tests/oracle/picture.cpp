@@ -58,8 +58,8 @@ private:
         const std::size_t pixel = std::size_t{row} * m_request.width + column;
         const Ray ray = pixel_ray(m_request.camera, m_request.width, m_request.height, column, row);
         std::vector<long double> distances;
-        for (const CutPlane& plane : m_request.cut_planes)
-            if (const auto distance = plane_distance(ray, plane))
+        for (const Surface& surface : m_request.surfaces)
+            if (const auto distance = plane_distance(ray, std::get<CutPlane>(surface.geometry)))
                 distances.push_back(*distance);
         std::sort(distances.begin(), distances.end());
 
@@ -81,11 +81,11 @@ private:
         const Volume& volume = m_model.volume;
         m_picture.is_inside[pixel] = 1;
         m_picture.element[pixel] = volume.number(candidates.front().element);
-        m_picture.value[pixel] = value_of(volume, m_request.field, candidates.front());
-        m_picture.color[pixel] = color_of(m_request.colors, m_picture.value[pixel]);
+        m_picture.value[pixel] = value_of(volume, m_request.surfaces[0].field, candidates.front());
+        m_picture.color[pixel] = color_of(m_request.surfaces[0].colors, m_picture.value[pixel]);
         for (std::size_t i = 1; i < candidates.size(); ++i) {
-            const double value = value_of(volume, m_request.field, candidates[i]);
-            const Color color = color_of(m_request.colors, value);
+            const double value = value_of(volume, m_request.surfaces[0].field, candidates[i]);
+            const Color color = color_of(m_request.surfaces[0].colors, value);
             if (largest_difference(color, m_picture.color[pixel]) > least_color_difference)
                 alternatives.push_back({pixel, volume.number(candidates[i].element), value, color});
         }

@@ -28,7 +28,7 @@ void check_plane(const std::string& name, VolumeData data, const CutPlane& plane
     const Model model(std::move(data));
     FrameRequest request = view_of(model, plane, size, size, 0, 1, tilt);
     const auto [low, high] = value_range(draw(model, request));
-    request.colors = view_of(model, plane, 1, 1, low, high).colors;
+    request.surfaces[0].colors = view_of(model, plane, 1, 1, low, high).surfaces[0].colors;
     const Picture exact = draw(model, request);
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         Renderer renderer(device(), volume, precision);

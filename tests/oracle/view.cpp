@@ -39,11 +39,13 @@ FrameRequest view_of(const Model& model, const CutPlane& plane, std::uint32_t wi
     const double distance = 0.5 * model.diagonal / std::sin(0.5 * request.camera.field_of_view * degree);
     request.camera.eye = convert(look_at + distance * towards_eye);
 
-    request.colors.points = {{low, {0.2, 0.3, 0.75}}, {0.5 * (low + high), {0.87, 0.87, 0.87}}, {high, {0.7, 0.02, 0.15}}};
-    request.colors.below = {0.2, 0.3, 0.75, 1};
-    request.colors.above = {0.7, 0.02, 0.15, 1};
-    request.colors.nan = {1, 1, 0, 1};
-    request.cut_planes = {plane};
+    Surface surface;
+    surface.colors.points = {{low, {0.2, 0.3, 0.75}}, {0.5 * (low + high), {0.87, 0.87, 0.87}}, {high, {0.7, 0.02, 0.15}}};
+    surface.colors.below = {0.2, 0.3, 0.75, 1};
+    surface.colors.above = {0.7, 0.02, 0.15, 1};
+    surface.colors.nan = {1, 1, 0, 1};
+    surface.geometry = plane;
+    request.surfaces = {surface};
     return request;
 }
 

@@ -1,0 +1,70 @@
+/**
+ * @file layer.hpp
+ * What is known of each pixel of a picture, or of one surface before it is merged into the picture.
+ */
+#pragma once
+
+#include <core/render/real_array.hpp>
+#include <core/vulkan/buffer.hpp>
+
+#include <cstdint>
+
+namespace elvis {
+
+/** Bytes of one sample. */
+inline std::size_t sample_bytes(Precision precision) { return precision == Precision::float64 ? 24 : 12; }
+
+/** One core_sample as the device writes it (shaders/library/samples.glsl). */
+template <class Real> struct Sample {
+    Real value, depth;
+    std::uint32_t number;
+};
+
+/** One core_mark. */
+struct Mark {
+    std::uint32_t owner = 0;
+    std::uint32_t flags = 0;
+
+    /** Counted from 1; 0 where nothing was drawn. */
+    std::uint32_t surface() const { return owner >> 4u; }
+};
+
+/** The buffers of a layer, one record a pixel. */
+struct Layer {
+    std::uint32_t width, height;
+    Buffer samples;
+    /** All zero where nothing was drawn. */
+    Buffer marks;
+    /** Unit, towards the viewer, three numbers a pixel. Of planes the host knows it: theirs are not written. */
+    Buffer normals;
+    Buffer colors;
+
+    Layer(const Device& device, Precision precision, std::uint32_t across, std::uint32_t down)
+        : width(across), height(down), samples(device, n_pixels() * sample_bytes(precision)),
+          marks(device, n_pixels() * sizeof(Mark)), normals(device, 3 * n_pixels() * real_bytes(precision)),
+          colors(device, 4 * n_pixels() * real_bytes(precision)) {}
+
+    std::uint64_t n_pixels() const { return std::uint64_t{width} * height; }
+};
+
+/** Where a pass draws a surface. */
+struct LayerTarget {
+    const Layer& layer;
+    /** One real a pixel: only what is farther than this depth is wanted. Null: all that is in front of the eye. */
+    const Buffer* beyond = nullptr;
+};
+
+/** The component of the field that is drawn, or -1 for the length of the vector, and how many there are. */
+struct ShownComponent {
+    std::int32_t component = 0;
+    std::uint32_t n_components = 1;
+    bool is_discontinuous = false;
+
+    std::uint32_t first() const { return component < 0 ? 0 : static_cast<std::uint32_t>(component); }
+    std::uint32_t end() const { return component < 0 ? n_components : first() + 1; }
+};
+
+/** Numbers that the passes' kernels add to, as they lie in their buffer. */
+inline constexpr std::size_t n_pass_counts = 3;
+
+} // namespace elvis

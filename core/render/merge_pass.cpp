@@ -1,0 +1,104 @@
+#include <core/render/merge_pass.hpp>
+#include <core/render/pixel_kernel.hpp>
+
+namespace elvis {
+
+namespace {
+
+struct MergeParameters {
+    std::uint32_t n_pixels, groups_x;
+    std::uint32_t surface;
+    std::uint32_t has_normals;
+    std::uint32_t is_first;
+    float red, green, blue, alpha;
+};
+
+struct PixelParameters {
+    std::uint32_t n_pixels, groups_x;
+};
+
+ComposedKernel storage_kernel(const Device& device, Precision precision, const char* name, std::uint32_t n_bindings,
+                              std::size_t push_bytes) {
+    KernelRequest request = pixel_kernel(name, precision, {}, push_bytes);
+    for (std::uint32_t binding = 0; binding < n_bindings; ++binding) {
+        request.bindings.push_back({binding, BindingType::storage_buffer});
+    }
+    return ComposedKernel(device, request);
+}
+
+} // namespace
+
+MergePass::MergePass(const Device& device, Precision precision)
+    : m_device(device), m_precision(precision),
+      m_merge(storage_kernel(device, precision, "merge", 11, sizeof(MergeParameters))),
+      m_take(storage_kernel(device, precision, "take_layer", 5, sizeof(PixelParameters))),
+      m_order(storage_kernel(device, precision, "order_layers", 4, sizeof(PixelParameters))),
+      m_blend(storage_kernel(device, precision, "blend", 4, sizeof(PixelParameters))), m_counts(device, sizeof(std::uint32_t)) {}
+
+void MergePass::begin(std::uint32_t width, std::uint32_t height, const Color& background) {
+    if (!m_picture || m_picture->width != width || m_picture->height != height) {
+        m_veils.clear();
+        m_picture = std::make_unique<Layer>(m_device, m_precision, width, height);
+        m_depths = std::make_unique<Buffer>(m_device, m_picture->n_pixels() * real_bytes(m_precision));
+        m_beyond = std::make_unique<Buffer>(m_device, m_picture->n_pixels() * real_bytes(m_precision));
+    }
+    m_n_veils = 0;
+    m_background = background;
+    m_is_empty = true;
+}
+
+std::uint32_t MergePass::merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through) {
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const auto channel = [this](std::size_t i) { return static_cast<float>(m_background[i]); };
+    const MergeParameters parameters{n_pixels,
+                                     pixel_groups_x,
+                                     surface,
+                                     has_normals ? 1u : 0u,
+                                     m_is_empty ? 1u : 0u,
+                                     channel(0),
+                                     channel(1),
+                                     channel(2),
+                                     channel(3)};
+    m_is_empty = false;
+    m_counts.fill(0);
+    dispatch_pixels(m_merge,
+                    {&layer.samples, &layer.marks, &layer.normals, &layer.colors, &m_picture->samples, &m_picture->marks,
+                     &m_picture->normals, &m_picture->colors, m_depths.get(), m_beyond.get(), &m_counts},
+                    std::as_bytes(std::span(&parameters, 1)), n_pixels);
+    if (!is_see_through) {
+        return 0;
+    }
+    keep(layer);
+    return m_counts.read_items<std::uint32_t>(1)[0];
+}
+
+void MergePass::keep(const Layer& layer) {
+    if (m_n_veils == m_veils.size()) {
+        const std::uint64_t bytes = layer.n_pixels() * real_bytes(m_precision);
+        m_veils.push_back({Buffer(m_device, 4 * bytes), Buffer(m_device, bytes)});
+    }
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const PixelParameters parameters{n_pixels, pixel_groups_x};
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
+    const Veil& taken = m_veils[m_n_veils];
+    dispatch_pixels(m_take, {&layer.samples, &layer.marks, &layer.colors, &taken.colors, &taken.depths}, bytes, n_pixels);
+    // Insertion: the new veil moves forward past every one that is farther.
+    for (std::size_t i = m_n_veils; i > 0; --i) {
+        const Veil& nearer = m_veils[i - 1];
+        const Veil& farther = m_veils[i];
+        dispatch_pixels(m_order, {&nearer.colors, &nearer.depths, &farther.colors, &farther.depths}, bytes, n_pixels);
+    }
+    ++m_n_veils;
+}
+
+void MergePass::finish() {
+    const auto n_pixels = static_cast<std::uint32_t>(m_picture->n_pixels());
+    const PixelParameters parameters{n_pixels, pixel_groups_x};
+    for (std::size_t i = m_n_veils; i > 0; --i) {
+        const Veil& veil = m_veils[i - 1];
+        dispatch_pixels(m_blend, {&veil.colors, &veil.depths, &m_picture->colors, m_depths.get()},
+                        std::as_bytes(std::span(&parameters, 1)), n_pixels);
+    }
+}
+
+} // namespace elvis

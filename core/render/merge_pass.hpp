@@ -1,0 +1,57 @@
+/**
+ * @file merge_pass.hpp
+ * Layers of surfaces into one picture: the nearest opaque one, and over it the transparent ones in order.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+#include <core/render/layer.hpp>
+#include <core/shader/composer.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace elvis {
+
+class MergePass {
+public:
+    MergePass(const Device& device, Precision precision);
+
+    /** Starts an empty picture of this size. */
+    void begin(std::uint32_t width, std::uint32_t height, const Color& background);
+
+    /**
+     * Merges the coloured layer of surface number `surface`, counted from 1. Returns how many of its pixels want to see what of
+     * the same surface is behind; beyond() tells where.
+     */
+    std::uint32_t merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through);
+
+    /** Depths behind which the layer merged last is wanted, one real a pixel. */
+    const Buffer& beyond() const { return *m_beyond; }
+
+    /** Puts the transparent layers over the picture. */
+    void finish();
+
+    const Layer& picture() const { return *m_picture; }
+
+private:
+    /** Colours and depths of a transparent layer. */
+    struct Veil {
+        Buffer colors, depths;
+    };
+    void keep(const Layer& layer);
+
+    const Device& m_device;
+    Precision m_precision;
+    ComposedKernel m_merge, m_take, m_order, m_blend;
+    std::unique_ptr<Layer> m_picture;
+    std::unique_ptr<Buffer> m_depths, m_beyond;
+    Buffer m_counts;
+    /** Kept from frame to frame; the first m_n_veils are in use. */
+    std::vector<Veil> m_veils;
+    std::size_t m_n_veils = 0;
+    Color m_background{};
+    bool m_is_empty = true;
+};
+
+} // namespace elvis

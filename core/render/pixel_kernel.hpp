@@ -1,0 +1,41 @@
+/**
+ * @file pixel_kernel.hpp
+ * Light kernels with one invocation a pixel, which the whole picture takes at once.
+ */
+#pragma once
+
+#include <core/shader/composer.hpp>
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+/** Large groups: light kernels spend much of their time on starting them. */
+inline constexpr std::uint32_t pixel_group_size = 256;
+/** Groups along x; more pixels go along y, because a device need not allow more than 65535 in one direction. */
+inline constexpr std::uint32_t pixel_groups_x = 1024;
+
+/** Request of kernels/NAME.comp with these bindings from 0. */
+inline KernelRequest pixel_kernel(const std::string& name, Precision precision, std::initializer_list<BindingType> bindings,
+                                  std::size_t push_bytes) {
+    KernelRequest request;
+    request.name = name;
+    request.kernel = "kernels/" + name + ".comp";
+    request.precision = precision;
+    request.defines = {{"CORE_GROUP_SIZE", std::to_string(pixel_group_size) + "u"}};
+    for (const BindingType type : bindings) {
+        request.bindings.push_back({static_cast<std::uint32_t>(request.bindings.size()), type});
+    }
+    request.push_constant_bytes = static_cast<std::uint32_t>(push_bytes);
+    return request;
+}
+
+inline void dispatch_pixels(const ComposedKernel& kernel, const std::vector<const Buffer*>& bindings,
+                            std::span<const std::byte> push_constants, std::uint32_t n_pixels) {
+    constexpr std::uint32_t pixels_a_row = pixel_group_size * pixel_groups_x;
+    kernel.dispatch(bindings, push_constants, pixel_groups_x, (n_pixels + pixels_a_row - 1) / pixels_a_row);
+}
+
+} // namespace elvis

@@ -1,0 +1,94 @@
+/**
+ * @file surface.hpp
+ * A surface of a picture: where it lies and how it looks.
+ */
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace elvis {
+
+/** Display values in [0, 1]. */
+using Color = std::array<double, 4>;
+
+/** A colour map, piecewise linear in display RGB: what the device interpolates. */
+struct ColorTable {
+    struct Point {
+        double value = 0; ///< field value, ascending; two equal values make a step
+        std::array<double, 3> rgb{};
+    };
+    std::vector<Point> points; ///< at least one
+    Color below{};             ///< for values below the first point
+    Color above{};
+    Color nan{};
+};
+
+/** Which number of a field is drawn. */
+struct FieldChoice {
+    std::uint32_t field = 0;
+    /** Component, or -1 for the magnitude of a vector. A scalar has component 0. */
+    std::int32_t component = 0;
+
+    bool operator==(const FieldChoice&) const = default;
+};
+
+/** The plane a x + b y + c z + d = 0; (a, b, c) need not be of unit length but not zero. */
+struct CutPlane {
+    std::array<double, 4> plane{};
+};
+
+/** Faces without neighbour: those of the named boundary groups, or all if there are none. */
+struct BoundaryFaces {
+    std::vector<std::string> groups;
+};
+
+/** The elements of a two-dimensional volume. */
+struct FlatElements {};
+
+using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements>;
+
+/** How lines on a surface are drawn. */
+struct LineStyle {
+    /** In pixels, at least 1: the pixels within half of it of one that meets the line. */
+    double width = 1;
+    /** The colour map's at the isovalue where there is none. */
+    std::optional<std::array<double, 3>> color;
+    /** Of pixels for which it stays open whether they meet a line; those without are drawn as if they did not. */
+    std::optional<std::array<double, 3>> undecided_color;
+};
+
+/** Lines on which the field takes given values. */
+struct Contours {
+    std::vector<double> values; ///< ascending
+    LineStyle style;
+};
+
+/** Where the boundaries of elements meet the surface. */
+struct MeshLines {
+    LineStyle style{1, std::array<double, 3>{0, 0, 0}, std::nullopt};
+};
+
+struct Surface {
+    SurfaceGeometry geometry;
+    FieldChoice field{};
+    ColorTable colors{};
+    std::optional<Contours> contours{};
+    std::optional<MeshLines> mesh_lines{};
+    /** How often a pixel is halved at most to decide whether it meets a line; at most 12. */
+    std::uint32_t subdivisions = 5;
+    /** Points with a x + b y + c z + d < 0 for any of these are not drawn. */
+    std::vector<std::array<double, 4>> clip{};
+    /** In [0, 1]. */
+    double opacity = 1;
+
+    /** Whether something behind it can be seen through it. */
+    bool is_see_through() const { return opacity < 1 || !clip.empty(); }
+    bool has_lines() const { return contours.has_value() || mesh_lines.has_value(); }
+};
+
+} // namespace elvis

@@ -1,0 +1,119 @@
+#include <core/scene/frame_request.hpp>
+
+#include <core/base/error.hpp>
+#include <core/scene/color_map.hpp>
+#include <core/scene/resolve.hpp>
+
+namespace elvis {
+
+namespace {
+
+std::vector<SceneSurface> surfaces_of(const Scene& scene, const RuntimeVolume& volume, const Renderer& renderer) {
+    if (volume.dimension() == 2 && scene.surfaces.empty()) {
+        return {SceneSurface{FlatElements{}}};
+    }
+    if (!scene.surfaces.empty()) {
+        return scene.surfaces;
+    }
+    if (volume.n_faces() > 0) {
+        return {SceneSurface{BoundaryFaces{}}};
+    }
+    return {SceneSurface{central_plane(renderer.bounds())}};
+}
+
+/** What the camera looks at from the front, if nothing else is said. */
+std::vector<CutPlane> planes_looked_at(const std::vector<SceneSurface>& surfaces, const RuntimeVolume& volume,
+                                       const Renderer& renderer) {
+    if (volume.dimension() == 2) {
+        return plane_of_flat(renderer.bounds());
+    }
+    std::vector<CutPlane> planes;
+    for (const SceneSurface& surface : surfaces) {
+        if (const auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
+            planes.push_back(*plane);
+        }
+    }
+    return planes.size() == surfaces.size() ? planes : std::vector<CutPlane>{};
+}
+
+LineStyle line_style(const SceneLineStyle& style) { return {style.width, style.color, style.undecided_color}; }
+
+std::optional<Contours> contours_of(const std::optional<SceneContours>& scene, const std::array<double, 2>& color_range) {
+    if (!scene || (scene->values.empty() && scene->count == 0)) {
+        return {};
+    }
+    Contours contours{scene->values, line_style(scene->style)};
+    const std::array<double, 2> range = scene->range.value_or(color_range);
+    for (std::uint32_t i = 1; i <= scene->count; ++i) {
+        contours.values.push_back(range[0] + (range[1] - range[0]) * i / (scene->count + 1.0));
+    }
+    return contours;
+}
+
+std::optional<MeshLines> mesh_lines_of(const std::optional<SceneLineStyle>& scene) {
+    if (!scene) {
+        return {};
+    }
+    MeshLines lines{line_style(*scene)};
+    lines.style.color = scene->color.value_or(Rgb{0, 0, 0});
+    return lines;
+}
+
+Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
+    Surface surface;
+    surface.geometry = own.geometry;
+    surface.field = choose_field(volume, own.field ? own.field : scene.field);
+    const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
+    std::array<double, 2> range{};
+    if (map.range) {
+        range = *map.range;
+    } else {
+        const FieldRange of_field = renderer.field_range(surface.field, scene.time_step);
+        range = {of_field.lower, of_field.upper};
+    }
+    surface.colors = make_color_table(map, range);
+    surface.contours = contours_of(own.contours ? own.contours : scene.contours, range);
+    surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
+    surface.subdivisions = scene.subdivisions;
+    surface.clip = own.clip;
+    surface.opacity = own.opacity;
+    return surface;
+}
+
+} // namespace
+
+FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::string>& text) {
+    if (volume.fields().empty()) {
+        throw Error(volume.path(), "has no field to draw");
+    }
+    const FieldExpression expression = text ? parse_field_expression(*text) : FieldExpression{volume.fields()[0].name, -1};
+    FieldChoice choice;
+    choice.field = volume.field_index(expression.name);
+    const std::uint32_t n_components = volume.fields()[choice.field].n_components;
+    if (expression.component >= static_cast<std::int32_t>(n_components)) {
+        throw Error("field '" + *text + "'", "has only " + std::to_string(n_components) + " components, counted from 0");
+    }
+    choice.component = expression.component >= 0 ? expression.component : n_components > 1 ? -1 : 0;
+    return choice;
+}
+
+FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
+    if (scene.time_step >= volume.times().size()) {
+        throw Error(scene.volume, "has " + std::to_string(volume.times().size()) +
+                                      " time steps, counted from 0; there is no step " + std::to_string(scene.time_step));
+    }
+    FrameRequest request;
+    request.width = scene.size[0];
+    request.height = scene.size[1];
+    request.background = scene.background;
+    request.time_step = scene.time_step;
+    const std::vector<SceneSurface> surfaces = surfaces_of(scene, volume, renderer);
+    request.camera = resolve_camera(scene.camera, renderer.bounds(), planes_looked_at(surfaces, volume, renderer),
+                                    static_cast<double>(request.width) / request.height);
+    for (const SceneSurface& surface : surfaces) {
+        request.surfaces.push_back(make_surface(surface, scene, volume, renderer));
+    }
+    return request;
+}
+
+} // namespace elvis

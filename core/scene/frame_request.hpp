@@ -1,0 +1,22 @@
+/**
+ * @file frame_request.hpp
+ * From a scene, which leaves much open, to what the renderer is asked for.
+ */
+#pragma once
+
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/render/renderer.hpp>
+#include <core/scene/scene.hpp>
+
+namespace elvis {
+
+/** A field, or a component of one, by name; the first field of the volume if there is no text. */
+FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::string>& text);
+
+/**
+ * The frame with everything decided. Without surfaces, the scene shows the boundary if the volume tells it, else a plane through
+ * the middle. Throws Error where the scene does not suit the volume.
+ */
+FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer);
+
+} // namespace elvis

@@ -1,0 +1,32 @@
+/**
+ * @file read_parts.hpp
+ * Parts of a scene file.
+ */
+#pragma once
+
+#include <core/scene/json_reader.hpp>
+#include <core/scene/scene.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+/** The first N numbers of a list whose length the schema has fixed. */
+template <std::size_t N> std::array<double, N> fixed(const std::vector<double>& list) {
+    std::array<double, N> result{};
+    std::copy_n(list.begin(), N, result.begin());
+    return result;
+}
+
+/** A path of the scene file, seen from the working directory. */
+std::string beside(const std::string& scene, const std::string& path);
+
+SceneColorMap read_color_map(const JsonObject& object, const std::string& scene);
+SceneLineStyle read_line_style(const JsonObject& object);
+SceneContours read_contours(const JsonObject& object);
+SceneSurface read_surface(const JsonObject& object, const std::string& scene);
+
+} // namespace elvis

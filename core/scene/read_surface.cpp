@@ -1,0 +1,120 @@
+#include <core/scene/read_parts.hpp>
+
+namespace elvis {
+
+namespace {
+
+void refuse_keys(const JsonObject& surface, const std::string& type, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) {
+        if (surface.has(key)) {
+            surface.fail(key, "means nothing for a surface of type \"" + type + "\"");
+        }
+    }
+}
+
+BoundaryFaces read_boundary(const JsonObject& object) {
+    refuse_keys(object, "boundary", {"plane", "point", "normal"});
+    return {object.has("groups") ? object.texts("groups") : std::vector<std::string>()};
+}
+
+CutPlane read_plane(const JsonObject& object) {
+    refuse_keys(object, "plane", {"groups"});
+    CutPlane plane;
+    if (object.has("plane") == (object.has("point") || object.has("normal"))) {
+        object.fail("plane", "or 'point' and 'normal' must say where the plane is, and only one of the two");
+    }
+    if (object.has("plane")) {
+        plane.plane = fixed<4>(object.numbers("plane"));
+    } else {
+        if (!object.has("point") || !object.has("normal")) {
+            object.fail("point", "and 'normal' belong together");
+        }
+        const auto point = fixed<3>(object.numbers("point"));
+        const auto normal = fixed<3>(object.numbers("normal"));
+        plane.plane = {normal[0], normal[1], normal[2], -(normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2])};
+    }
+    if (plane.plane[0] == 0 && plane.plane[1] == 0 && plane.plane[2] == 0) {
+        object.fail("plane", "has a normal of length zero");
+    }
+    return plane;
+}
+
+} // namespace
+
+SceneLineStyle read_line_style(const JsonObject& object) {
+    SceneLineStyle style;
+    if (object.has("width")) {
+        style.width = object.number("width");
+    }
+    if (object.has("color")) {
+        style.color = fixed<3>(object.numbers("color"));
+    }
+    if (object.has("undecided_color")) {
+        style.undecided_color = fixed<3>(object.numbers("undecided_color"));
+    }
+    return style;
+}
+
+SceneContours read_contours(const JsonObject& object) {
+    SceneContours contours;
+    if (object.has("values") == object.has("count")) {
+        object.fail("values", "or 'count' must say which values are wanted, and only one of the two");
+    }
+    if (object.has("values")) {
+        contours.values = object.numbers("values");
+        if (!std::is_sorted(contours.values.begin(), contours.values.end())) {
+            object.fail("values", "must be in ascending order");
+        }
+    } else {
+        contours.count = object.integer("count");
+    }
+    if (object.has("range")) {
+        contours.range = fixed<2>(object.numbers("range"));
+        if (object.has("values")) {
+            object.fail("range", "means nothing beside 'values'");
+        }
+        if (!((*contours.range)[0] < (*contours.range)[1])) {
+            object.fail("range", "must go from a smaller to a larger value");
+        }
+    }
+    contours.style.width = object.has("width") ? object.number("width") : 1;
+    if (object.has("color")) {
+        contours.style.color = fixed<3>(object.numbers("color"));
+    }
+    if (object.has("undecided_color")) {
+        contours.style.undecided_color = fixed<3>(object.numbers("undecided_color"));
+    }
+    return contours;
+}
+
+SceneSurface read_surface(const JsonObject& object, const std::string& scene) {
+    SceneSurface surface;
+    if (object.word("type") == "plane") {
+        surface.geometry = read_plane(object);
+    } else {
+        surface.geometry = read_boundary(object);
+    }
+    if (object.has("field")) {
+        surface.field = object.text("field");
+    }
+    if (object.has("color_map")) {
+        surface.color_map = read_color_map(object.object("color_map"), scene);
+    }
+    if (object.has("contours")) {
+        surface.contours = read_contours(object.object("contours"));
+    }
+    if (object.has("mesh_lines")) {
+        surface.mesh_lines = read_line_style(object.object("mesh_lines"));
+    }
+    if (object.has("clip")) {
+        for (const std::vector<double>& plane : object.rows("clip")) {
+            surface.clip.push_back(fixed<4>(plane));
+        }
+    }
+    if (object.has("opacity")) {
+        surface.opacity = object.number("opacity");
+    }
+    return surface;
+}
+
+} // namespace elvis
