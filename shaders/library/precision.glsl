@@ -1,5 +1,8 @@
 // Unit roundoff of elvis_real.
 
+#ifndef CORE_PRECISION
+#define CORE_PRECISION
+
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_ROUNDOFF elvis_real(1.1102230246251565e-16LF)
 #else
@@ -8,3 +11,5 @@
 
 // Of the single precision that boxes are kept in.
 #define CORE_FLOAT_ROUNDOFF 5.9604644775390625e-8
+
+#endif
