@@ -1,12 +1,13 @@
 /**
  * @file cut_plane_pass.hpp
- * Draws cut planes into the samples of a picture.
+ * Draws cut planes into layers, with lines on them if wanted.
  */
 #pragma once
 
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
 #include <core/render/layer.hpp>
+#include <core/render/line_request.hpp>
 #include <core/volume/device_volume.hpp>
 
 #include <memory>
@@ -15,13 +16,14 @@
 
 namespace elvis {
 
-/** The kernels of one volume and field, two for each element class. Compiled when constructed. */
+/** The kernels of one volume and field, for each element class. Compiled when constructed. */
 class CutPlanePass {
 public:
-    CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+    /** With lines, `data` must have derivative bounds. */
+    CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines);
 
-    /** Draws one plane as surface number `surface`, at least 1; adds to the counts. */
-    void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
+    /** Draws one plane as surface number `surface`, at least 1; adds to the counts. `lines`: only of a pass made with them. */
+    void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component, const LineRequest& lines,
               const LayerTarget& target, FrameCounts& counts);
 
 private:
@@ -29,15 +31,27 @@ private:
         /** Which nodes of the hierarchy each tile of pixels can touch; then the pixels. */
         std::unique_ptr<ComposedKernel> tiles;
         std::unique_ptr<ComposedKernel> pixels;
+        /** What needs a closer look for lines. */
+        std::unique_ptr<ComposedKernel> lines;
+        std::optional<Buffer> tile_nodes;
     };
+
+    void compile(const RuntimeVolume& volume, const DeviceVolume& data);
+    void draw_pixels(ClassKernels& kernels, std::uint32_t surface, const ShownComponent& component, std::uint32_t n_isovalues,
+                     const LayerTarget& target);
+    void draw_lines(const ClassKernels& kernels, const ShownComponent& component, const LineRequest& lines,
+                    const LayerTarget& target, FrameCounts& counts);
 
     const Device& m_device;
     Precision m_precision;
+    bool m_with_lines;
     std::uint32_t m_tile_width;
     std::vector<ClassKernels> m_kernels;
+    std::optional<ComposedKernel> m_list_pixels;
     Buffer m_frame;
     Buffer m_counts;
-    std::optional<Buffer> m_tiles;
+    std::optional<Buffer> m_isovalues;
+    std::optional<Buffer> m_list;
 };
 
 } // namespace elvis

@@ -26,7 +26,7 @@ struct Mark {
     std::uint32_t flags = 0;
 
     /** Counted from 1; 0 where nothing was drawn. */
-    std::uint32_t surface() const { return owner >> 4u; }
+    std::uint32_t surface() const { return owner >> 5u; }
 };
 
 /** The buffers of a layer, one record a pixel. */

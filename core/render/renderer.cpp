@@ -64,7 +64,7 @@ struct Renderer::Impl {
     DeviceVolume data;
     ColorPass color_pass;
     MergePass merge_pass;
-    std::optional<CutPlanePass> cut_planes;
+    std::optional<CutPlanePass> cut_planes, cut_planes_with_lines;
     /** By the groups asked for; the passes are of the selected field. */
     std::map<std::vector<std::string>, FaceSet> face_sets;
     std::map<std::vector<std::string>, FacePass> boundaries;
@@ -87,12 +87,17 @@ struct Renderer::Impl {
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
     void check(const FrameRequest& request) const;
     void provide_passes(const Surface& surface);
+    CutPlanePass& cut_plane_pass(bool with_lines);
     FacePass& boundary(const BoundaryFaces& faces);
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
                       std::vector<SurfaceFacts>& facts);
     void draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target, FrameCounts& counts);
     template <class Real> void read(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) const;
     CutPlaneGeometry view(const FrameRequest& request, const Surface& surface) const;
+    /** What the surface's field lacks on the device. */
+    double offset_of(const Surface& surface) const {
+        return surface.field.component < 0 ? 0.0 : data.field_offset(static_cast<std::uint32_t>(surface.field.component));
+    }
     bool is_flat() const { return volume.dimension() == 2; }
 };
 
@@ -114,6 +119,17 @@ void Renderer::Impl::check(const FrameRequest& request) const {
     }
 }
 
+CutPlanePass& Renderer::Impl::cut_plane_pass(bool with_lines) {
+    std::optional<CutPlanePass>& pass = with_lines ? cut_planes_with_lines : cut_planes;
+    if (!pass) {
+        if (with_lines) {
+            data.provide_derivative_bounds();
+        }
+        pass.emplace(device, volume, data, with_lines);
+    }
+    return *pass;
+}
+
 FacePass& Renderer::Impl::boundary(const BoundaryFaces& faces) {
     auto found = boundaries.find(faces.groups);
     if (found == boundaries.end()) {
@@ -127,8 +143,8 @@ FacePass& Renderer::Impl::boundary(const BoundaryFaces& faces) {
 /** Compiles what the surface needs and is not there yet. */
 void Renderer::Impl::provide_passes(const Surface& surface) {
     const Clock::time_point start = Clock::now();
-    if (std::holds_alternative<CutPlane>(surface.geometry) && !cut_planes) {
-        cut_planes.emplace(device, volume, data);
+    if (std::holds_alternative<CutPlane>(surface.geometry)) {
+        cut_plane_pass(surface.has_lines());
     } else if (const auto* faces = std::get_if<BoundaryFaces>(&surface.geometry)) {
         boundary(*faces);
     } else if (std::holds_alternative<FlatElements>(surface.geometry) && !flat_elements) {
@@ -175,6 +191,7 @@ void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
     data.select(field.field, time_step, offset);
     times.upload_milliseconds = data.upload_milliseconds();
     cut_planes.reset();
+    cut_planes_with_lines.reset();
     boundaries.clear();
     flat_elements.reset();
     selected = field;
@@ -217,7 +234,8 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     // A layer holds one surface; each class of faces counts as one, so that the nearest wins.
     constexpr std::uint32_t first = 1;
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
-        cut_planes->draw(rays, first, component, target, counts);
+        const double offset = offset_of(surface);
+        cut_plane_pass(surface.has_lines()).draw(rays, first, component, line_request(surface, offset), target, counts);
     } else if (const auto* faces = std::get_if<BoundaryFaces>(&surface.geometry)) {
         boundary(*faces).draw(rays, first, component, target, counts);
     } else {
@@ -228,8 +246,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
 void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
                                   std::vector<SurfaceFacts>& facts) {
     const Surface& surface = request.surfaces[index];
-    const double offset =
-        surface.field.component < 0 ? 0.0 : data.field_offset(static_cast<std::uint32_t>(surface.field.component));
+    const double offset = offset_of(surface);
     const CutPlaneGeometry rays = view(request, surface);
     const bool is_plane = std::holds_alternative<CutPlane>(surface.geometry);
     facts.push_back({offset, is_plane ? std::optional<Vector3>(rays.normal) : std::nullopt});
@@ -260,6 +277,9 @@ void Renderer::Impl::read(const Layer& from, const std::vector<SurfaceFacts>& fa
     for (Mark& mark : marks) {
         // The upper half: of surfaces that are not seen there (shaders/kernels/merge.comp).
         mark.flags = (mark.flags | (mark.flags >> 16u)) & 0xffffu;
+        // One element may decide what another leaves open.
+        mark.flags &= (mark.flags & pixel_flag::contour) != 0 ? ~pixel_flag::contour_undecided : ~0u;
+        mark.flags &= (mark.flags & pixel_flag::mesh_line) != 0 ? ~pixel_flag::mesh_line_undecided : ~0u;
         const auto has = [&mark](std::uint32_t flag) { return (mark.flags & flag) != 0 ? 1u : 0u; };
         counts.hit_pixels += mark.surface() != 0 ? 1 : 0;
         counts.undecided_pixels += has(pixel_flag::undecided);

@@ -58,7 +58,7 @@ struct LineStyle {
     double width = 1;
     /** The colour map's at the isovalue where there is none. */
     std::optional<std::array<double, 3>> color;
-    /** Of pixels for which it stays open whether they meet a line; those without are drawn as if they did not. */
+    /** Of pixels for which it stays open whether they meet a line; if absent they are drawn as if they did. */
     std::optional<std::array<double, 3>> undecided_color;
 };
 

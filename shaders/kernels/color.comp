@@ -89,12 +89,15 @@ void main() {
     bool is_contour = false, is_contour_undecided = false, is_mesh_line = false, is_mesh_undecided = false;
     for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
         value = core_samples[pixel].value;
+        // Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own.
         const uint contour = core_flags_near(pixel, core_contour_reach);
-        is_contour = (contour & CORE_FLAG_CONTOUR) != 0u;
         is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
+        is_contour = (contour & CORE_FLAG_CONTOUR) != 0u ||
+                     (is_contour_undecided && (core_contour_style & CORE_STYLE_UNDECIDED) == 0u);
         const uint mesh = core_flags_near(pixel, core_mesh_reach);
-        is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u;
         is_mesh_undecided = (mesh & CORE_FLAG_MESH_UNDECIDED) != 0u;
+        is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u ||
+                       (is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) == 0u);
     }
     for (uint turn = 0u; turn < (is_drawn && core_n_clips > 0u ? 1u : 0u); ++turn) {
         is_clipped = core_is_clipped(pixel, core_samples[pixel].depth);
@@ -125,12 +128,12 @@ void main() {
 
     // What is decided goes over what is not, contours over mesh lines.
     const bool has_contour_color = is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;
-    const bool has_undecided_color = is_contour_undecided && (core_contour_style & CORE_STYLE_UNDECIDED) != 0u;
+    const bool shows_undecided_contour = is_contour_undecided && !is_contour;
     const bool has_mesh_color = is_mesh_line && (core_mesh_style & CORE_STYLE_COLOR) != 0u;
-    const bool has_mesh_undecided_color = is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) != 0u;
-    color = is_seen && has_mesh_undecided_color ? core_special(7u) : color;
+    const bool shows_undecided_mesh = is_mesh_undecided && !is_mesh_line;
+    color = is_seen && shows_undecided_mesh ? core_special(7u) : color;
     color = is_seen && has_mesh_color ? core_special(6u) : color;
-    color = is_seen && has_undecided_color ? core_special(5u) : color;
+    color = is_seen && shows_undecided_contour ? core_special(5u) : color;
     color = is_seen && has_contour_color ? core_special(4u) : color;
     color.w *= is_seen ? core_special(8u).x : elvis_real(1);
     if (is_inside) {

@@ -3,6 +3,9 @@
 // Several planes and classes merge in core_samples: the nearest plane wins; on one plane, the element on the viewer's side, then the
 // lowest number. One field evaluation a pixel and class, after the search.
 //
+// With CORE_LINES, what needs no closer look is decided about lines: pixels whose square lies inside one element, and in which the
+// field certainly takes an isovalue or certainly none. The others are left to kernels/cut_lines.comp.
+//
 // A work group is a tile of pixels, an invocation one of its columns: what the whole tile shares is fetched once.
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
@@ -26,6 +29,7 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
     // Two values on a face: which one is shown there may depend on rounding.
     uint core_is_discontinuous;
+    uint core_n_isovalues;
 };
 
 uint core_first_entry() {
@@ -36,6 +40,40 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
 #include "library/show.glsl"
 #include "library/locate.glsl"
+
+#if CORE_LINES
+layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
+elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
+
+#include "library/cell.glsl"
+#include "library/shown_model.glsl"
+
+struct core_pixel_lines {
+    elvis_real value;
+    bool is_settled, has_contour, is_estimated;
+};
+
+core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, elvis_vec3 direction) {
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, xi, position, jacobian);
+    const core_cut_square square = core_cut_corners(elvis_real(pixel.x), elvis_real(pixel.y), elvis_real(0.5LF));
+    const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
+    const elvis_vec3 origin = shift - position;
+    const elvis_real error = square.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
+    const elvis_real curvature = elvis_real(core_curvature(elvis_fetch_core_elements(element, 1u)));
+    const core_cell cell =
+        core_cell_at(xi, position, jacobian, origin + square.corner0, origin + square.corner1, origin + square.corner2,
+                     origin + square.corner3, error, curvature, core_plane_normal.xyz, direction);
+    core_pixel_lines lines;
+    const core_model model = core_shown_model(element, xi, cell.region, lines.value);
+    const core_level_test test = core_test_levels(model, cell.region);
+    lines.is_settled = square.all_hit && cell.is_inside && (test.is_excluded || test.is_met);
+    lines.has_contour = lines.is_settled && test.is_met;
+    lines.is_estimated = core_n_isovalues > 0u && core_is_model_estimated(element);
+    return lines;
+}
+#endif
 
 void main() {
     const uint column = gl_WorkGroupID.x * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
@@ -52,10 +90,26 @@ void main() {
         // For pixels outside, too: in a loop of one turn it would take three times as long, because compilers move all that does not
         // change with the turn in front of the loop and run out of registers.
         const bool has_found = found.element != CORE_NO_ELEMENT;
-        const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
+        const elvis_vec3 xi = elvis_vec3(found.x, found.y, found.z);
+#if CORE_LINES
+        const core_pixel_lines lines =
+            core_lines_of_pixel(has_found ? found.element : 0u, xi, uvec2(column, row), point.direction);
+        const elvis_real value = lines.value;
+#else
+        const elvis_real value = core_shown_value(has_found ? found.element : 0u, xi);
+#endif
         const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
         for (uint turn = 0u; turn < (is_news ? 1u : 0u); ++turn) {
-            n_evaluations += core_merge(row * core_size.x + column, point, found, value);
+            const uint pixel = row * core_size.x + column;
+            const uint n_done = core_merge(pixel, point, found, value);
+            n_evaluations += n_done;
+#if CORE_LINES
+            if (n_done > 0u && lines.is_settled) {
+                core_marks[pixel].owner |= CORE_OWNER_SETTLED;
+                core_marks[pixel].flags |=
+                    (lines.has_contour ? CORE_FLAG_CONTOUR : 0u) | (lines.is_estimated ? CORE_FLAG_ESTIMATED : 0u);
+            }
+#endif
         }
         n_steps += found.n_steps;
         n_failures += found.n_failures;
@@ -63,7 +117,7 @@ void main() {
     }
 
     // Then no pixel of the column is to be trusted.
-    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up());
+    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
     for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
         core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }

@@ -21,10 +21,12 @@ void main() {
     const uint tile = gl_GlobalInvocationID.x;
     const bool is_wanted = tile < core_n_tiles;
 
-    const elvis_real column = elvis_real((tile % core_tiles_per_row) * CORE_TILE_WIDTH);
-    const elvis_real row = elvis_real((tile / core_tiles_per_row) * CORE_TILE_HEIGHT);
-    const elvis_real last_column = column + elvis_real(CORE_TILE_WIDTH - 1);
-    const elvis_real last_row = row + elvis_real(CORE_TILE_HEIGHT - 1);
+    // Pixels are squares: lines are looked for up to their corners.
+    const elvis_real half_pixel = elvis_real(0.5LF);
+    const elvis_real column = elvis_real((tile % core_tiles_per_row) * CORE_TILE_WIDTH) - half_pixel;
+    const elvis_real row = elvis_real((tile / core_tiles_per_row) * CORE_TILE_HEIGHT) - half_pixel;
+    const elvis_real last_column = column + elvis_real(CORE_TILE_WIDTH);
+    const elvis_real last_row = row + elvis_real(CORE_TILE_HEIGHT);
     const core_cut_column left = core_cut_begin(column), right = core_cut_begin(last_column);
     const core_cut_point p00 = core_cut_pixel(left, row), p10 = core_cut_pixel(right, row);
     const core_cut_point p01 = core_cut_pixel(left, last_row), p11 = core_cut_pixel(right, last_row);

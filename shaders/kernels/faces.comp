@@ -281,7 +281,7 @@ void main() {
 
     const bool has_found = found.element != CORE_NO_ELEMENT;
     const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
-    found.is_cut_short = found.is_cut_short || core_has_driver_given_up();
+    found.is_cut_short = found.is_cut_short || core_has_driver_given_up(core_surface >> 31);
     core_cut_point point;
     point.is_hit = has_found;
     point.t = nearest;

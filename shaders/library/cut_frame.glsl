@@ -68,3 +68,26 @@ core_cut_point core_cut_pixel(core_cut_column column, elvis_real row) {
     point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);
     return point;
 }
+
+// The corners of a square of the picture on the plane, with its middle at (column, row), in pixels.
+struct core_cut_square {
+    elvis_vec3 corner0, corner1, corner2, corner3;
+    // Whether the rays through all of them, or through any, meet the plane in front of the eye; where none does, none between does.
+    bool all_hit, any_hit;
+    elvis_real error;
+};
+
+core_cut_square core_cut_corners(elvis_real column, elvis_real row, elvis_real half_size) {
+    const core_cut_column left = core_cut_begin(column - half_size), right = core_cut_begin(column + half_size);
+    const core_cut_point p0 = core_cut_pixel(left, row - half_size), p1 = core_cut_pixel(right, row - half_size);
+    const core_cut_point p2 = core_cut_pixel(left, row + half_size), p3 = core_cut_pixel(right, row + half_size);
+    core_cut_square square;
+    square.corner0 = p0.position;
+    square.corner1 = p1.position;
+    square.corner2 = p2.position;
+    square.corner3 = p3.position;
+    square.all_hit = p0.is_hit && p1.is_hit && p2.is_hit && p3.is_hit;
+    square.any_hit = p0.is_hit || p1.is_hit || p2.is_hit || p3.is_hit;
+    square.error = max(max(p0.error, p1.error), max(p2.error, p3.error));
+    return square;
+}

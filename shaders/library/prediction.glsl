@@ -3,6 +3,9 @@
 // reference coordinates (the remainder of Newton's method; e.g. J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, theorem 5.3.2).
 // C is measured for each element when a volume is opened (kernels/linearize.comp).
 
+#ifndef CORE_PREDICTION
+#define CORE_PREDICTION
+
 #define CORE_UNKNOWN_CURVATURE elvis_real(1e9LF)
 
 // Bound of the error of a prediction, from the length of the step that led to it.
@@ -13,3 +16,5 @@ elvis_real core_prediction_error(elvis_real curvature, elvis_real step) {
     const elvis_real d = discriminant > elvis_real(0) ? min(near, elvis_real(2)) : elvis_real(2);
     return curvature * d * d;
 }
+
+#endif

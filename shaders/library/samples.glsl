@@ -29,7 +29,9 @@ struct core_mark {
 #define CORE_OWNER_SHARED 4u
 // They have other values there, and rounding decides which one is shown.
 #define CORE_OWNER_AMBIGUOUS 8u
-#define CORE_OWNER_BITS 4
+// It is decided what lines the pixel meets, and written in the flags.
+#define CORE_OWNER_SETTLED 16u
+#define CORE_OWNER_BITS 5
 
 #define CORE_FLAG_CONTOUR 1u
 #define CORE_FLAG_CONTOUR_UNDECIDED 2u

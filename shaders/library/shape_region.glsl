@@ -1,6 +1,9 @@
 // The reference shape as a region: how far a point violates its faces, and the way back in. Included once for each snippet instance.
 // CORE_CONSTRAINT_NORM: by how much a face constraint changes at most when every coordinate changes by 1.
 
+#ifndef CORE_SHAPE_REGION
+#define CORE_SHAPE_REGION
+
 #if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
 #define CORE_CENTROID elvis_vec3(0, 0, 0)
 #define CORE_CONSTRAINT_NORM elvis_real(1)
@@ -70,3 +73,5 @@ void core_project(inout elvis_real x, inout elvis_real y, inout elvis_real z) {
     z = clamp(z - slant, -one, -one - x - y);
 #endif
 }
+
+#endif

@@ -4,6 +4,8 @@
 // The kernel brings library/cut_frame.glsl, library/samples.glsl, core_samples, core_marks, core_surface, core_first_component, core_end_component and
 // core_is_discontinuous.
 
+#include "library/driver_limit.glsl"
+
 #define CORE_NO_ELEMENT 0xffffffffu
 
 struct core_location {
@@ -65,13 +67,4 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
         core_samples[pixel].number = found.number;
     }
     return is_shown ? core_end_component - core_first_component : 0u;
-}
-
-// Whether the driver has ended a loop, of the snippet too, before it was done: then this one ends before its second turn.
-bool core_has_driver_given_up() {
-    uint canary = 0u;
-    while (canary < 2u + (core_surface >> 31)) {
-        canary += 1u;
-    }
-    return canary < 2u;
 }

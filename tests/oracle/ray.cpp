@@ -12,7 +12,7 @@ LongVector convert(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
 } // namespace
 
-Ray pixel_ray(const Camera& camera, std::uint32_t width, std::uint32_t height, std::uint32_t column, std::uint32_t row) {
+Ray pixel_ray(const Camera& camera, std::uint32_t width, std::uint32_t height, long double column, long double row) {
     const LongVector d = (convert(camera.look_at) - convert(camera.eye)).normalized();
     const LongVector right = d.cross(convert(camera.up)).normalized();
     const LongVector top = right.cross(d);

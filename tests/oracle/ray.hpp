@@ -20,8 +20,8 @@ struct Ray {
     LongVector direction;
 };
 
-/** Row 0 is the top one. */
-Ray pixel_ray(const Camera& camera, std::uint32_t width, std::uint32_t height, std::uint32_t column, std::uint32_t row);
+/** Row 0 is the top one; whole numbers are the middles of pixels. */
+Ray pixel_ray(const Camera& camera, std::uint32_t width, std::uint32_t height, long double column, long double row);
 
 /** Distance from the ray's origin, > 0, or nothing. */
 std::optional<long double> plane_distance(const Ray& ray, const CutPlane& plane);

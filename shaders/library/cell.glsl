@@ -1,0 +1,143 @@
+// What one element has to do with a pixel's cell: the part of a surface that a square of the picture shows.
+//
+// The cell's corners are points of the surface; between them it is flat, so that every point of the cell lies in their hull. The mapping
+// is linearized at a point xi of the element. A point of cell and element has the offset J^-1 (x - x(xi)) from xi but for the error of
+// a Newton step (library/prediction.glsl) and rounding, which is the patch of library/model.glsl. Faces are linear in reference
+// coordinates, so where the corners lie tells what the boundary of the element does in the cell:
+//
+//   inside    all of the cell lies in the element
+//   outside   none of it does
+//   crossed   one corner lies inside, another one outside: the boundary runs through between them, since a cell is in one piece
+//
+// and otherwise it is open. Faces in which the surface lies do not bound anything on it: they are left out.
+
+#include "library/model.glsl"
+#include "library/prediction.glsl"
+#include "library/shape_region.glsl"
+
+struct core_cell {
+    core_patch region;
+    bool is_inside, is_outside, is_crossed;
+    // The surface lies in a face of the element, which is on the far side.
+    bool is_behind;
+    // Length of the predicted step to the middle of the corners, and that point.
+    elvis_real step;
+    elvis_vec3 middle;
+    // Rows of J^-1.
+    elvis_vec3 row0, row1, row2;
+};
+
+// Sine of the angle between surface and face below which the face may lie in the surface, if it also lies there within rounding.
+#define CORE_COPLANAR elvis_real(1e-4LF)
+
+// What the faces of the element say about the region of `cell` around xi. `xi_error`: rounding of the corners' coordinates.
+// `own_face`: the face in which the surface lies by definition; negative if it is any surface, which then has this normal.
+void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, elvis_vec3 plane_normal, elvis_vec3 direction,
+                      int own_face) {
+    const core_patch region = cell.region;
+    bool is_inside0 = true, is_inside1 = true, is_inside2 = true, is_inside3 = true;
+    bool is_outside0 = false, is_outside1 = false, is_outside2 = false, is_outside3 = false;
+    cell.is_inside = true;
+    cell.is_outside = cell.is_behind = false;
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        const elvis_real here = dot(constraint.xyz, xi) + constraint.w;
+        const elvis_real g0 = here + dot(constraint.xyz, region.corner0), g1 = here + dot(constraint.xyz, region.corner1);
+        const elvis_real g2 = here + dot(constraint.xyz, region.corner2), g3 = here + dot(constraint.xyz, region.corner3);
+        const elvis_real slack = core_model_norm1(constraint.xyz) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF);
+        const elvis_real lowest = min(min(g0, g1), min(g2, g3)) - slack, highest = max(max(g0, g1), max(g2, g3)) + slack;
+        // The face's normal in the world is J^-T times that in xi.
+        const elvis_vec3 normal = constraint.x * cell.row0 + constraint.y * cell.row1 + constraint.z * cell.row2;
+        const elvis_vec3 across = cross(normal, plane_normal);
+        const bool is_parallel = dot(across, across) <= CORE_COPLANAR * CORE_COPLANAR * dot(normal, normal);
+        const bool coincides = is_parallel && lowest <= elvis_real(0) && highest >= elvis_real(0) &&
+                               highest - lowest <= elvis_real(2) * slack + elvis_real(4) * dot(abs(constraint.xyz), xi_error);
+        const bool lies_in = own_face >= 0 ? face == own_face : coincides;
+        cell.is_behind = cell.is_behind || (lies_in && own_face < 0 && dot(normal, direction) < elvis_real(0));
+        cell.is_inside = cell.is_inside && (lies_in || highest <= elvis_real(0));
+        cell.is_outside = cell.is_outside || (!lies_in && lowest > elvis_real(0));
+        is_inside0 = is_inside0 && (lies_in || g0 < -slack);
+        is_inside1 = is_inside1 && (lies_in || g1 < -slack);
+        is_inside2 = is_inside2 && (lies_in || g2 < -slack);
+        is_inside3 = is_inside3 && (lies_in || g3 < -slack);
+        is_outside0 = is_outside0 || (!lies_in && g0 > slack);
+        is_outside1 = is_outside1 || (!lies_in && g1 > slack);
+        is_outside2 = is_outside2 || (!lies_in && g2 > slack);
+        is_outside3 = is_outside3 || (!lies_in && g3 > slack);
+    }
+    cell.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
+                      (is_outside0 || is_outside1 || is_outside2 || is_outside3);
+}
+
+// `corners`: relative to `position`, the image of xi. `position_error`: of the corners, beyond the rounding of the mapping.
+core_cell core_cell_at(elvis_vec3 xi, elvis_vec3 position, elvis_mat3 jacobian, elvis_vec3 corner0, elvis_vec3 corner1,
+                       elvis_vec3 corner2, elvis_vec3 corner3, elvis_real position_error, elvis_real curvature,
+                       elvis_vec3 plane_normal, elvis_vec3 direction) {
+    core_cell cell;
+    const elvis_vec3 cofactors0 = cross(jacobian[1], jacobian[2]);
+    const elvis_vec3 cofactors1 = cross(jacobian[2], jacobian[0]);
+    const elvis_vec3 cofactors2 = cross(jacobian[0], jacobian[1]);
+    const elvis_real inverse_determinant = elvis_real(1) / dot(jacobian[0], cofactors0);
+    const elvis_vec3 row0 = inverse_determinant * cofactors0;
+    const elvis_vec3 row1 = inverse_determinant * cofactors1;
+    const elvis_vec3 row2 = inverse_determinant * cofactors2;
+    // As in library/newton.glsl.
+    const elvis_vec3 extent = abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2]) + abs(position);
+    const elvis_vec3 error = elvis_real(4) * CORE_ROUNDOFF * extent + position_error;
+    const elvis_vec3 xi_error = elvis_vec3(dot(abs(row0), error), dot(abs(row1), error), dot(abs(row2), error));
+    const elvis_vec3 d0 = elvis_vec3(dot(row0, corner0), dot(row1, corner0), dot(row2, corner0));
+    const elvis_vec3 d1 = elvis_vec3(dot(row0, corner1), dot(row1, corner1), dot(row2, corner1));
+    const elvis_vec3 d2 = elvis_vec3(dot(row0, corner2), dot(row1, corner2), dot(row2, corner2));
+    const elvis_vec3 d3 = elvis_vec3(dot(row0, corner3), dot(row1, corner3), dot(row2, corner3));
+    const elvis_vec3 most = max(max(abs(d0), abs(d1)), max(abs(d2), abs(d3)));
+    const elvis_real largest_step = max(max(most.x, most.y), most.z);
+    const elvis_real rounding = max(max(xi_error.x, xi_error.y), xi_error.z);
+    const elvis_real beyond = core_prediction_error(curvature, largest_step) + rounding;
+    cell.region = core_patch(d0, d1, d2, d3, beyond, largest_step + beyond);
+    cell.middle = xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
+    const elvis_vec3 to_middle = abs(cell.middle - xi);
+    cell.step = max(max(to_middle.x, to_middle.y), to_middle.z);
+    cell.row0 = row0;
+    cell.row1 = row1;
+    cell.row2 = row2;
+    core_judge_faces(cell, xi, xi_error, plane_normal, direction, -1);
+    const bool is_sound = core_is_finite(inverse_determinant) && core_is_finite(largest_step);
+    cell.is_inside = cell.is_inside && is_sound;
+    cell.is_outside = cell.is_outside && is_sound;
+    cell.is_crossed = cell.is_crossed && is_sound;
+    return cell;
+}
+
+struct core_level_test {
+    // No isovalue in the cell; one for certain, if the cell is inside the element.
+    bool is_excluded, is_met;
+};
+
+// The kernel brings core_n_isovalues and core_isovalue(i), in ascending order.
+uint core_first_isovalue(elvis_real from) {
+    uint low = 0u, high = core_n_isovalues;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        const bool is_below = core_isovalue(middle) < from;
+        low = is_below ? middle + 1u : low;
+        high = is_below ? high : middle;
+    }
+    return low;
+}
+
+core_level_test core_test_levels(core_model f, core_patch cell) {
+    const elvis_real c0 = dot(f.slope, cell.corner0), c1 = dot(f.slope, cell.corner1);
+    const elvis_real c2 = dot(f.slope, cell.corner2), c3 = dot(f.slope, cell.corner3);
+    // The corners themselves are within `beyond` of where they were predicted.
+    const elvis_real error = CORE_MODEL_UP * (f.remainder + core_model_norm1(f.slope) *
+                                                                (cell.beyond + elvis_real(4) * CORE_ROUNDOFF * cell.radius)) +
+                             elvis_real(4) * CORE_ROUNDOFF * abs(f.value) + CORE_MODEL_TINY;
+    const elvis_real least = f.value + min(min(c0, c1), min(c2, c3)), most = f.value + max(max(c0, c1), max(c2, c3));
+    const uint first = core_first_isovalue(least - error);
+    const uint first_sure = core_first_isovalue(least + error);
+    const bool is_known = core_model_is_known(f);
+    core_level_test test;
+    test.is_excluded = is_known && (first == core_n_isovalues || core_isovalue(first) > most + error);
+    test.is_met = is_known && first_sure < core_n_isovalues && core_isovalue(first_sure) <= most - error;
+    return test;
+}

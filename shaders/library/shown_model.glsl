@@ -1,0 +1,44 @@
+// What a surface shows as a Taylor model over a pixel's cell. The kernel brings core_first_component and core_end_component, and the
+// host's buffer core_bounds: for each element and component the bounds of second and first derivatives and of the size of the
+// field, and whether they are estimated.
+
+#include "library/model.glsl"
+
+// Rounding of a value, relative to the largest, and of a gradient: twice what evaluations of orders up to 10 show.
+#define CORE_VALUE_ROUNDING (elvis_real(16) * CORE_ROUNDOFF)
+#define CORE_GRADIENT_ROUNDING (elvis_real(64) * CORE_ROUNDOFF)
+
+// `value`: what core_shown_value gives, also where there is no model.
+core_model core_component_model(uint element, elvis_vec3 xi, uint component, core_patch region, out elvis_real value) {
+    elvis_vec3 gradient;
+    elvis_field_gradient(element, xi, component, value, gradient);
+    const elvis_vec4 bounds = elvis_fetch4_core_bounds(element, component);
+    return core_model_leaf(value, gradient,
+                           elvis_vec3(bounds.x, CORE_VALUE_ROUNDING * bounds.z, CORE_GRADIENT_ROUNDING * bounds.y), region);
+}
+
+core_model core_shown_model(uint element, elvis_vec3 xi, core_patch region, out elvis_real value) {
+    core_model model = core_component_model(element, xi, core_first_component, region, value);
+#if ELVIS_N_COMPONENTS > 1
+    core_model square = core_model_square(model, region);
+    elvis_real sum = value * value;
+    for (uint component = core_first_component + 1u; component < core_end_component; ++component) {
+        elvis_real other;
+        const core_model next = core_component_model(element, xi, component, region, other);
+        square = core_model_add(square, core_model_square(next, region), region);
+        sum += other * other;
+    }
+    const bool is_length = core_end_component - core_first_component > 1u;
+    model = core_model_choose(is_length, core_model_sqrt(square, region), model);
+    value = is_length ? sqrt(sum) : value;
+#endif
+    return model;
+}
+
+bool core_is_model_estimated(uint element) {
+    bool is_estimated = false;
+    for (uint component = core_first_component; component < core_end_component; ++component) {
+        is_estimated = is_estimated || elvis_fetch4_core_bounds(element, component).w > elvis_real(0);
+    }
+    return is_estimated;
+}

@@ -1,0 +1,128 @@
+// Mesh lines against exact tests of each pixel's square.
+#include "lines.hpp"
+#include "meshes.hpp"
+#include "test_files.hpp"
+
+#include <core/render/renderer.hpp>
+
+#include <catch2/catch.hpp>
+
+namespace elvis::oracle {
+namespace {
+
+using native::Shape;
+
+const Device& device() {
+    static const Device the_device;
+    return the_device;
+}
+
+constexpr double bend = 0.2;
+
+// Range of x - bend y^2 over the quadrilateral: its extremes lie on the sides, where it is quadratic.
+std::array<long double, 2> bent_range(const Square& square) {
+    const auto g = [](long double x, long double y) { return x - bend * y * y; };
+    long double least = std::numeric_limits<long double>::infinity(), most = -least;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Point& a = square[i];
+        const Point& b = square[(i + 1) % 4];
+        const long double dx = b[0] - a[0], dy = b[1] - a[1];
+        // d/ds (dx s - bend (a1 + dy s)^2) = 0
+        const long double s = dy != 0 ? std::clamp((dx / (2 * bend * dy) - a[1]) / dy, 0.0L, 1.0L) : 0.0L;
+        for (const long double place : {0.0L, s, 1.0L}) {
+            const long double value = g(a[0] + place * dx, a[1] + place * dy);
+            least = std::min(least, value);
+            most = std::max(most, value);
+        }
+    }
+    return {least, most};
+}
+
+bool has_quarter(long double least, long double most) { return std::ceil(4 * least) <= 4 * most; }
+
+} // namespace
+
+TEST_CASE("mesh lines are right to the pixel, on straight and curved elements, or marked undecided") {
+    for (const bool is_curved : {false, true}) {
+        const auto bent = [is_curved](const Vector& x) -> Vector {
+            return {x.x() + (is_curved ? bend * x.y() * x.y() : 0), x.y(), x.z()};
+        };
+        const TemporaryFile file("lines.h5");
+        VolumeData data;
+        data.classes.push_back(make_class(space_of(Shape::hexahedron, is_curved ? 2 : 1), space_of(Shape::hexahedron, 1),
+                                          compose(cube(Shape::hexahedron, 4), bent), [](const Vector& x) { return x.x(); }));
+        write_volume(file.path(), data);
+        const RuntimeVolume volume = open_volume(file.path());
+        for (const Precision precision : {Precision::float64, Precision::float32}) {
+            Renderer renderer(device(), volume, precision);
+            for (const double magnification : {2.0, 50.0, 1000.0}) {
+                // A crossing of lines.
+                const Point middle = {0.5L + (is_curved ? bend * 0.25L : 0.0L), 0.5L};
+                FrameRequest request = view_around(middle, magnification, 160);
+                request.camera.image_shift = {0.31, 0.17};
+                request.surfaces[0].mesh_lines.emplace();
+                const Frame frame = renderer.render(request);
+                const Verdict verdict =
+                    judge(request, frame, pixel_flag::mesh_line, pixel_flag::mesh_line_undecided, [&](const Square& square) {
+                        const auto [low, high] = std::minmax({square[0][1], square[1][1], square[2][1], square[3][1]});
+                        const auto [left, right] = std::minmax({square[0][0], square[1][0], square[2][0], square[3][0]});
+                        const auto [least, most] = is_curved ? bent_range(square) : std::array<long double, 2>{left, right};
+                        return has_quarter(low, high) || has_quarter(least, most);
+                    });
+                const bool is_double = precision == Precision::float64;
+                WARN((is_curved ? "curved" : "straight") << (is_double ? ", float64" : ", float32") << ", magnified "
+                                                         << magnification << ": " << verdict.marked << " pixels, "
+                                                         << verdict.undecided << " undecided, " << verdict.wrong << " wrong");
+                CHECK(verdict.wrong == 0);
+                CHECK(verdict.marked + verdict.undecided >= 300);
+                if (is_double) {
+                    CHECK(verdict.undecided <= 2);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a plane in faces shows their edges as mesh lines, and nothing else") {
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 1),
+                                      cube(Shape::hexahedron, 4), [](const Vector& x) { return x.x(); }));
+    const TemporaryFile file("faces.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    Renderer renderer(device(), volume, Precision::float64);
+    FrameRequest request;
+    request.width = request.height = 100;
+    request.camera.orthographic = true;
+    request.camera.height = 1.2;
+    request.camera.eye = {0.503, 0.502, 3};
+    request.camera.look_at = {0.503, 0.502, 0};
+    request.camera.up = {0, 1, 0};
+    Surface surface;
+    surface.geometry = CutPlane{{0, 0, 1, -0.5}};
+    surface.colors.points = {{0, {0, 0, 0}}, {1, {1, 1, 1}}};
+    surface.mesh_lines.emplace();
+    request.surfaces = {surface};
+    const Frame frame = renderer.render(request);
+    // Pixels are 0.012 wide; a line is one pixel wide, or two where it ends.
+    const auto meets = [](double low, double high) {
+        return std::ceil(4 * std::max(low, 0.0)) <= 4 * std::min(high, 1.0);
+    };
+    std::size_t wrong = 0, marked = 0;
+    for (std::uint32_t row = 0; row < 100; ++row) {
+        for (std::uint32_t column = 0; column < 100; ++column) {
+            const double left = 0.503 - 0.6 + 0.012 * column, bottom = 0.502 + 0.6 - 0.012 * (row + 1);
+            const double right = left + 0.012, top = bottom + 0.012;
+            const bool touches = right >= 0 && left <= 1 && top >= 0 && bottom <= 1;
+            const bool is_line = touches && (meets(left, right) || meets(bottom, top));
+            const bool is_marked = (frame.flags[row * 100 + column] & pixel_flag::mesh_line) != 0;
+            marked += is_marked ? 1 : 0;
+            wrong += is_line != is_marked ? 1 : 0;
+        }
+    }
+    CHECK(marked > 700);
+    CHECK(wrong == 0);
+    CHECK(frame.counts.undecided_mesh_line_pixels == 0);
+}
+
+} // namespace elvis::oracle
