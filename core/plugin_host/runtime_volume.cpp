@@ -351,6 +351,30 @@ elvis_certainty RuntimeVolume::field_ranges(std::uint32_t field, std::uint32_t t
     return certainty;
 }
 
+bool RuntimeVolume::has_derivative_bounds() const { return m_impl->table->get_field_derivative_bounds != nullptr; }
+
+elvis_certainty RuntimeVolume::derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+                                                 std::uint64_t count, std::span<DerivativeBounds> out) const {
+    static_assert(sizeof(DerivativeBounds) == 2 * sizeof(double));
+    assert(has_derivative_bounds() && out.size() == count * m_impl->fields[field].n_components);
+    constexpr const char* function = "get_field_derivative_bounds";
+    elvis_certainty certainty = ELVIS_ESTIMATED;
+    HostServices::clear_error();
+    m_impl->check(m_impl->table->get_field_derivative_bounds(m_impl->volume, field, time_step, first, count,
+                                                             reinterpret_cast<double*>(out.data()), &certainty),
+                  function);
+    m_impl->check_certainty(certainty, function);
+    for (std::size_t index = 0; index < out.size(); ++index) {
+        for (const double bound : {out[index].first, out[index].second}) {
+            if (bound < 0 || std::isinf(bound)) {
+                m_impl->refuse(function, "the bound " + std::to_string(bound) + " for element " +
+                                             std::to_string(first + index / m_impl->fields[field].n_components));
+            }
+        }
+    }
+    return certainty;
+}
+
 void RuntimeVolume::fill_buffer(const elvis_fill_request& request, void* destination) const {
     elvis_fill_request copy = request;
     copy.struct_size = sizeof copy;

@@ -71,6 +71,12 @@ struct FieldRange {
     double upper = 0;
 };
 
+/** See elvis_runtime.get_field_derivative_bounds; NaN where the plugin cannot tell. */
+struct DerivativeBounds {
+    double first = 0;  ///< L
+    double second = 0; ///< H
+};
+
 class RuntimeVolume {
 public:
     /** Opens with a given plugin. `options`: JSON text, or empty. */
@@ -112,6 +118,11 @@ public:
     /** n_components ranges an element. Needs has_field_ranges(). */
     elvis_certainty field_ranges(std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
                                  std::span<FieldRange> out) const;
+
+    bool has_derivative_bounds() const;
+    /** n_components entries an element. Needs has_derivative_bounds(). Checked: each finite and >= 0, or NaN. */
+    elvis_certainty derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
+                                      std::span<DerivativeBounds> out) const;
 
     /** See elvis_runtime.fill_buffer; `destination` holds count * record_size doubles or uint32_t. */
     void fill_buffer(const elvis_fill_request& request, void* destination) const;

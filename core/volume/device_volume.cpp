@@ -1,8 +1,10 @@
 #include <core/base/float_rounding.hpp>
+#include <core/volume/derivative_bounds.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/element_records.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cstring>
 #include <limits>
@@ -95,7 +97,13 @@ bool DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const st
     for (const ClassData& data : m_classes) {
         can_subtract = can_subtract && (data.snippet.capabilities & ELVIS_SNIPPET_FIELD_OFFSET) != 0;
     }
-    m_offset = can_subtract ? offset : std::vector<double>(offset.size(), 0.0);
+    const std::vector<double> new_offset = can_subtract ? offset : std::vector<double>(offset.size(), 0.0);
+    if (field != m_field || time_step != m_time_step || new_offset != m_offset) {
+        for (ClassData& data : m_classes) {
+            data.derivative_bounds.reset();
+        }
+    }
+    m_offset = new_offset;
     m_field = field;
     m_time_step = time_step;
     bool is_changed = false;
@@ -181,8 +189,26 @@ std::vector<FetchBuffer> DeviceVolume::host_buffers(std::uint32_t element_class)
     return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_elements", m_classes[element_class].elements.get()}};
 }
 
+void DeviceVolume::provide_derivative_bounds() {
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        if (!m_classes[index].derivative_bounds && m_volume.classes()[index].n_elements > 0) {
+            m_classes[index].derivative_bounds =
+                make_derivative_bounds(m_device, m_volume, index, {m_field, m_time_step, m_offset}, instance(index), m_precision,
+                                       m_control);
+        }
+    }
+}
+
+FetchBuffer DeviceVolume::derivative_bounds(std::uint32_t element_class) const {
+    assert(m_classes[element_class].derivative_bounds);
+    return {"core_bounds", m_classes[element_class].derivative_bounds.get()};
+}
+
 std::uint64_t DeviceVolume::field_bytes() const {
     std::uint64_t sum = 0;
+    for (const ClassData& data : m_classes) {
+        sum += data.derivative_bounds ? data.derivative_bounds->bytes() : 0;
+    }
     for (const PluginBuffer& buffer : m_buffers) {
         sum += buffer.records && (buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) ? buffer.records->bytes() : 0;
     }

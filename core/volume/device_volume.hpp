@@ -42,6 +42,17 @@ public:
      */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
 
+    /**
+     * Makes bounds of the selected field and its derivatives in every element, if they are not there yet. For kernels that need
+     * them; select() comes first.
+     */
+    void provide_derivative_bounds();
+    /**
+     * `core_bounds`: elvis_fetch4_core_bounds(element, component) = (H, L, F, certainty), see derivative_bounds.hpp. Needs
+     * provide_derivative_bounds() after the latest select(); valid until select() chooses another field, time step or offset.
+     */
+    FetchBuffer derivative_bounds(std::uint32_t element_class) const;
+
     std::uint64_t field_bytes() const;
     std::uint64_t geometry_bytes() const;
     std::uint64_t hierarchy_bytes() const;
@@ -61,6 +72,8 @@ private:
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
         std::unique_ptr<RecordBuffer> elements;
+        /** Of the selected field; null until they are wanted. */
+        std::unique_ptr<RecordBuffer> derivative_bounds;
     };
 
     void read_bounds();

@@ -8,7 +8,6 @@
 #include "volume.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace elvis::native_plugin {
 namespace {
@@ -26,23 +25,6 @@ void scatter(const DeviceSpace& space, std::size_t width, std::span<const double
     for (std::size_t slab = 0; slab < n_slabs; ++slab)
         for (std::size_t mode = 0; mode < slab_size; ++mode)
             record[slab * slab_numbers + mode * width] = modes[slab * slab_size + mode];
-}
-
-/**
- * Where a function of a tensor pyramid has a single value at the apex, all its functions without a power of t but the constant
- * vanish. Round-off of the data leaves about 1e-16 to 1e-13 of the largest native coefficient, which 1/t in the gradient would
- * blow up near the apex; a true part is never so small. Zeroing changes values by less than 1e-12 of their size.
- */
-void clean_apex(const DeviceSpace& space, std::span<const double> coefficients, std::span<double> modes) {
-    if (space.shape != native::Shape::pyramid || space.basis != native::Basis::tensor)
-        return;
-    double largest = 0;
-    for (const double coefficient : coefficients)
-        largest = std::max(largest, std::abs(coefficient));
-    const auto stride = static_cast<std::size_t>(space.n_r(0, 0));
-    for (std::size_t i = stride; i < modes.size(); i += stride)
-        if (std::abs(modes[i]) < 1e-12 * largest)
-            modes[i] = 0;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "projector.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
@@ -178,6 +179,18 @@ void Conversion::apply(std::span<const double> native_coefficients, std::span<do
         first.swap(second);
     }
     std::copy(second.begin(), second.end(), device_coefficients.begin());
+}
+
+void clean_apex(const DeviceSpace& space, std::span<const double> coefficients, std::span<double> modes) {
+    if (space.shape != native::Shape::pyramid || space.basis != native::Basis::tensor)
+        return;
+    double largest = 0;
+    for (const double coefficient : coefficients)
+        largest = std::max(largest, std::abs(coefficient));
+    const auto stride = static_cast<std::size_t>(space.n_r(0, 0));
+    for (std::size_t i = stride; i < modes.size(); i += stride)
+        if (std::abs(modes[i]) < 1e-12 * largest)
+            modes[i] = 0;
 }
 
 } // namespace elvis::native_plugin

@@ -50,4 +50,11 @@ private:
     std::vector<double> m_native_one;
 };
 
+/**
+ * Where a function of a tensor pyramid has a single value at the apex, all its functions without a power of t but the constant
+ * vanish. Round-off of the data leaves about 1e-16 to 1e-13 of the largest native coefficient, which 1/t in the gradient would
+ * blow up near the apex; a true part is never so small. Zeroing changes values by less than 1e-12 of their size.
+ */
+void clean_apex(const DeviceSpace& space, std::span<const double> coefficients, std::span<double> modes);
+
 } // namespace elvis::native_plugin

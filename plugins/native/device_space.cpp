@@ -1,5 +1,7 @@
 #include "device_space.hpp"
 
+#include "jacobi.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,41 +13,7 @@ using native::Shape;
 
 double chebyshev(int n, double z) { return std::cos(n * std::acos(std::clamp(z, -1.0, 1.0))); }
 
-/** P_n^{1,1}(z), Abramowitz & Stegun 22.7.1. */
-double jacobi_11(int n, double z) {
-    double before = 0;
-    double now = 1;
-    for (int i = 0; i < n; ++i) {
-        const double next = (i + 2) * ((2 * i + 3) * z * now - (i + 1) * before) / ((i + 1.0) * (i + 3.0));
-        before = now;
-        now = next;
-    }
-    return now;
-}
-
-double power(double base, int exponent) {
-    double result = 1;
-    for (int i = 0; i < exponent; ++i)
-        result *= base;
-    return result;
-}
-
 } // namespace
-
-double jacobi(int a, int n, double z) {
-    double before = 0;
-    double now = 1;
-    for (int i = 0; i < n; ++i) {
-        const double s = 2 * i + a;
-        const double divisor = 2 * (i + 1.0) * (i + a + 1.0) * s;
-        // a = 0, i = 0 would divide 0 by 0: P_1 = z.
-        const double next =
-            s == 0 ? z : ((s + 1) * (double(a) * a + s * (s + 2) * z) * now - 2.0 * (i + a) * i * (s + 2) * before) / divisor;
-        before = now;
-        now = next;
-    }
-    return now;
-}
 
 DeviceSpace::DeviceSpace(const native::Space& space)
     : shape(space.shape), basis(space.basis), p_max(static_cast<int>(space.order[0])), q_max(static_cast<int>(space.order[1])),
@@ -86,7 +54,7 @@ int DeviceSpace::exponent(int p, int q) const {
 double DeviceSpace::a(int p, double eta1) const {
     if (shape == Shape::hexahedron)
         return chebyshev(p, eta1);
-    if (shape == Shape::pyramid && basis != Basis::orthogonal && p >= 2)
+    if (has_inner_functions() && p >= 2)
         return (1 - eta1) * (1 + eta1) / 4 * jacobi_11(p - 2, eta1);
     return jacobi(0, p, eta1);
 }

@@ -51,6 +51,8 @@ struct DeviceSpace {
     /** Number of functions in the third direction. Where has_apex, r = 0 is the function 1. */
     int n_r(int p, int q) const;
     bool has_apex(int p, int q) const;
+    /** Whether a and b are C_p rather than P_p: some pyramids. */
+    bool has_inner_functions() const { return shape == native::Shape::pyramid && basis != native::Basis::orthogonal; }
     /** Power of t that multiplies a third factor of a pyramid. */
     int exponent(int p, int q) const;
 
@@ -67,8 +69,5 @@ struct DeviceSpace {
     std::size_t slab_rows(std::size_t width) const { return (slab_size() * width + 3) / 4; }
     std::size_t n_rows(std::size_t width) const { return n_slabs() * slab_rows(width); }
 };
-
-/** P_n^{a,0}(z). */
-double jacobi(int a, int n, double z);
 
 } // namespace elvis::native_plugin

@@ -176,6 +176,15 @@ public:
         return m_volume.field_ranges(field, time_step, first, n, ranges);
     }
 
+    elvis_certainty get_field_derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+                                                std::uint64_t n, std::span<double> bounds) {
+        check_field(field);
+        check_time_step(time_step);
+        check_elements(first, n);
+        m_volume.derivative_bounds(field, time_step, first, n, bounds);
+        return ELVIS_CERTIFIED;
+    }
+
     std::pair<elvis_string, elvis_string> get_note(std::uint32_t note) {
         require(note < m_description.notes.size(), "note out of range");
         return {m_description.notes[note].first.c_str(), m_description.notes[note].second.c_str()};

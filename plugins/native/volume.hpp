@@ -6,6 +6,7 @@
 
 #include "block_cache.hpp"
 #include "conversion.hpp"
+#include "derivative_weights.hpp"
 
 #include <elvis/native/volume_file.hpp>
 #include <elvis/plugin.hpp>
@@ -52,6 +53,13 @@ public:
     elvis_certainty field_ranges(std::size_t field, std::size_t time_step, std::uint64_t first, std::uint64_t count,
                                  std::span<double> ranges) const;
 
+    /**
+     * Two numbers (L, H) an element and component, as elvis_runtime.get_field_derivative_bounds: certified, or NaN where the
+     * field has a transform, is not finite, or has derivatives that may grow without bound at the apex of a pyramid.
+     */
+    void derivative_bounds(std::size_t field, std::size_t time_step, std::uint64_t first, std::uint64_t count,
+                           std::span<double> bounds) const;
+
     /** Numbers in a record of the class's buffers; see buffers.cpp. */
     std::size_t geometry_record_size(std::size_t element_class) const;
     std::size_t field_record_size(std::size_t element_class, std::size_t field) const;
@@ -90,6 +98,7 @@ private:
     Coefficients element_field(std::size_t field, std::size_t time_step, Place place) const;
 
     const Conversion& conversion(const native::Space& space) const;
+    const DerivativeWeights& derivative_weights(const native::Space& space) const;
     /** Runs `read` with the file to itself; its errors become ours. */
     template <class Read> void read_file(Read read) const;
     api::Error error(elvis_result code, const std::string& what) const { return {code, m_path, what}; }
@@ -108,6 +117,7 @@ private:
     mutable BlockCache m_cache;
     mutable std::mutex m_conversions_mutex;
     mutable std::vector<std::pair<native::Space, std::unique_ptr<const Conversion>>> m_conversions;
+    mutable std::vector<std::pair<native::Space, std::unique_ptr<const DerivativeWeights>>> m_derivative_weights;
     /** Filled when faces are first asked for. */
     mutable std::unordered_map<std::int64_t, std::int64_t> m_positions;
 };

@@ -1,28 +1,11 @@
 // Smallest and largest of 7 x 7 x 7 samples of a field in each element: an estimate of its range, for plugins that give none.
 
+#include "library/expand.glsl"
 #include "library/finite.glsl"
 
 layout(local_size_x = 32) in;
 layout(set = 0, binding = 0, std430) writeonly buffer core_output { elvis_real core_ranges[]; };
 layout(push_constant) uniform core_parameters { uint core_first, core_n_elements, core_component; };
-
-// From the cube [-1,1]^3 into the shape.
-elvis_vec3 core_expand(elvis_vec3 eta) {
-    const elvis_real one = elvis_real(1);
-    const elvis_real half_one = elvis_real(0.5LF);
-    elvis_real x = eta.x, y = eta.y;
-    const elvis_real z = eta.z;
-#if ELVIS_SHAPE == ELVIS_SHAPE_PRISM
-    x = half_one * (one + x) * (one - z) - one;
-#elif ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
-    x = half_one * (one + x) * (one - z) - one;
-    y = half_one * (one + y) * (one - z) - one;
-#elif ELVIS_SHAPE == ELVIS_SHAPE_TETRAHEDRON
-    y = half_one * (one + y) * (one - z) - one;
-    x = half_one * (one + x) * (-y - z) - one;
-#endif
-    return elvis_vec3(x, y, z);
-}
 
 void main() {
     const uint index = gl_GlobalInvocationID.x;

@@ -28,10 +28,10 @@ class TestVolume {
 public:
     /**
      * Elements are the reference shape, moved by `centre` in every direction, with every geometry coefficient disturbed by up
-     * to `bend`. Element numbers run backwards.
+     * to `bend`. Element numbers run backwards. Fields are random, or the projection of `function` of xi where that is given.
      */
     TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field> fields, std::vector<double> times = {0.0},
-               double centre = 0, double bend = 0.02);
+               double centre = 0, double bend = 0.02, const std::function<double(const native::Point&)>& function = {});
     ~TestVolume();
     TestVolume(const TestVolume&) = delete;
     TestVolume& operator=(const TestVolume&) = delete;

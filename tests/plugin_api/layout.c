@@ -124,7 +124,7 @@ OFFSET(elvis_snippet, n_sources, 16);
 OFFSET(elvis_snippet, reserved, 20);
 OFFSET(elvis_snippet, sources, 24);
 
-SIZE(elvis_runtime, 160);
+SIZE(elvis_runtime, 168);
 OFFSET(elvis_runtime, struct_size, 0);
 OFFSET(elvis_runtime, reserved, 4);
 OFFSET(elvis_runtime, probe, 8);
@@ -146,6 +146,7 @@ OFFSET(elvis_runtime, get_field_ranges, 128);
 OFFSET(elvis_runtime, get_note, 136);
 OFFSET(elvis_runtime, evaluate_mapping, 144);
 OFFSET(elvis_runtime, evaluate_field, 152);
+OFFSET(elvis_runtime, get_field_derivative_bounds, 160);
 
 SIZE(elvis_source_info, 48);
 OFFSET(elvis_source_info, struct_size, 0);

@@ -102,6 +102,11 @@ public:
         std::fill(ranges.begin(), ranges.end(), static_cast<double>(ranges.size()));
         return ELVIS_CERTIFIED;
     }
+    elvis_certainty get_field_derivative_bounds(std::uint32_t, std::uint32_t, std::uint64_t, std::uint64_t,
+                                                std::span<double> bounds) {
+        std::fill(bounds.begin(), bounds.end(), 0.5 * static_cast<double>(bounds.size()));
+        return ELVIS_ESTIMATED;
+    }
 };
 
 class WorldSource : public api::ConverterSource {
@@ -154,6 +159,7 @@ TEST_CASE("the macro exports a complete descriptor") {
 TEST_CASE("optional functions are in the table exactly if the class has them") {
     CHECK(full.get_faces);
     CHECK(full.get_field_ranges);
+    CHECK(full.get_field_derivative_bounds);
     CHECK_FALSE(full.get_note);
     CHECK_FALSE(plain.get_faces);
     CHECK_FALSE(plain.get_element_numbers);
@@ -161,6 +167,7 @@ TEST_CASE("optional functions are in the table exactly if the class has them") {
     CHECK_FALSE(plain.get_field_ranges);
     CHECK_FALSE(plain.evaluate_mapping);
     CHECK_FALSE(plain.evaluate_field);
+    CHECK_FALSE(plain.get_field_derivative_bounds);
     const elvis_converter& converter = *api::converter_table<WorldSource>();
     CHECK_FALSE(converter.sample);
     CHECK(converter.sample_world);
@@ -295,4 +302,9 @@ TEST_CASE("spans have the size that the call implies") {
     CHECK(full.get_field_ranges(volume, 0, 0, 0, 3, ranges.data(), &certainty) == ELVIS_OK);
     CHECK(ranges[11] == 12); // three elements, two components, two ends
     CHECK(ranges[12] == 0);
+    std::array<double, 13> derivative_bounds{};
+    CHECK(full.get_field_derivative_bounds(volume, 0, 0, 0, 3, derivative_bounds.data(), &certainty) == ELVIS_OK);
+    CHECK(certainty == ELVIS_ESTIMATED);
+    CHECK(derivative_bounds[11] == 6); // three elements, two components, two numbers
+    CHECK(derivative_bounds[12] == 0);
 }

@@ -66,6 +66,11 @@ TEST_CASE("an honest volume is read as it is") {
     FieldRange range;
     CHECK(volume.field_ranges(0, 0, 0, 1, std::span(&range, 1)) == ELVIS_CERTIFIED);
     CHECK(range.lower == -1);
+    DerivativeBounds slope;
+    REQUIRE(volume.has_derivative_bounds());
+    CHECK(volume.derivative_bounds(0, 0, 0, 1, std::span(&slope, 1)) == ELVIS_CERTIFIED);
+    CHECK(slope.first == 1);
+    CHECK(slope.second == 0);
     CHECK_FALSE(volume.has_evaluation());
     CHECK_THAT(error_of([&] { (void)volume.field_index("y"); }), Contains("'y'") && Contains("x"));
 }
@@ -122,6 +127,15 @@ TEST_CASE("bounds, ranges, numbers and faces out of range are refused") {
         CHECK_THAT(error_of([&] { (void)open(name).field_ranges(0, 0, 0, 1, std::span(&range, 1)); }),
                    blames("get_field_ranges"));
     }
+    DerivativeBounds slope;
+    for (const char* name : {"negative-slope", "infinite-bend", "bend-certainty"}) {
+        INFO(name);
+        CHECK_THAT(error_of([&] { (void)open(name).derivative_bounds(0, 0, 0, 1, std::span(&slope, 1)); }),
+                   blames("get_field_derivative_bounds"));
+    }
+    // "Cannot tell" is an answer.
+    CHECK_NOTHROW((void)open("unknown-bend").derivative_bounds(0, 0, 0, 1, std::span(&slope, 1)));
+    CHECK(std::isnan(slope.second));
     std::int64_t number = 0;
     CHECK_THAT(error_of([&] { open("negative-number").element_numbers(0, 1, std::span(&number, 1)); }),
                blames("get_element_numbers"));

@@ -140,6 +140,8 @@ public:
     //   void evaluate_mapping(std::uint64_t element, std::span<const double> xi, double* positions, double* jacobians);
     //   void evaluate_field(std::uint32_t field, std::uint32_t time_step, std::uint64_t element, std::span<const double> xi,
     //                       double* values, double* gradients);
+    //   elvis_certainty get_field_derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+    //                                               std::uint64_t count, std::span<double> bounds);
 
 private:
     Host m_host;
@@ -327,6 +329,19 @@ template <class Volume> const elvis_runtime* runtime_table() {
                                   std::uint64_t n_points, const double* xi, double* values, double* gradients) {
                 return guard_on(self<Volume>(volume), [&](Volume& v) {
                     v.evaluate_field(field, time_step, element, std::span<const double>(xi, 3 * n_points), values, gradients);
+                });
+            };
+        }
+        if constexpr (requires { &Volume::get_field_derivative_bounds; }) {
+            t.get_field_derivative_bounds = [](elvis_volume* volume, std::uint32_t field, std::uint32_t time_step,
+                                               std::uint64_t first, std::uint64_t count, double* bounds,
+                                               elvis_certainty* certainty) {
+                return guard_on(self<Volume>(volume), [&](Volume& v) {
+                    auto info = elvis_field{};
+                    info.struct_size = sizeof info;
+                    v.get_field(field, info);
+                    *certainty = v.get_field_derivative_bounds(field, time_step, first, count,
+                                                               std::span<double>(bounds, 2 * count * info.n_components));
                 });
             };
         }

@@ -12,8 +12,8 @@
  * Life of a volume: probe -> open -> any number of other calls -> close. The host closes every volume it has opened.
  *
  * Threads: `probe` and `open` may be called from any thread, also at the same time for different files. On one volume, the host
- * makes one call at a time, from any thread, except that fill_buffer, get_bounds, get_field_ranges, evaluate_mapping and
- * evaluate_field may run at the same time as each other.
+ * makes one call at a time, from any thread, except that fill_buffer, get_bounds, get_field_ranges, evaluate_mapping,
+ * evaluate_field and get_field_derivative_bounds may run at the same time as each other.
  *
  * A function pointer marked optional may be NULL.
  *
@@ -272,6 +272,21 @@ typedef struct elvis_runtime {
      */
     elvis_result (*evaluate_field)(elvis_volume* volume, uint32_t field, uint32_t time_step, uint64_t element,
                                    uint64_t n_points, const double* xi, double* values, double* gradients);
+
+    /**
+     * Optional. How steep and how bent each component of a field is in each of the elements first .. first+count-1. Two numbers
+     * (L, H) a component, so 2 n_components an element: over the whole reference shape, boundary included,
+     *
+     *   L >= sum over i    of |d f / d xi_i|
+     *   H >= sum over i, j of |d^2 f / d xi_i d xi_j|    (all nine terms, so mixed ones twice)
+     *
+     * Each is finite and >= 0, or NaN where the plugin cannot tell: for that element and component, the host samples and says
+     * so. They hold for the field as the snippet evaluates it from coefficients that were rounded to single precision, too; the
+     * rounding of the evaluation itself is the host's affair. *certainty is about all numbers that are not NaN. Certified
+     * contours rest on them: the smaller H, the fewer pixels are subdivided.
+     */
+    elvis_result (*get_field_derivative_bounds)(elvis_volume* volume, uint32_t field, uint32_t time_step, uint64_t first,
+                                                uint64_t count, double* bounds, elvis_certainty* certainty);
 } elvis_runtime;
 
 #endif
