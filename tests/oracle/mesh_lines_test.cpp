@@ -95,8 +95,8 @@ TEST_CASE("a plane in faces shows their edges as mesh lines, and nothing else") 
     request.width = request.height = 100;
     request.camera.orthographic = true;
     request.camera.height = 1.2;
-    request.camera.eye = {0.503, 0.502, 3};
-    request.camera.look_at = {0.503, 0.502, 0};
+    request.camera.eye = {0.503, 0.5027, 3};
+    request.camera.look_at = {0.503, 0.5027, 0};
     request.camera.up = {0, 1, 0};
     Surface surface;
     surface.geometry = CutPlane{{0, 0, 1, -0.5}};
@@ -111,7 +111,7 @@ TEST_CASE("a plane in faces shows their edges as mesh lines, and nothing else") 
     std::size_t wrong = 0, marked = 0;
     for (std::uint32_t row = 0; row < 100; ++row) {
         for (std::uint32_t column = 0; column < 100; ++column) {
-            const double left = 0.503 - 0.6 + 0.012 * column, bottom = 0.502 + 0.6 - 0.012 * (row + 1);
+            const double left = 0.503 - 0.6 + 0.012 * column, bottom = 0.5027 + 0.6 - 0.012 * (row + 1);
             const double right = left + 0.012, top = bottom + 0.012;
             const bool touches = right >= 0 && left <= 1 && top >= 0 && bottom <= 1;
             const bool is_line = touches && (meets(left, right) || meets(bottom, top));
