@@ -22,7 +22,7 @@ struct Arguments {
     bool json = false;
 };
 
-nlohmann::ordered_json to_json(const CutPlaneResult& result) {
+nlohmann::ordered_json to_json(const SurfaceResult& result) {
     return {{"elements_a_side", result.elements_a_side},
             {"order", result.order},
             {"size", result.size},
@@ -31,6 +31,7 @@ nlohmann::ordered_json to_json(const CutPlaneResult& result) {
             {"ratio_to_prototype", result.ratio_to_prototype},
             {"evaluations_a_pixel", result.evaluations_a_pixel},
             {"newton_steps_a_pixel", result.newton_steps_a_pixel},
+            {"estimated_share", result.estimated_share},
             {"field_bytes", result.memory.field_bytes},
             {"geometry_bytes", result.memory.geometry_bytes},
             {"hierarchy_bytes", result.memory.hierarchy_bytes},
@@ -39,7 +40,7 @@ nlohmann::ordered_json to_json(const CutPlaneResult& result) {
             {"hierarchy_bytes_an_element", result.hierarchy_bytes_an_element}};
 }
 
-void print(const CutPlaneResult& result, double unit) {
+void print(const SurfaceResult& result, double unit) {
     std::printf("%2u^3  p%-2u %4u^2  %8.1f ms %9.3g U  %5.2f of the prototype   wall %7.1f ms   a pixel: %.2f values, %.2f "
                 "steps   bytes: field x %.2f, geometry x %.2f, hierarchy %.0f an element\n",
                 result.elements_a_side, result.order, result.size, result.milliseconds, 1e6 * result.milliseconds / unit,
@@ -63,7 +64,7 @@ void run(const Arguments& arguments) {
                         result.boxes_a_query);
         }
     }
-    if (all || arguments.suite == "unit" || arguments.suite == "cut-plane") {
+    if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary") {
         const PluginRegistry registry;
         const BenchFolder folder(arguments.data);
         const Device device(arguments.device);
@@ -74,16 +75,24 @@ void run(const Arguments& arguments) {
             std::printf("%s\nU = %.0f ns: eight values of an order-6 hexahedron on one core\n", device.summary().name.c_str(),
                         unit);
         }
-        if (arguments.suite != "unit") {
-            root["cut_plane"] = nlohmann::ordered_json::array();
-            bench_cut_plane(device, registry, folder, arguments.elements, arguments.orders, arguments.sizes, unit,
-                            [&](const CutPlaneResult& result) {
-                                root["cut_plane"].push_back(to_json(result));
-                                if (!arguments.json) {
-                                    print(result, unit);
-                                }
-                            });
-        }
+        const auto measure = [&](BenchView view, const char* suite, const char* key) {
+            if (!all && arguments.suite != suite) {
+                return;
+            }
+            root[key] = nlohmann::ordered_json::array();
+            if (!arguments.json) {
+                std::printf("%s\n", suite);
+            }
+            bench_surface(device, registry, folder, view, arguments.elements, arguments.orders, arguments.sizes, unit,
+                          [&](const SurfaceResult& result) {
+                              root[key].push_back(to_json(result));
+                              if (!arguments.json) {
+                                  print(result, unit);
+                              }
+                          });
+        };
+        measure(BenchView::cut_plane, "cut-plane", "cut_plane");
+        measure(BenchView::boundary, "boundary", "boundary");
     }
     if (arguments.json) {
         std::printf("%s\n", root.dump(2).c_str());
@@ -95,8 +104,8 @@ void run(const Arguments& arguments) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure speed and memory on scenes that anyone can repeat");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("suite", arguments->suite, "unit, cut-plane, hierarchy or all")
-        ->check(CLI::IsMember({"unit", "cut-plane", "hierarchy", "all"}))
+    command->add_option("suite", arguments->suite, "unit, cut-plane, boundary, hierarchy or all")
+        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");

@@ -25,7 +25,10 @@ struct UnitResult {
 };
 UnitResult bench_unit(const Device& device, const PluginRegistry& registry, const BenchFolder& folder);
 
-struct CutPlaneResult {
+/** What the picture shows: a plane through the volume, or its boundary. */
+enum class BenchView { cut_plane, boundary };
+
+struct SurfaceResult {
     std::uint32_t elements_a_side = 0;
     std::uint32_t order = 0;
     std::uint32_t size = 0;
@@ -35,6 +38,8 @@ struct CutPlaneResult {
     double ratio_to_prototype = 0;
     double evaluations_a_pixel = 0;
     double newton_steps_a_pixel = 0;
+    /** Of pixels in which something is seen. */
+    double estimated_share = 0;
     RendererMemory memory;
     /** On the device over what the coefficients alone take in single precision; bytes an element for the hierarchy. */
     double field_overhead = 0;
@@ -42,10 +47,10 @@ struct CutPlaneResult {
     double hierarchy_bytes_an_element = 0;
 };
 /** Calls `report` after each scene. */
-void bench_cut_plane(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
-                     const std::vector<std::uint32_t>& elements_a_side, const std::vector<std::uint32_t>& orders,
-                     const std::vector<std::uint32_t>& sizes, double unit_nanoseconds,
-                     const std::function<void(const CutPlaneResult&)>& report);
+void bench_surface(const Device& device, const PluginRegistry& registry, const BenchFolder& folder, BenchView view,
+                   const std::vector<std::uint32_t>& elements_a_side, const std::vector<std::uint32_t>& orders,
+                   const std::vector<std::uint32_t>& sizes, double unit_nanoseconds,
+                   const std::function<void(const SurfaceResult&)>& report);
 
 struct HierarchyResult {
     std::uint64_t n_items = 0;

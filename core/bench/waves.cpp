@@ -65,4 +65,10 @@ FrameRequest waves_cut_plane(std::uint32_t size) {
     return request;
 }
 
+FrameRequest waves_boundary(std::uint32_t size) {
+    FrameRequest request = waves_cut_plane(size);
+    request.surfaces[0].geometry = BoundaryFaces{};
+    return request;
+}
+
 } // namespace elvis

@@ -36,5 +36,7 @@ RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& fo
 
 /** Its picture: eye (2.9, 2.3, 1.7), 40 degrees, cut by the plane through n = unit(0.3, 0.25, 1) at n.x = 0.05. */
 FrameRequest waves_cut_plane(std::uint32_t size);
+/** The same view of the whole boundary. */
+FrameRequest waves_boundary(std::uint32_t size);
 
 } // namespace elvis

@@ -8,90 +8,155 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_width = 32;
-/** Pixels of one dispatch: bounds its time. */
+constexpr std::uint32_t tile_height = 16;
+/** Words of a tile's list: shaders/library/face_tiles.glsl. */
+constexpr std::uint32_t tile_stride = 64;
+constexpr std::uint32_t group_size = 32;
+/** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
+/** Those of the careful kernel: each may take a hundred times as long. */
+constexpr std::uint32_t careful_pixels_a_dispatch = 1u << 15;
+/** Evaluations, steps, failures; pixels left to the careful kernel, and tiles with inner nodes. */
+constexpr std::size_t n_counts = n_pass_counts + 2;
+
+struct TilesParameters {
+    std::uint32_t tiles_a_row, n_tiles;
+};
 
 struct Parameters {
     std::uint32_t width, height;
-    std::uint32_t first_row;
+    std::uint32_t tiles_a_row;
+    std::uint32_t first;
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
     std::uint32_t is_discontinuous;
+    std::uint32_t has_beyond;
 };
 
-/** Patches along each side of a face that Newton's method starts from: one where the mapping is affine. */
-int patches(const ClassInfo& info) {
-    const bool is_straight = info.geometry_order[0] == 1 && info.geometry_order[1] == 1 && info.geometry_order[2] <= 1;
-    const bool is_simplex = info.shape == ELVIS_SHAPE_TRIANGLE || info.shape == ELVIS_SHAPE_TETRAHEDRON;
-    return !is_straight ? 4 : is_simplex ? 1 : 2;
-}
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
 
-/** Those of the class, with the faces' hierarchy in place of the elements'. */
-std::vector<FetchBuffer> host_buffers(const DeviceVolume& data, const FaceSet* faces, std::uint32_t element_class) {
-    std::vector<FetchBuffer> buffers = data.host_buffers(element_class);
-    if (faces != nullptr) {
-        for (FetchBuffer& buffer : buffers) {
-            if (buffer.name == "core_nodes") {
-                buffer.records = faces->nodes(element_class);
-            }
-        }
-        buffers.push_back({"core_faces", faces->faces(element_class)});
+/** Makes the buffer anew if it is of another size. */
+Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::uint64_t bytes) {
+    if (!buffer || buffer->bytes() != bytes) {
+        buffer.reset();
+        buffer.emplace(device, bytes);
     }
-    return buffers;
+    return *buffer;
 }
 
 } // namespace
 
-FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces)
-    : m_precision(data.precision()), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
+const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draws what) {
+    std::unique_ptr<ComposedKernel>& kernel = drawing[static_cast<std::size_t>(what)];
+    if (!kernel) {
+        KernelRequest own = request;
+        const bool is_careful = what == Draws::careful;
+        own.kernel = is_careful ? "kernels/faces_careful.comp" : "kernels/faces.comp";
+        own.name = std::string(is_careful ? "faces_careful" : "faces") + " of element class " + std::to_string(element_class);
+        own.defines.emplace_back("CORE_DESCENDS", what == Draws::deep_pixels ? "1" : "0");
+        kernel = std::make_unique<ComposedKernel>(device, own);
+    }
+    return *kernel;
+}
+
+FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet& faces)
+    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
-        const ClassInfo& info = volume.classes()[index];
-        if (info.n_elements == 0 || (faces != nullptr && faces->nodes(index) == nullptr)) {
+        const FaceSet::ClassFaces& own = faces.of_class(index);
+        if (own.n_faces == 0) {
             continue;
         }
+        ClassKernels kernels;
         KernelRequest request;
-        request.name = "faces of element class " + std::to_string(index);
-        request.kernel = "kernels/faces.comp";
         request.precision = m_precision;
+        request.buffers = {{"core_nodes", own.nodes.get()}};
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
+        request.name = "face_tiles";
+        request.kernel = "kernels/face_tiles.comp";
+        request.bindings = {
+            {0, BindingType::uniform_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(TilesParameters);
+        kernels.tiles = std::make_unique<ComposedKernel>(device, request);
+
         request.instances = {data.instance(index)};
-        request.buffers = host_buffers(data, faces, index);
-        request.defines = {{"CORE_PATCHES", std::to_string(patches(info))}};
-        request.bindings = {{0, BindingType::uniform_buffer},
-                            {1, BindingType::storage_buffer},
-                            {2, BindingType::storage_buffer},
-                            {3, BindingType::storage_buffer},
-                            {4, BindingType::storage_buffer}};
+        request.buffers = {{"core_nodes", own.nodes.get()},
+                           {"core_faces", own.faces.get()},
+                           {"core_patches", own.patches.get()},
+                           {"core_face_points", own.points.get()}};
+        if (own.is_polynomial) {
+            request.defines.emplace_back("CORE_FACE_ORDER", std::to_string(own.order));
+        }
+        for (std::uint32_t binding = 3; binding <= 7; ++binding) {
+            request.bindings.push_back({binding, BindingType::storage_buffer});
+        }
         request.push_constant_bytes = sizeof(Parameters);
-        m_kernels.push_back(std::make_unique<ComposedKernel>(device, request));
+        kernels.request = request;
+        kernels.element_class = index;
+        kernels.provide(m_device, Draws::pixels);
+        m_kernels.push_back(std::move(kernels));
     }
 }
 
 void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const ShownComponent& component,
                     const LayerTarget& target, FrameCounts& counts) {
+    const Layer& layer = target.layer;
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
+    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
+    const std::uint32_t n_tiles = tiles_a_row * tile_rows;
+    const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+    const Buffer& list = provide(m_list, m_device, std::uint64_t{layer.width} * layer.height * sizeof(std::uint32_t));
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
-    m_counts.fill(0);
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / target.layer.width);
-    const std::array<const Buffer*, 5> bindings = {&m_frame, &target.layer.samples, &target.layer.normals, &m_counts, &target.layer.marks};
+    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
+    // The last one is not read without depths: anything of reals.
+    const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
+    const std::array<const Buffer*, 8> bindings = {&m_frame,     &layer.samples, &layer.normals, &m_counts,
+                                                   &layer.marks, &tiles,         &list,          &beyond};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
-        for (std::uint32_t first_row = 0; first_row < target.layer.height; first_row += rows_a_dispatch) {
-            const Parameters parameters{target.layer.width,
-                                        target.layer.height,
-                                        first_row,
-                                        first_surface + index,
-                                        component.first(),
-                                        component.end(),
-                                        component.is_discontinuous ? 1u : 0u};
-            m_kernels[index]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                                       (target.layer.width + group_width - 1) / group_width,
-                                       std::min(rows_a_dispatch, target.layer.height - first_row));
+        ClassKernels& kernels = m_kernels[index];
+        m_counts.fill(0);
+        const TilesParameters of_tiles{tiles_a_row, n_tiles};
+        const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &tiles, &m_counts};
+        kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));
+        Parameters parameters{layer.width,
+                              layer.height,
+                              tiles_a_row,
+                              0,
+                              first_surface + index,
+                              component.first(),
+                              component.end(),
+                              component.is_discontinuous ? 1u : 0u,
+                              target.beyond ? 1u : 0u};
+        const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts + 1];
+        const auto draw_tiles = [&](Draws what) {
+            const ComposedKernel& kernel = kernels.provide(m_device, what);
+            for (std::uint32_t row = 0; row < tile_rows; row += rows_a_dispatch) {
+                parameters.first = row;
+                kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
+                                std::min(rows_a_dispatch, tile_rows - row));
+            }
+        };
+        if (n_deep_tiles < n_tiles) {
+            draw_tiles(Draws::pixels);
         }
+        if (n_deep_tiles > 0) {
+            draw_tiles(Draws::deep_pixels);
+        }
+        const std::uint32_t n_careful = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts];
+        for (std::uint32_t first = 0; first < n_careful; first += careful_pixels_a_dispatch) {
+            parameters.first = first;
+            kernels.provide(m_device, Draws::careful)
+                .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                          divided_up(std::min(careful_pixels_a_dispatch, n_careful - first), group_size));
+        }
+        const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+        counts.field_evaluations += found[0];
+        counts.newton_iterations += found[1];
+        counts.newton_failures += found[2];
+        counts.careful_pixels += n_careful;
     }
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
-    counts.field_evaluations += found[0];
-    counts.newton_iterations += found[1];
-    counts.newton_failures += found[2];
 }
 
 } // namespace elvis

@@ -10,28 +10,47 @@
 #include <core/volume/device_volume.hpp>
 #include <core/volume/face_set.hpp>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace elvis {
 
-/** The kernels of one volume and field, one for each element class. Compiled when constructed. */
+/** The kernels of one volume and field, for each element class. Most are compiled when constructed. */
 class FacePass {
 public:
-    /** `faces`: null for the elements of a two-dimensional volume. */
-    FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces);
+    /** `faces` must outlive it, too. */
+    FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet& faces);
 
     /**
-     * Draws the faces; each class is a surface of its own, numbered from `first_surface`. `view` is the geometry of any plane: only its rays matter.
+     * Draws the faces; each class is a surface of its own, numbered from `first_surface`. `view` is the geometry of any plane:
+     * only its rays matter. With `target.beyond`, the nearest crossings behind those depths by more than rounding.
      */
     void draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const ShownComponent& component,
               const LayerTarget& target, FrameCounts& counts);
 
 private:
+    /** Tiles of pixels; those that many faces may touch; pixels near silhouettes. */
+    enum class Draws { pixels, deep_pixels, careful };
+    struct ClassKernels {
+        std::unique_ptr<ComposedKernel> tiles;
+        /** Compiled when first needed. */
+        std::array<std::unique_ptr<ComposedKernel>, 3> drawing;
+        KernelRequest request;
+        std::uint32_t element_class = 0;
+
+        const ComposedKernel& provide(const Device& device, Draws what);
+    };
+
+    const Device& m_device;
     Precision m_precision;
-    std::vector<std::unique_ptr<ComposedKernel>> m_kernels;
+    std::uint32_t m_tile_width;
+    std::vector<ClassKernels> m_kernels;
     Buffer m_frame;
     Buffer m_counts;
+    /** Kept from frame to frame. */
+    std::optional<Buffer> m_tiles, m_list;
 };
 
 } // namespace elvis

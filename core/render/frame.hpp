@@ -66,6 +66,8 @@ struct FrameCounts {
     std::uint64_t undecided_pixels = 0;
     std::uint64_t nan_pixels = 0;
     std::uint64_t work_limit_pixels = 0;
+    /** Pixels near silhouettes of faces, which take more than Newton's method. */
+    std::uint64_t careful_pixels = 0;
     /** Pixels of faces where a crossing could be missed. */
     std::uint64_t estimated_pixels = 0;
     std::uint64_t contour_pixels = 0;

@@ -51,6 +51,21 @@ struct SurfaceFacts {
     std::optional<Vector3> normal;
 };
 
+/** The geometries that are sets of faces. */
+using FaceGeometry = std::variant<BoundaryFaces, FlatElements>;
+
+std::optional<FaceGeometry> face_geometry(const Surface& surface) {
+    return std::visit(
+        [](const auto& geometry) -> std::optional<FaceGeometry> {
+            if constexpr (std::is_constructible_v<FaceGeometry, decltype(geometry)>) {
+                return geometry;
+            } else {
+                return std::nullopt;
+            }
+        },
+        surface.geometry);
+}
+
 /** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
 constexpr std::uint32_t max_rounds = 64;
 
@@ -65,10 +80,10 @@ struct Renderer::Impl {
     ColorPass color_pass;
     MergePass merge_pass;
     std::optional<CutPlanePass> cut_planes, cut_planes_with_lines;
-    /** By the groups asked for; the passes are of the selected field. */
-    std::map<std::vector<std::string>, FaceSet> face_sets;
-    std::map<std::vector<std::string>, FacePass> boundaries;
-    std::optional<FacePass> flat_elements;
+    /** The passes are of the selected field, the sets of the geometry that has this version. */
+    std::map<FaceGeometry, FaceSet> face_sets;
+    std::map<FaceGeometry, FacePass> face_passes;
+    std::uint64_t faces_version = 0;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::vector<FieldRange>, elvis_certainty>> ranges;
     std::optional<FieldChoice> selected;
     std::uint32_t selected_step = 0;
@@ -88,11 +103,13 @@ struct Renderer::Impl {
     void check(const FrameRequest& request) const;
     void provide_passes(const Surface& surface);
     CutPlanePass& cut_plane_pass(bool with_lines);
-    FacePass& boundary(const BoundaryFaces& faces);
+    FacePass& face_pass(const FaceGeometry& faces);
+    std::vector<ElementFace> chosen_faces(const FaceGeometry& faces) const;
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
                       std::vector<SurfaceFacts>& facts);
     void draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target, FrameCounts& counts);
-    template <class Real> void read(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) const;
+    template <class Real>
+    void read(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) const;
     CutPlaneGeometry view(const FrameRequest& request, const Surface& surface) const;
     /** What the surface's field lacks on the device. */
     double offset_of(const Surface& surface) const {
@@ -130,14 +147,28 @@ CutPlanePass& Renderer::Impl::cut_plane_pass(bool with_lines) {
     return *pass;
 }
 
-FacePass& Renderer::Impl::boundary(const BoundaryFaces& faces) {
-    auto found = boundaries.find(faces.groups);
-    if (found == boundaries.end()) {
-        const auto [set, is_new] =
-            face_sets.try_emplace(faces.groups, device, volume, precision, data.centre(), faces.groups, control);
-        found = boundaries.try_emplace(faces.groups, device, volume, data, &set->second).first;
+FacePass& Renderer::Impl::face_pass(const FaceGeometry& faces) {
+    if (data.geometry_version() != faces_version) {
+        face_passes.clear();
+        face_sets.clear();
+        faces_version = data.geometry_version();
+    }
+    auto found = face_passes.find(faces);
+    if (found == face_passes.end()) {
+        auto set = face_sets.find(faces);
+        if (set == face_sets.end()) {
+            set = face_sets.try_emplace(faces, device, volume, data, chosen_faces(faces), control).first;
+        }
+        found = face_passes.try_emplace(faces, device, volume, data, set->second).first;
     }
     return found->second;
+}
+
+std::vector<ElementFace> Renderer::Impl::chosen_faces(const FaceGeometry& faces) const {
+    if (const auto* boundary = std::get_if<BoundaryFaces>(&faces)) {
+        return boundary_faces(volume, boundary->groups, control);
+    }
+    return surface_elements(volume);
 }
 
 /** Compiles what the surface needs and is not there yet. */
@@ -145,10 +176,8 @@ void Renderer::Impl::provide_passes(const Surface& surface) {
     const Clock::time_point start = Clock::now();
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         cut_plane_pass(surface.has_lines());
-    } else if (const auto* faces = std::get_if<BoundaryFaces>(&surface.geometry)) {
-        boundary(*faces);
-    } else if (std::holds_alternative<FlatElements>(surface.geometry) && !flat_elements) {
-        flat_elements.emplace(device, volume, data, nullptr);
+    } else {
+        face_pass(*face_geometry(surface));
     }
     times.compile_milliseconds += milliseconds_since(start);
 }
@@ -192,8 +221,7 @@ void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
     times.upload_milliseconds = data.upload_milliseconds();
     cut_planes.reset();
     cut_planes_with_lines.reset();
-    boundaries.clear();
-    flat_elements.reset();
+    face_passes.clear();
     selected = field;
     selected_step = time_step;
 }
@@ -236,10 +264,8 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         const double offset = offset_of(surface);
         cut_plane_pass(surface.has_lines()).draw(rays, first, component, line_request(surface, offset), target, counts);
-    } else if (const auto* faces = std::get_if<BoundaryFaces>(&surface.geometry)) {
-        boundary(*faces).draw(rays, first, component, target, counts);
     } else {
-        flat_elements->draw(rays, first, component, target, counts);
+        face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
     }
 }
 
@@ -257,11 +283,10 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
         layer->marks.fill(0);
         draw_geometry(request, surface, {*layer, beyond}, frame.counts);
         color_pass.draw(*layer, surface, rays, is_alone ? request.background : Color{}, offset, common_flags);
-        n_wanted = is_alone ? 0
-                            : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane,
-                                               surface.is_see_through());
-        // A plane is met once; faces do not yet look beyond the nearest.
-        n_wanted = 0;
+        n_wanted =
+            is_alone ? 0 : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane, surface.is_see_through());
+        // A plane is met once.
+        n_wanted = is_plane ? 0 : n_wanted;
         beyond = &merge_pass.beyond();
     }
     frame.counts.work_limit_pixels += n_wanted;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -45,10 +46,14 @@ struct CutPlane {
 /** Faces without neighbour: those of the named boundary groups, or all if there are none. */
 struct BoundaryFaces {
     std::vector<std::string> groups;
+
+    auto operator<=>(const BoundaryFaces&) const = default;
 };
 
 /** The elements of a two-dimensional volume. */
-struct FlatElements {};
+struct FlatElements {
+    auto operator<=>(const FlatElements&) const = default;
+};
 
 using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements>;
 

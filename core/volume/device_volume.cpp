@@ -128,6 +128,7 @@ bool DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const st
             }
         }
         m_has_elements = true;
+        ++m_geometry_version;
     }
     m_upload_milliseconds = is_changed ? milliseconds_since(start) : m_upload_milliseconds;
     return is_changed;
@@ -170,6 +171,18 @@ void DeviceVolume::fill(std::uint32_t index, PluginBuffer& buffer) {
     }
 }
 
+std::array<double, 3> DeviceVolume::origin(std::uint64_t element) const {
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        const ClassInfo& info = m_volume.classes()[index];
+        if (element < info.first_element + info.n_elements) {
+            return m_classes[index].origins
+                       ? std::array{m_origins[3 * element], m_origins[3 * element + 1], m_origins[3 * element + 2]}
+                       : std::array{0.0, 0.0, 0.0};
+        }
+    }
+    return {};
+}
+
 SnippetInstance DeviceVolume::instance(std::uint32_t element_class) const {
     SnippetInstance instance;
     instance.snippet = m_classes[element_class].snippet;
@@ -192,9 +205,8 @@ std::vector<FetchBuffer> DeviceVolume::host_buffers(std::uint32_t element_class)
 void DeviceVolume::provide_derivative_bounds() {
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         if (!m_classes[index].derivative_bounds && m_volume.classes()[index].n_elements > 0) {
-            m_classes[index].derivative_bounds =
-                make_derivative_bounds(m_device, m_volume, index, {m_field, m_time_step, m_offset}, instance(index), m_precision,
-                                       m_control);
+            m_classes[index].derivative_bounds = make_derivative_bounds(
+                m_device, m_volume, index, {m_field, m_time_step, m_offset}, instance(index), m_precision, m_control);
         }
     }
 }

@@ -26,6 +26,10 @@ public:
     /** What the hierarchies' bounds are relative to; exact in single precision. */
     const std::array<double, 3>& centre() const { return m_centre; }
     Precision precision() const { return m_precision; }
+    /** What the snippet's positions in an element are relative to; zero where they are the world's. */
+    std::array<double, 3> origin(std::uint64_t element) const;
+    /** Changes whenever select() has given the elements another shape. */
+    std::uint64_t geometry_version() const { return m_geometry_version; }
 
     /**
      * Fills what depends on these and is not there yet. The field on the device lacks `offset` (one number a component), if the
@@ -95,6 +99,7 @@ private:
     std::uint32_t m_field = 0;
     std::uint32_t m_time_step = 0;
     bool m_has_elements = false;
+    std::uint64_t m_geometry_version = 0;
     double m_upload_milliseconds = 0;
     double m_hierarchy_milliseconds = 0;
 };

@@ -1,44 +1,51 @@
 /**
  * @file face_set.hpp
- * Boundary faces on the device: what rays descend through to meet them.
+ * Faces of elements on the device: their polynomials, patches, and the hierarchies that rays descend through to meet them.
  */
 #pragma once
 
 #include <core/base/cancel.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
+#include <core/volume/device_volume.hpp>
+#include <core/volume/element_faces.hpp>
 #include <core/vulkan/buffer.hpp>
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <span>
 #include <vector>
 
 namespace elvis {
 
-/** The faces of a volume that have no neighbour, by element class. */
+/** Chosen faces of one volume, by element class. Belongs to the geometry that `data` held (DeviceVolume::geometry_version). */
 class FaceSet {
 public:
-    /**
-     * Faces of the named boundary groups, of all if there are none; an unknown name is an error. A face counts as boundary if
-     * it has no neighbour. `centre`: what the hierarchies' bounds are relative to. Faces are boxed by their element's certified
-     * bounds.
-     */
-    FaceSet(const Device& device, const RuntimeVolume& volume, Precision precision, const std::array<double, 3>& centre,
-            const std::vector<std::string>& groups, const TaskControl* control);
+    /** `faces`: in the order of elements. A field must be selected in `data`. */
+    FaceSet(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, std::span<const ElementFace> faces,
+            const TaskControl* control);
 
-    /** Nodes of the class's hierarchy over faces; null if it has none. */
-    const RecordBuffer* nodes(std::uint32_t element_class) const { return m_classes[element_class].nodes.get(); }
-    /** Of each face: local element, local face, two unused. */
-    const RecordBuffer* faces(std::uint32_t element_class) const { return m_classes[element_class].faces.get(); }
+    struct ClassFaces {
+        std::uint64_t n_faces = 0, n_patches = 0;
+        /** Order of the faces' polynomials. */
+        int order = 0;
+        /** They are the faces, but for rounding. Otherwise they only tell where to look. */
+        bool is_polynomial = true;
+        /** Hierarchy over patches. */
+        std::unique_ptr<RecordBuffer> nodes;
+        /** Of each face: local element, local face, number, and the polynomial's misfit as a float. */
+        std::unique_ptr<RecordBuffer> faces;
+        /** shaders/library/face_patch.glsl */
+        std::unique_ptr<RecordBuffer> patches;
+        /** shaders/library/face_point.glsl */
+        std::unique_ptr<RecordBuffer> points;
+    };
+    /** Without faces, all pointers are null. */
+    const ClassFaces& of_class(std::uint32_t element_class) const { return m_classes[element_class]; }
     std::uint64_t n_faces() const { return m_n_faces; }
+    std::uint64_t bytes() const;
 
 private:
-    struct ClassFaces {
-        std::unique_ptr<RecordBuffer> nodes;
-        std::unique_ptr<RecordBuffer> faces;
-    };
     std::vector<ClassFaces> m_classes;
     std::uint64_t m_n_faces = 0;
 };
