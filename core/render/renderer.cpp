@@ -7,6 +7,7 @@
 #include <core/render/layer.hpp>
 #include <core/render/merge_pass.hpp>
 #include <core/render/renderer.hpp>
+#include <core/render/surface_pass.hpp>
 
 #include <core/base/error.hpp>
 
@@ -69,6 +70,9 @@ struct Renderer::Impl {
     std::map<std::vector<std::string>, FaceSet> face_sets;
     std::map<std::vector<std::string>, FacePass> boundaries;
     std::optional<FacePass> flat_elements;
+    std::optional<SurfacePass> cut_shapes;
+    /** By solver_key(); of no field. */
+    std::map<std::string, SurfaceSolver> solvers;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::vector<FieldRange>, elvis_certainty>> ranges;
     std::optional<FieldChoice> selected;
     std::uint32_t selected_step = 0;
@@ -149,6 +153,11 @@ void Renderer::Impl::provide_passes(const Surface& surface) {
         boundary(*faces);
     } else if (std::holds_alternative<FlatElements>(surface.geometry) && !flat_elements) {
         flat_elements.emplace(device, volume, data, nullptr);
+    } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+        if (!cut_shapes) {
+            cut_shapes.emplace(device, volume, data);
+        }
+        solvers.try_emplace(solver_key(*shape), device, precision, *shape);
     }
     times.compile_milliseconds += milliseconds_since(start);
 }
@@ -194,6 +203,7 @@ void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
     cut_planes_with_lines.reset();
     boundaries.clear();
     flat_elements.reset();
+    cut_shapes.reset();
     selected = field;
     selected_step = time_step;
 }
@@ -238,6 +248,8 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
         cut_plane_pass(surface.has_lines()).draw(rays, first, component, line_request(surface, offset), target, counts);
     } else if (const auto* faces = std::get_if<BoundaryFaces>(&surface.geometry)) {
         boundary(*faces).draw(rays, first, component, target, counts);
+    } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+        cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, target, counts);
     } else {
         flat_elements->draw(rays, first, component, target, counts);
     }
@@ -261,7 +273,7 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
                             : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane,
                                                surface.is_see_through());
         // A plane is met once; faces do not yet look beyond the nearest.
-        n_wanted = 0;
+        n_wanted = std::holds_alternative<CutShape>(surface.geometry) ? n_wanted : 0;
         beyond = &merge_pass.beyond();
     }
     frame.counts.work_limit_pixels += n_wanted;

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/surface/shape.hpp>
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -50,7 +52,7 @@ struct BoundaryFaces {
 /** The elements of a two-dimensional volume. */
 struct FlatElements {};
 
-using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements>;
+using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements, CutShape>;
 
 /** How lines on a surface are drawn. */
 struct LineStyle {

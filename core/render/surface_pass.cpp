@@ -91,7 +91,7 @@ void SurfacePass::provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles,
     provide(m_device, m_tiles, n_tiles * tile_stride * sizeof(std::uint32_t));
 }
 
-void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, std::uint32_t surface,
+void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
                        const ShownComponent& component, const LayerTarget& target, FrameCounts& counts) {
     const std::uint32_t width = target.layer.width, height = target.layer.height;
     const std::uint32_t tile_width = surface_tile_width(m_device);
@@ -100,7 +100,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     provide_buffers(std::uint64_t{width} * height, std::uint64_t{tiles_a_row} * tile_rows, solver.n_parts());
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     const double most_error = most_error_along_ray * diagonal_of(m_data.bounds());
-    solver.begin(view, m_data.bounds(), most_error);
+    solver.begin(shape, view, m_data.bounds(), most_error);
     m_counts.fill(0);
 
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * tile_width * surface_tile_height));

@@ -25,15 +25,15 @@ public:
     SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
     /**
-     * Draws one surface as number `surface`, at least 1; adds to the counts. `view` is the geometry of any plane of the
-     * picture: only its rays matter.
+     * Draws one surface, whose solver this is, as number `surface`, at least 1; adds to the counts. `view` is the geometry of
+     * any plane of the picture: only its rays matter.
      */
-    void draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, std::uint32_t surface, const ShownComponent& component,
-              const LayerTarget& target, FrameCounts& counts);
+    void draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
+              const ShownComponent& component, const LayerTarget& target, FrameCounts& counts);
 
     /**
-     * A number for each pixel that shows the surface drawn last: an upper bound of the surface's normal curvatures there, without
-     * sign; 3e38 where none is known.
+     * A number for each pixel that shows the surface drawn last: an upper bound of the surface's normal curvatures there,
+     * without sign; 3e38 where none is known.
      */
     const Buffer& bending() const { return *m_bending; }
 

@@ -25,8 +25,10 @@ SolverKind kind_of(const std::string& solver) {
 
 std::uint32_t surface_tile_width(const Device& device) { return std::clamp(device.subgroup_size(), 8u, 64u); }
 
+std::string solver_key(const CutShape& shape) { return shape_solver(shape); }
+
 SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const CutShape& shape)
-    : m_device(device), m_precision(precision), m_shape(shape) {
+    : m_device(device), m_precision(precision) {
     const ShapeFrame frame = shape_frame(shape, {});
     m_n_rows = 2 + static_cast<std::uint32_t>(frame.rows.size());
     m_rows.emplace(device, m_n_rows * 4 * real_bytes(precision), Buffer::Use::uniform);
@@ -49,10 +51,11 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
     m_kernel = std::make_unique<ComposedKernel>(device, request);
 }
 
-void SurfaceSolver::begin(const CutPlaneGeometry& view, const std::array<double, 6>& bounds, double most_error) const {
+void SurfaceSolver::begin(const CutShape& shape, const CutPlaneGeometry& view, const std::array<double, 6>& bounds,
+                          double most_error) const {
     const std::array<double, 4>& at = view.rows[6];
     const Vector3 reference = {at[0], at[1], at[2]};
-    const ShapeFrame frame = shape_frame(m_shape, reference);
+    const ShapeFrame frame = shape_frame(shape, reference);
     std::vector<std::array<double, 4>> rows = {
         {bounds[0] - reference[0], bounds[1] - reference[1], bounds[2] - reference[2], most_error},
         {bounds[3] - reference[0], bounds[4] - reference[1], bounds[5] - reference[2], 0}};

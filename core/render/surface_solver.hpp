@@ -19,7 +19,13 @@ inline constexpr std::uint32_t surface_tile_height = 16;
 /** Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes. */
 std::uint32_t surface_tile_width(const Device& device);
 
-/** The kernel of one surface and what it reads. Compiled when constructed; independent of volume and field. */
+/** The same for shapes that one solver serves. */
+std::string solver_key(const CutShape& shape);
+
+/**
+ * The kernel of one kind of surface and what it reads: good for all shapes with the same solver_key(). Compiled when
+ * constructed; independent of volume and field.
+ */
 class SurfaceSolver {
 public:
     SurfaceSolver(const Device& device, Precision precision, const CutShape& shape);
@@ -28,10 +34,11 @@ public:
     std::uint32_t n_parts() const { return surface_tile_height / m_hit_rows; }
 
     /**
-     * Prepares a picture. `bounds`: min x y z, max x y z; crossings are looked for in this box. `most_error`: error of a
-     * crossing along the ray, in world length, from which on its pixel is undecided.
+     * Prepares a picture of a shape with the solver's key. `bounds`: min x y z, max x y z; crossings are looked for in this
+     * box. `most_error`: error of a crossing along the ray, in world length, from which on its pixel is undecided.
      */
-    void begin(const CutPlaneGeometry& view, const std::array<double, 6>& bounds, double most_error) const;
+    void begin(const CutShape& shape, const CutPlaneGeometry& view, const std::array<double, 6>& bounds,
+               double most_error) const;
 
     /** Looks for the crossings of some rows of tiles. `buffers`: bindings 2 to 8 of kernels/surface_hits.comp. */
     void find(const Buffer& frame, std::span<const Buffer* const> buffers, std::span<const std::byte> parameters,
@@ -40,7 +47,6 @@ public:
 private:
     const Device& m_device;
     Precision m_precision;
-    CutShape m_shape;
     std::uint32_t m_hit_rows = surface_tile_height;
     std::uint32_t m_n_rows = 0;
     std::optional<Buffer> m_rows;

@@ -15,6 +15,8 @@ using Vector3 = std::array<double, 3>;
 struct Sphere {
     Vector3 center{};
     double radius = 1; ///< > 0
+
+    bool operator==(const Sphere&) const = default;
 };
 
 /** Round, from one end to the other. Without caps it is a pipe that is open at both ends. */

@@ -162,9 +162,7 @@ std::vector<std::array<double, 4>> torus_rows(const Torus& torus, const Vector& 
             row(rounded, 0), row(center - rounded, 0)};
 }
 
-bool has_ends(const CutShape& shape) {
-    return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape);
-}
+bool has_ends(const CutShape& shape) { return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape); }
 
 /** Of a ball. */
 std::array<double, 6> box_of(const Vector3& center, double radius) {

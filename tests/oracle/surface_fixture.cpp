@@ -56,8 +56,8 @@ SurfaceScene::SurfaceScene(const std::string& path, Precision precision)
     m_pass.emplace(surface_device(), m_volume, m_data);
 }
 
-SurfacePicture SurfaceScene::draw(const SurfaceSolver& solver, const Camera& camera, std::uint32_t width, std::uint32_t height,
-                                  const std::vector<double>& beyond) {
+SurfacePicture SurfaceScene::draw(const SurfaceSolver& solver, const CutShape& shape, const Camera& camera, std::uint32_t width,
+                                  std::uint32_t height, const std::vector<double>& beyond) {
     const std::size_t n = std::size_t{width} * height;
     const Device& device = surface_device();
     const Layer layer(device, m_precision, width, height);
@@ -77,8 +77,7 @@ SurfacePicture SurfaceScene::draw(const SurfaceSolver& solver, const Camera& cam
     picture.flags.assign(n, 0);
     const CutPlaneGeometry view =
         cut_plane_geometry(plane_across(camera, m_data.bounds()), camera, width, height, m_data.centre());
-    m_pass->draw(view, solver, 1, {0, 1, false},
-                 {layer, behind ? &*behind : nullptr}, picture.counts);
+    m_pass->draw(view, solver, shape, 1, {0, 1, false}, {layer, behind ? &*behind : nullptr}, picture.counts);
     const auto read_marks = layer.marks.read_items<Mark>(n);
     if (m_precision == Precision::float64)
         read<double>(layer.samples, layer.normals, m_pass->bending(), read_marks, picture);

@@ -34,8 +34,8 @@ public:
     SurfaceScene(const std::string& path, Precision precision);
 
     /** `beyond`: a depth a pixel, or empty. */
-    SurfacePicture draw(const SurfaceSolver& solver, const Camera& camera, std::uint32_t width, std::uint32_t height,
-                        const std::vector<double>& beyond = {});
+    SurfacePicture draw(const SurfaceSolver& solver, const CutShape& shape, const Camera& camera, std::uint32_t width,
+                        std::uint32_t height, const std::vector<double>& beyond = {});
     const DeviceVolume& data() const { return m_data; }
     Precision precision() const { return m_precision; }
 

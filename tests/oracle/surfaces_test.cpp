@@ -82,7 +82,7 @@ void check(const std::vector<Case>& cases) {
         const bool is_single = precision == Precision::float32;
         for (const Case& one : cases) {
             const SurfaceSolver solver(surface_device(), precision, one.shape);
-            const SurfacePicture picture = scene.draw(solver, one.camera, size, size);
+            const SurfacePicture picture = scene.draw(solver, one.shape, one.camera, size, size);
             const SurfaceComparison found =
                 compare(picture, one.camera, size, size, one.function, gradient_of(one.function), is_in_two_blocks, 300);
             WARN(one.name << (is_single ? ", float32: " : ", float64: ") << to_text(found));
