@@ -45,8 +45,13 @@ public:
               std::uint32_t tiles_a_row, std::uint32_t tile_rows) const;
 
 private:
+    void upload(const TriangleMesh& mesh, const Vector3& middle);
+
     const Device& m_device;
     Precision m_precision;
+    /** Held so that another file's data never have the same address, which solver_key() names. */
+    std::shared_ptr<const TriangleMesh> m_mesh;
+    std::unique_ptr<RecordBuffer> m_triangles, m_nodes;
     std::uint32_t m_hit_rows = surface_tile_height;
     std::uint32_t m_n_rows = 0;
     std::optional<Buffer> m_rows;

@@ -30,7 +30,7 @@ SceneContours read_contours(const JsonObject& object);
 /** Refuses keys that say where surfaces of other types lie. */
 void check_place_keys(const JsonObject& object, const std::string& type);
 /** A surface given by a formula or a file. */
-CutShape read_shape(const JsonObject& object, const std::string& type);
+CutShape read_shape(const JsonObject& object, const std::string& type, const std::string& scene);
 SceneSurface read_surface(const JsonObject& object, const std::string& scene);
 
 } // namespace elvis

@@ -28,7 +28,8 @@ const std::vector<PlaceKey>& place_keys() {
                                                {"coefficients", {"quadric"}},
                                                {"axis", {"torus"}},
                                                {"major_radius", {"torus"}},
-                                               {"minor_radius", {"torus"}}};
+                                               {"minor_radius", {"torus"}},
+                                               {"file", {"mesh"}}};
     return keys;
 }
 
@@ -36,7 +37,7 @@ Vector3 vector(const JsonObject& object, const char* key) { return fixed<3>(obje
 
 bool is_capped(const JsonObject& object) { return !object.has("capped") || object.truth("capped"); }
 
-CutShape shape_of(const JsonObject& object, const std::string& type) {
+CutShape shape_of(const JsonObject& object, const std::string& type, const std::string& scene) {
     if (type == "sphere") {
         return Sphere{vector(object, "center"), object.number("radius")};
     }
@@ -49,6 +50,9 @@ CutShape shape_of(const JsonObject& object, const std::string& type) {
     }
     if (type == "quadric") {
         return Quadric{fixed<10>(object.numbers("coefficients"))};
+    }
+    if (type == "mesh") {
+        return MeshSurface{std::make_shared<const TriangleMesh>(read_triangle_mesh(beside(scene, object.text("file"))))};
     }
     return Torus{vector(object, "center"), vector(object, "axis"), object.number("major_radius"),
                  object.number("minor_radius")};
@@ -65,14 +69,14 @@ void check_place_keys(const JsonObject& object, const std::string& type) {
     }
 }
 
-CutShape read_shape(const JsonObject& object, const std::string& type) {
+CutShape read_shape(const JsonObject& object, const std::string& type, const std::string& scene) {
     for (const PlaceKey& key : place_keys()) {
         const bool is_its_own = std::find(key.types.begin(), key.types.end(), type) != key.types.end();
         if (is_its_own && !object.has(key.key) && key.key != std::string_view("capped")) {
             object.fail(key.key, "is missing, which a surface of type \"" + type + "\" needs");
         }
     }
-    CutShape shape = shape_of(object, type);
+    CutShape shape = shape_of(object, type, scene);
     check_shape(shape, object.place());
     return shape;
 }

@@ -86,7 +86,7 @@ SceneSurface read_surface(const JsonObject& object, const std::string& scene) {
     } else if (type == "boundary") {
         surface.geometry = read_boundary(object);
     } else {
-        surface.geometry = read_shape(object, type);
+        surface.geometry = read_shape(object, type, scene);
     }
     if (object.has("field")) {
         surface.field = object.text("field");

@@ -46,6 +46,9 @@ public:
         positive("minor_radius", torus.minor_radius);
     }
 
+    /** The file's reader has checked. */
+    void operator()(const MeshSurface&) const {}
+
 private:
     void finite(const char* key, const Vector3& vector) const {
         if (!std::all_of(vector.begin(), vector.end(), [](double number) { return std::isfinite(number); })) {

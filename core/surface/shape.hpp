@@ -1,10 +1,13 @@
 /**
  * @file shape.hpp
- * Cut surfaces given by a formula, in world coordinates.
+ * Cut surfaces other than planes, in world coordinates.
  */
 #pragma once
 
+#include <core/surface/triangle_mesh.hpp>
+
 #include <array>
+#include <memory>
 #include <string>
 #include <variant>
 
@@ -46,7 +49,11 @@ struct Torus {
         1; ///< of the tube, > 0; more than the other one gives a spindle torus, whose inner part is drawn, too
 };
 
-using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus>;
+struct MeshSurface {
+    std::shared_ptr<const TriangleMesh> mesh; ///< not null
+};
+
+using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, MeshSurface>;
 
 /** Checks what the comments above ask for; throws Error that names `place` and the number. */
 void check_shape(const CutShape& shape, const std::string& place);

@@ -101,7 +101,9 @@ struct FormOf {
         form.level = reference.dot(matrix * reference) + linear.dot(reference) + c[9];
         return form;
     }
+    /** These have rows of their own. */
     Form operator()(const Torus&) const { return {}; }
+    Form operator()(const MeshSurface&) const { return {}; }
 };
 
 /** A point of the surface near the reference point, in local coordinates: Newton's method along gradients. */
@@ -162,6 +164,15 @@ std::vector<std::array<double, 4>> torus_rows(const Torus& torus, const Vector& 
             row(rounded, 0), row(center - rounded, 0)};
 }
 
+/** Where the coordinates on the device are relative to: the middle of the mesh. */
+Vector3 middle_of(const std::array<double, 6>& box) {
+    Vector3 middle{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        middle[i] = exact_in_float(0.5 * (box[i] + box[i + 3]));
+    }
+    return middle;
+}
+
 bool has_ends(const CutShape& shape) { return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape); }
 
 /** Of a ball. */
@@ -178,7 +189,10 @@ std::array<double, 6> join(const std::array<double, 6>& a, const std::array<doub
 } // namespace
 
 std::string shape_solver(const CutShape& shape) {
-    return std::holds_alternative<Torus>(shape) ? "torus" : has_ends(shape) ? "round" : "quadric";
+    return std::holds_alternative<MeshSurface>(shape) ? "mesh"
+           : std::holds_alternative<Torus>(shape)     ? "torus"
+           : has_ends(shape)                          ? "round"
+                                                      : "quadric";
 }
 
 ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
@@ -186,8 +200,13 @@ ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
     if (const auto* torus = std::get_if<Torus>(&shape)) {
         return {solver, torus_rows(*torus, convert(reference))};
     }
+    if (const auto* surface = std::get_if<MeshSurface>(&shape)) {
+        return {solver, {row(convert(reference) - convert(middle_of(surface->mesh->bounds())), 0)}};
+    }
     return {solver, quadric_rows(std::visit(FormOf{convert(reference)}, shape))};
 }
+
+Vector3 shape_middle(const CutShape& shape) { return middle_of(shape_bounds(shape)); }
 
 std::array<double, 6> shape_bounds(const CutShape& shape) {
     struct Bounds {
@@ -201,6 +220,7 @@ std::array<double, 6> shape_bounds(const CutShape& shape) {
         std::array<double, 6> operator()(const Quadric&) const {
             return {-infinity, -infinity, -infinity, infinity, infinity, infinity};
         }
+        std::array<double, 6> operator()(const MeshSurface& surface) const { return surface.mesh->bounds(); }
         std::array<double, 6> operator()(const Torus& torus) const {
             return box_of(torus.center, torus.major_radius + torus.minor_radius);
         }

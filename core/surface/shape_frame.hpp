@@ -26,4 +26,7 @@ ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference);
 /** A box that holds all of the surface: min x y z, max x y z; infinite where the surface is. */
 std::array<double, 6> shape_bounds(const CutShape& shape);
 
+/** Middle of a finite shape's box, exact in single precision: what the coordinates of meshes are relative to on the device. */
+Vector3 shape_middle(const CutShape& shape);
+
 } // namespace elvis

@@ -147,8 +147,8 @@ bool is_in_two_blocks(const Vector& x) { return x.cwiseAbs().maxCoeff() <= 1 && 
 double field_of(const Vector& x) { return 1 + x.x() - 0.5 * x.y() + 0.3 * x.z() * x.y() + 0.4 * x.x() * x.x(); }
 
 SurfaceComparison compare(const SurfacePicture& picture, const Camera& camera, std::uint32_t width, std::uint32_t height,
-                          const LevelFunction& function, const std::function<Vector(const Vector&)>& gradient,
-                          const Membership& is_inside, int n_samples) {
+                          const Crossings& crossings_of, const std::function<Vector(const Vector&)>& gradient,
+                          const Membership& is_inside) {
     SurfaceComparison result;
     const double size = 2 * std::sqrt(3.0);
     for (std::uint32_t row = 0; row < height; ++row)
@@ -165,8 +165,7 @@ SurfaceComparison compare(const SurfacePicture& picture, const Camera& camera, s
             }
             double t = std::numeric_limits<double>::quiet_NaN();
             if (from < to)
-                for (const double candidate :
-                     crossings(ray, function, static_cast<double>(from), static_cast<double>(to), n_samples))
+                for (const double candidate : crossings_of(ray, static_cast<double>(from), static_cast<double>(to)))
                     if (is_inside(at(ray, candidate).cast<double>())) {
                         t = candidate;
                         break;

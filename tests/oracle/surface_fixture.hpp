@@ -48,6 +48,8 @@ private:
 
 /** A surface to brute force: a function that changes sign at it, in extended precision. */
 using LevelFunction = std::function<long double(const LongVector&)>;
+/** Distances along a ray, between two, at which it meets the surface, ascending. */
+using Crossings = std::function<std::vector<double>(const Ray& ray, double from, double to)>;
 using Membership = std::function<bool(const Vector&)>;
 
 /**
@@ -72,10 +74,10 @@ VolumeData two_blocks();
 bool is_in_two_blocks(const Vector& x);
 double field_of(const Vector& x);
 
-/** `gradient` of the function: a normal of any length. Pixels flagged undecided are counted and left out. */
+/** `gradient`: a normal of any length. Pixels flagged undecided are counted and left out. */
 SurfaceComparison compare(const SurfacePicture& picture, const Camera& camera, std::uint32_t width, std::uint32_t height,
-                          const LevelFunction& function, const std::function<Vector(const Vector&)>& gradient,
-                          const Membership& is_inside, int n_samples);
+                          const Crossings& crossings_of, const std::function<Vector(const Vector&)>& gradient,
+                          const Membership& is_inside);
 
 std::string to_text(const SurfaceComparison& comparison);
 

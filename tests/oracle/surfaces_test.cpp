@@ -83,8 +83,10 @@ void check(const std::vector<Case>& cases) {
         for (const Case& one : cases) {
             const SurfaceSolver solver(surface_device(), precision, one.shape);
             const SurfacePicture picture = scene.draw(solver, one.shape, one.camera, size, size);
-            const SurfaceComparison found =
-                compare(picture, one.camera, size, size, one.function, gradient_of(one.function), is_in_two_blocks, 300);
+            const SurfaceComparison found = compare(
+                picture, one.camera, size, size,
+                [&](const Ray& ray, double from, double to) { return crossings(ray, one.function, from, to, 300); },
+                gradient_of(one.function), is_in_two_blocks);
             WARN(one.name << (is_single ? ", float32: " : ", float64: ") << to_text(found));
             CHECK(found.hits > 150);
             CHECK(found.missed == 0);
