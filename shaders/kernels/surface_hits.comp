@@ -12,6 +12,7 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "library/cut_frame.glsl"
+#include "library/driver_limit.glsl"
 #include "library/surface_hit.glsl"
 
 struct core_hit_record {
@@ -134,6 +135,12 @@ void main() {
         high_z = is_hit ? max(high_z, place.z + width) : high_z;
         n_found += is_hit ? 1u : 0u;
         row = core_next_row(column, row + 1u, end_row);
+    }
+
+    // Then no pixel of the column is to be trusted.
+    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
+    for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
+        core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
 
     const uint lane = gl_LocalInvocationID.x;

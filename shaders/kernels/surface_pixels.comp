@@ -96,7 +96,7 @@ void main() {
     }
 
     // Then no pixel of the column is to be trusted.
-    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up());
+    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
     for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
         core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
