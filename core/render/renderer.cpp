@@ -7,6 +7,7 @@
 #include <core/render/layer.hpp>
 #include <core/render/merge_pass.hpp>
 #include <core/render/renderer.hpp>
+#include <core/render/surface_pass.hpp>
 
 #include <core/base/error.hpp>
 
@@ -84,6 +85,9 @@ struct Renderer::Impl {
     std::map<FaceGeometry, FaceSet> face_sets;
     std::map<FaceGeometry, FacePass> face_passes;
     std::uint64_t faces_version = 0;
+    std::optional<SurfacePass> cut_shapes;
+    /** By solver_key(); of no field. */
+    std::map<std::string, SurfaceSolver> solvers;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::vector<FieldRange>, elvis_certainty>> ranges;
     std::optional<FieldChoice> selected;
     std::uint32_t selected_step = 0;
@@ -176,6 +180,11 @@ void Renderer::Impl::provide_passes(const Surface& surface) {
     const Clock::time_point start = Clock::now();
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         cut_plane_pass(surface.has_lines());
+    } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+        if (!cut_shapes) {
+            cut_shapes.emplace(device, volume, data);
+        }
+        solvers.try_emplace(solver_key(*shape), device, precision, *shape);
     } else {
         face_pass(*face_geometry(surface));
     }
@@ -222,6 +231,7 @@ void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
     cut_planes.reset();
     cut_planes_with_lines.reset();
     face_passes.clear();
+    cut_shapes.reset();
     selected = field;
     selected_step = time_step;
 }
@@ -264,6 +274,8 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         const double offset = offset_of(surface);
         cut_plane_pass(surface.has_lines()).draw(rays, first, component, line_request(surface, offset), target, counts);
+    } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+        cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, target, counts);
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
     }

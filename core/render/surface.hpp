@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/surface/shape.hpp>
+
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -55,7 +57,7 @@ struct FlatElements {
     auto operator<=>(const FlatElements&) const = default;
 };
 
-using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements>;
+using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements, CutShape>;
 
 /** How lines on a surface are drawn. */
 struct LineStyle {

@@ -32,12 +32,15 @@ public:
     /** A text among the schema's "enum". */
     std::string word(const char* key) const;
     double number(const char* key) const;
+    bool truth(const char* key) const;
     std::uint32_t integer(const char* key) const;
     /** A list of numbers of a length the schema allows, each finite and in its bounds. */
     std::vector<double> numbers(const char* key) const;
     std::vector<std::vector<double>> rows(const char* key) const;
     const nlohmann::json& raw(const char* key) const { return m_value->at(key); }
 
+    /** File and path of this object, for messages. */
+    std::string place() const { return m_path.empty() ? m_file : m_file + ": '" + m_path + "'"; }
     [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
 private:

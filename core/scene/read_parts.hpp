@@ -27,6 +27,10 @@ std::string beside(const std::string& scene, const std::string& path);
 SceneColorMap read_color_map(const JsonObject& object, const std::string& scene);
 SceneLineStyle read_line_style(const JsonObject& object);
 SceneContours read_contours(const JsonObject& object);
+/** Refuses keys that say where surfaces of other types lie. */
+void check_place_keys(const JsonObject& object, const std::string& type);
+/** A surface given by a formula or a file. */
+CutShape read_shape(const JsonObject& object, const std::string& type, const std::string& scene);
 SceneSurface read_surface(const JsonObject& object, const std::string& scene);
 
 } // namespace elvis

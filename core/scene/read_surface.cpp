@@ -4,21 +4,11 @@ namespace elvis {
 
 namespace {
 
-void refuse_keys(const JsonObject& surface, const std::string& type, std::initializer_list<const char*> keys) {
-    for (const char* key : keys) {
-        if (surface.has(key)) {
-            surface.fail(key, "means nothing for a surface of type \"" + type + "\"");
-        }
-    }
-}
-
 BoundaryFaces read_boundary(const JsonObject& object) {
-    refuse_keys(object, "boundary", {"plane", "point", "normal"});
     return {object.has("groups") ? object.texts("groups") : std::vector<std::string>()};
 }
 
 CutPlane read_plane(const JsonObject& object) {
-    refuse_keys(object, "plane", {"groups"});
     CutPlane plane;
     if (object.has("plane") == (object.has("point") || object.has("normal"))) {
         object.fail("plane", "or 'point' and 'normal' must say where the plane is, and only one of the two");
@@ -89,10 +79,14 @@ SceneContours read_contours(const JsonObject& object) {
 
 SceneSurface read_surface(const JsonObject& object, const std::string& scene) {
     SceneSurface surface;
-    if (object.word("type") == "plane") {
+    const std::string type = object.word("type");
+    check_place_keys(object, type);
+    if (type == "plane") {
         surface.geometry = read_plane(object);
-    } else {
+    } else if (type == "boundary") {
         surface.geometry = read_boundary(object);
+    } else {
+        surface.geometry = read_shape(object, type, scene);
     }
     if (object.has("field")) {
         surface.field = object.text("field");

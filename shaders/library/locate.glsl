@@ -1,4 +1,4 @@
-// Which element of a class holds a point of a cut plane.
+// Which element of a class holds a point of a cut surface.
 //
 // Every element within rounding of the point is a candidate: neighbours share a face in exact arithmetic only, and must leave no gap.
 // Among candidates the viewer's side decides (key 0: a small step towards the viewer stays in the element), then the lowest number.
@@ -18,6 +18,11 @@
 #include "library/newton.glsl"
 #include "library/hierarchy.glsl"
 #include "library/linearization.glsl"
+
+// Unit normal of the surface at the point: the plane's, unless the kernel knows another.
+#ifndef CORE_SURFACE_NORMAL
+#define CORE_SURFACE_NORMAL core_plane_normal.xyz
+#endif
 
 // Turns of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is far
 // above what any sensible search takes and leaves room for a tile's other pixels.
@@ -62,7 +67,7 @@ core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction
         const bool is_active = distance >= -tolerance;
         // The face's normal in the world is J^-T times that in xi.
         const elvis_vec3 normal = constraint.x * inverse.row0 + constraint.y * inverse.row1 + constraint.z * inverse.row2;
-        const elvis_vec3 across = cross(normal, core_plane_normal.xyz);
+        const elvis_vec3 across = cross(normal, CORE_SURFACE_NORMAL);
         const bool is_crossing = dot(across, across) > CORE_PARALLEL * CORE_PARALLEL * dot(normal, normal);
         side.is_inside = side.is_inside && distance <= tolerance;
         side.is_on_face = side.is_on_face || is_active;

@@ -1,0 +1,158 @@
+#include <core/render/real_array.hpp>
+#include <core/render/surface_pass.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace elvis {
+
+namespace {
+
+/** Nodes of a tile and their number: shaders/library/cut_tiles.glsl. */
+constexpr std::uint32_t tile_stride = 32;
+constexpr std::uint32_t tiles_group_size = 32;
+/** Pixels of one dispatch: bounds its time, and the share of each thread of a software driver. */
+constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
+/** Crossings that a ray is followed through. A formula has few; triangle meshes may have many, one behind the other. */
+constexpr std::uint32_t most_rounds = 256;
+/**
+ * Error of a crossing along the ray, relative to the volume's diagonal, from which on its pixel is undecided: across a field
+ * that varies by ten times its range over the volume it is what colours may be off.
+ */
+constexpr double most_error_along_ray = 3e-5;
+
+struct TilesParameters {
+    std::uint32_t tiles_a_row, n_tiles, n_parts;
+};
+
+struct PixelsParameters {
+    std::uint32_t width, height;
+    std::uint32_t first_tile_row;
+    std::uint32_t surface;
+    std::uint32_t first_component, end_component;
+    std::uint32_t is_discontinuous;
+    float most_error;
+};
+
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
+
+double diagonal_of(const std::array<double, 6>& bounds) {
+    return std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
+}
+
+void provide(const Device& device, std::optional<Buffer>& buffer, std::uint64_t bytes) {
+    if (!buffer || buffer->bytes() != bytes) {
+        buffer.reset();
+        buffer.emplace(device, bytes);
+    }
+}
+
+} // namespace
+
+SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_device(device), m_data(data), m_precision(data.precision()),
+      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_hit_counts(device, sizeof(std::uint32_t)), m_counts(device, (n_pass_counts + 1) * sizeof(std::uint32_t)),
+      m_nothing(device, 4 * sizeof(double)) {
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        if (volume.classes()[index].n_elements == 0) {
+            continue;
+        }
+        KernelRequest request;
+        request.precision = m_precision;
+        request.buffers = data.host_buffers(index);
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(surface_tile_width(device)) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(surface_tile_height) + "u"}};
+        request.name = "surface_tiles";
+        request.kernel = "kernels/surface_tiles.comp";
+        request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(TilesParameters);
+        ClassKernels kernels;
+        kernels.tiles = std::make_unique<ComposedKernel>(device, request);
+
+        request.name = "surface_pixels of element class " + std::to_string(index);
+        request.kernel = "kernels/surface_pixels.comp";
+        request.instances = {data.instance(index)};
+        request.bindings = {{0, BindingType::uniform_buffer}};
+        for (std::uint32_t binding = 1; binding <= 6; ++binding) {
+            request.bindings.push_back({binding, BindingType::storage_buffer});
+        }
+        request.push_constant_bytes = sizeof(PixelsParameters);
+        kernels.pixels = std::make_unique<ComposedKernel>(device, request);
+        m_kernels.push_back(std::move(kernels));
+    }
+}
+
+void SurfacePass::provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t n_parts) {
+    provide(m_device, m_hits, 2 * n_pixels * real_bytes(m_precision));
+    provide(m_device, m_bending, n_pixels * real_bytes(m_precision));
+    provide(m_device, m_boxes, n_tiles * n_parts * 6 * sizeof(float));
+    provide(m_device, m_tiles, n_tiles * tile_stride * sizeof(std::uint32_t));
+}
+
+void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
+                       const ShownComponent& component, const LayerTarget& target, FrameCounts& counts) {
+    const std::uint32_t width = target.layer.width, height = target.layer.height;
+    const std::uint32_t tile_width = surface_tile_width(m_device);
+    const std::uint32_t tiles_a_row = divided_up(width, tile_width);
+    const std::uint32_t tile_rows = divided_up(height, surface_tile_height);
+    provide_buffers(std::uint64_t{width} * height, std::uint64_t{tiles_a_row} * tile_rows, solver.n_parts());
+    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    const double most_error = most_error_along_ray * diagonal_of(m_data.bounds());
+    solver.begin(shape, view, m_data.bounds(), most_error);
+    m_counts.fill(0);
+
+    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * tile_width * surface_tile_height));
+    const std::array<const Buffer*, 7> hits_bindings = {&*m_hits,
+                                                        &target.layer.normals,
+                                                        &*m_bending,
+                                                        &*m_boxes,
+                                                        &target.layer.marks,
+                                                        &m_hit_counts,
+                                                        target.beyond != nullptr ? target.beyond : &m_nothing};
+    const std::array<const Buffer*, 2> tiles_bindings = {&*m_boxes, &*m_tiles};
+    const std::array<const Buffer*, 7> pixels_bindings = {
+        &m_frame, &target.layer.samples, &*m_tiles, &m_counts, &target.layer.marks, &*m_hits, &target.layer.normals};
+    std::uint32_t n_found_before = 0;
+    for (std::uint32_t round = 0; round < most_rounds; ++round) {
+        m_hit_counts.fill(0);
+        for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
+            const HitsParameters hits{width, height, first_row, surface, round, target.beyond != nullptr ? 1u : 0u};
+            solver.find(m_frame, hits_bindings, std::as_bytes(std::span(&hits, 1)), tiles_a_row,
+                        std::min(rows_a_dispatch, tile_rows - first_row));
+        }
+        const std::uint32_t n_hits = m_hit_counts.read_items<std::uint32_t>(1)[0];
+        if (n_hits == 0) {
+            break;
+        }
+        for (const ClassKernels& kernels : m_kernels) {
+            const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows, solver.n_parts()};
+            kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
+                                    divided_up(tiles.n_tiles, tiles_group_size));
+            for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
+                const PixelsParameters pixels{width,
+                                              height,
+                                              first_row,
+                                              surface,
+                                              component.first(),
+                                              component.end(),
+                                              component.is_discontinuous ? 1u : 0u,
+                                              static_cast<float>(most_error)};
+                kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
+                                         std::min(rows_a_dispatch, tile_rows - first_row));
+            }
+        }
+        const std::uint32_t n_found = m_counts.read_items<std::uint32_t>(1, n_pass_counts)[0];
+        if (n_found - n_found_before == n_hits) {
+            break;
+        }
+        n_found_before = n_found;
+    }
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
+    counts.field_evaluations += found[0];
+    counts.newton_iterations += found[1];
+    counts.newton_failures += found[2];
+}
+
+} // namespace elvis

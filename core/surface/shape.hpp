@@ -1,0 +1,61 @@
+/**
+ * @file shape.hpp
+ * Cut surfaces other than planes, in world coordinates.
+ */
+#pragma once
+
+#include <core/surface/triangle_mesh.hpp>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <variant>
+
+namespace elvis {
+
+using Vector3 = std::array<double, 3>;
+
+struct Sphere {
+    Vector3 center{};
+    double radius = 1; ///< > 0
+
+    bool operator==(const Sphere&) const = default;
+};
+
+/** Round, from one end to the other. Without caps it is a pipe that is open at both ends. */
+struct Cylinder {
+    Vector3 from{}, to{}; ///< not equal
+    double radius = 1;    ///< > 0
+    bool is_capped = true;
+};
+
+/** As a cylinder, but with a radius at each end; at most one of them is zero. */
+struct Cone {
+    Vector3 from{}, to{};
+    double from_radius = 0, to_radius = 1; ///< >= 0
+    bool is_capped = true;
+};
+
+/** Where a xx + b yy + c zz + d xy + e yz + f zx + g x + h y + i z + j = 0; the coefficients a to i are not all zero. */
+struct Quadric {
+    std::array<double, 10> coefficients{};
+};
+
+struct Torus {
+    Vector3 center{};
+    Vector3 axis{0, 0, 1};   ///< of any length but zero
+    double major_radius = 1; ///< from the centre to the tube's middle, > 0
+    double minor_radius =
+        1; ///< of the tube, > 0; more than the other one gives a spindle torus, whose inner part is drawn, too
+};
+
+struct MeshSurface {
+    std::shared_ptr<const TriangleMesh> mesh; ///< not null
+};
+
+using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, MeshSurface>;
+
+/** Checks what the comments above ask for; throws Error that names `place` and the number. */
+void check_shape(const CutShape& shape, const std::string& place);
+
+} // namespace elvis
