@@ -192,9 +192,8 @@ std::vector<FetchBuffer> DeviceVolume::host_buffers(std::uint32_t element_class)
 void DeviceVolume::provide_derivative_bounds() {
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         if (!m_classes[index].derivative_bounds && m_volume.classes()[index].n_elements > 0) {
-            m_classes[index].derivative_bounds =
-                make_derivative_bounds(m_device, m_volume, index, {m_field, m_time_step, m_offset}, instance(index), m_precision,
-                                       m_control);
+            m_classes[index].derivative_bounds = make_derivative_bounds(
+                m_device, m_volume, index, {m_field, m_time_step, m_offset}, instance(index), m_precision, m_control);
         }
     }
 }
