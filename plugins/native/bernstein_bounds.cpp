@@ -42,6 +42,20 @@ std::vector<double> raised(std::vector<double> b, int by) {
     return b;
 }
 
+/** Coefficients of P_n^{a,0} at raised degree, each computed once. */
+class RaisedJacobi {
+public:
+    const std::vector<double>& operator()(int a, int n, int by) {
+        const auto [entry, is_new] = m_known.try_emplace({a, n, by});
+        if (is_new)
+            entry->second = raised(jacobi_coefficients(a, n), by);
+        return entry->second;
+    }
+
+private:
+    std::map<std::array<int, 3>, std::vector<double>> m_known;
+};
+
 /** Exponents of degree n in n_corners barycentric coordinates, with their positions. */
 std::map<Exponents, std::uint32_t> exponents(int n, int n_corners) {
     std::map<Exponents, std::uint32_t> result;
@@ -59,16 +73,15 @@ struct Mode {
 };
 
 /** Coefficient of degree n of S_p J_q J_r with (q, r) in a tetrahedron; in a triangle q is the second direction and r is 0. */
-double coefficient(const Mode& mode, int n, const Exponents& at) {
+double coefficient(const Mode& mode, int n, const Exponents& at, RaisedJacobi& jacobi) {
     const auto [l0, i, j, k] = at;
     const auto [p, q, r] = mode;
     if (k > n - p - q || j > n - p - k)
         return 0;
-    const std::vector<double> third = raised(jacobi_coefficients(2 * (p + q) + 2, r), n - p - q - r);
-    const std::vector<double> second = raised(jacobi_coefficients(2 * p + 1, q), n - p - k - q);
-    const std::vector<double> first = raised(jacobi_coefficients(0, p), n - k - j - p);
-    return first[static_cast<std::size_t>(i)] * second[static_cast<std::size_t>(j)] * binomial(n - p - k, j) /
-           binomial(n - k, j) * third[static_cast<std::size_t>(k)] * binomial(n - p - q, k) / binomial(n, k);
+    const double third = jacobi(2 * (p + q) + 2, r, n - p - q - r)[static_cast<std::size_t>(k)];
+    const double second = jacobi(2 * p + 1, q, n - p - k - q)[static_cast<std::size_t>(j)];
+    const double first = jacobi(0, p, n - k - j - p)[static_cast<std::size_t>(i)];
+    return first * second * third * (binomial(n - p - k, j) / binomial(n - k, j)) * (binomial(n - p - q, k) / binomial(n, k));
 }
 
 } // namespace
@@ -93,9 +106,10 @@ BernsteinBounds::BernsteinBounds(const DeviceSpace& space) {
     m_n_corners = space.shape == Shape::tetrahedron ? 4 : 3;
     const auto rows = exponents(m_degree, static_cast<int>(m_n_corners));
     m_matrix.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(modes.size()));
+    RaisedJacobi jacobi;
     for (const auto& [at, row] : rows)
         for (std::size_t mode = 0; mode < modes.size(); ++mode)
-            m_matrix(row, static_cast<Eigen::Index>(mode)) = coefficient(modes[mode], m_degree, at);
+            m_matrix(row, static_cast<Eigen::Index>(mode)) = coefficient(modes[mode], m_degree, at, jacobi);
     for (std::size_t mode = 0; mode < modes.size(); ++mode)
         m_largest.push_back(m_matrix.col(static_cast<Eigen::Index>(mode)).cwiseAbs().maxCoeff());
     find_differences(static_cast<int>(m_n_corners));
