@@ -57,7 +57,8 @@ public:
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 const double offset = m_field.offset[i % n_components];
                 // The subtraction rounds: by 2^-53 of its result, twice at most.
-                rows[i].value = std::max(std::abs(m_ranges[i].lower - offset), std::abs(m_ranges[i].upper - offset)) * (1 + 1e-15);
+                const double widening = certainty == ELVIS_CERTIFIED ? 1 + 1e-15 : safety;
+                rows[i].value = std::max(std::abs(m_ranges[i].lower - offset), std::abs(m_ranges[i].upper - offset)) * widening;
                 rows[i].certainty = certainty == ELVIS_CERTIFIED ? rows[i].certainty : 1;
             }
         }
@@ -132,8 +133,7 @@ std::unique_ptr<RecordBuffer> make_derivative_bounds(const Device& device, const
                                                      const TaskControl* control) {
     const ClassInfo& info = volume.classes()[element_class];
     const auto n_components = static_cast<std::uint32_t>(field.offset.size());
-    auto records =
-        std::make_unique<RecordBuffer>(device, RecordKind::real, precision, info.n_elements, 4 * n_components);
+    auto records = std::make_unique<RecordBuffer>(device, RecordKind::real, precision, info.n_elements, 4 * n_components);
     FromPlugin plugin(volume, field);
     std::optional<Sampler> sampler;
     std::vector<Row> rows;

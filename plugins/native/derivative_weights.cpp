@@ -24,7 +24,8 @@ constexpr int nodes_per_degree = 16;
 /** Evaluated polynomials are wrong by some 1e-14 of their largest value: three-term recurrences up to degree 50. */
 constexpr double rounding = 1 + 1e-12;
 
-/** Bounds of the absolute values of several polynomials of degree `degree` on [-1, 1]; function(z) returns their values at z. */
+/** Bounds of the absolute values of several polynomials of degree `degree` on [-1, 1]; function(z) returns their values at z.
+ */
 template <std::size_t n, class Function> std::array<double, n> suprema(int degree, Function function) {
     const int m = std::max(nodes_per_degree * degree, 1);
     std::array<double, n> largest{};
@@ -111,10 +112,8 @@ struct Product {
         DerivativeBound result;
         result.first = term(a.first * b[1].value, exponent - 1, 0) + term(a.value * b[0].first, exponent - loss, 0) +
                        term(a.value * b[0].value, exponent, 1);
-        result.second = term(a.second * b[2].value, exponent - 2, 0) +
-                        2 * term(a.first * b[1].first, exponent - 1 - loss, 0) +
-                        term(a.value * b[0].second, exponent - 2 * loss, 0) +
-                        2 * term(a.first * b[1].value, exponent - 1, 1) +
+        result.second = term(a.second * b[2].value, exponent - 2, 0) + 2 * term(a.first * b[1].first, exponent - 1 - loss, 0) +
+                        term(a.value * b[0].second, exponent - 2 * loss, 0) + 2 * term(a.first * b[1].value, exponent - 1, 1) +
                         2 * term(a.value * b[0].first, exponent - loss, 1) + term(a.value * b[0].value, exponent, 2);
         return result;
     }
@@ -142,8 +141,8 @@ DerivativeWeights::DerivativeWeights(const DeviceSpace& space) {
                     const FactorBounds x = chebyshev_bounds(p);
                     const FactorBounds y = chebyshev_bounds(q);
                     const FactorBounds z = chebyshev_bounds(r);
-                    add(x.first + y.first + z.first, x.second + y.second + z.second +
-                                                         2 * (x.first * y.first + x.first * z.first + y.first * z.first));
+                    add(x.first + y.first + z.first,
+                        x.second + y.second + z.second + 2 * (x.first * y.first + x.first * z.first + y.first * z.first));
                 }
     } else if (space.shape == Shape::prism) {
         for (int q = 0; q <= space.q_max; ++q)
@@ -165,8 +164,7 @@ DerivativeWeights::DerivativeWeights(const DeviceSpace& space) {
                     const bool is_apex = space.has_apex(p, q) && r == 0;
                     const int degree = space.has_apex(p, q) ? std::max(r - 1, 0) : r;
                     const int exponent = is_apex ? 0 : is_tetrahedron ? p + q : space.exponent(p, q);
-                    const std::array<int, 2> powers =
-                        is_tetrahedron ? std::array<int, 2>{p, q} : split_exponent(exponent, p);
+                    const std::array<int, 2> powers = is_tetrahedron ? std::array<int, 2>{p, q} : split_exponent(exponent, p);
                     Product product;
                     product.exponent = exponent;
                     product.a = Homogeneous{p, powers[0], is_tetrahedron ? 2 : 1}.bounds(jet_of(p), 0);

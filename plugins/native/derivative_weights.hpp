@@ -17,8 +17,8 @@ struct DerivativeBound {
 };
 
 /**
- * One pair of weights for each function of the space, in the order of the record, from suprema of their one-dimensional factors.
- * For a sum f of these functions with coefficients c, sum_ij |d_ij f| <= sum_m |c_m| second_m.
+ * One pair of weights for each function of the space, in the order of the record, from suprema of their one-dimensional
+ * factors. For a sum f of these functions with coefficients c, sum_ij |d_ij f| <= sum_m |c_m| second_m.
  *
  * A factor that depends on x/t, times t^k, is a homogeneous function, and so are its derivatives, with k less by one each:
  * d/dx (t^k g(x/t)) = t^(k-1) g'(u), and along a direction in which x grows by 1/2 and t falls by 1/2,

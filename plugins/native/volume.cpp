@@ -193,13 +193,15 @@ const Conversion& Volume::conversion(const Space& space) const {
     return *m_conversions.back().second;
 }
 
-const DerivativeWeights& Volume::derivative_weights(const Space& space) const {
+const Volume::Bounders& Volume::bounders(const Space& space) const {
     const std::lock_guard lock(m_conversions_mutex);
-    for (const auto& [known, weights] : m_derivative_weights)
+    for (const auto& [known, bounders] : m_bounders)
         if (known == space)
-            return *weights;
-    m_derivative_weights.emplace_back(space, std::make_unique<const DerivativeWeights>(DeviceSpace(space)));
-    return *m_derivative_weights.back().second;
+            return *bounders;
+    const DeviceSpace device(space);
+    m_bounders.emplace_back(space,
+                            std::make_unique<const Bounders>(Bounders{DerivativeWeights(device), BernsteinBounds(device)}));
+    return *m_bounders.back().second;
 }
 
 } // namespace elvis::native_plugin

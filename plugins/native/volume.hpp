@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "bernstein_bounds.hpp"
 #include "block_cache.hpp"
 #include "conversion.hpp"
 #include "derivative_weights.hpp"
@@ -98,7 +99,11 @@ private:
     Coefficients element_field(std::size_t field, std::size_t time_step, Place place) const;
 
     const Conversion& conversion(const native::Space& space) const;
-    const DerivativeWeights& derivative_weights(const native::Space& space) const;
+    struct Bounders {
+        DerivativeWeights weights;
+        BernsteinBounds bernstein;
+    };
+    const Bounders& bounders(const native::Space& space) const;
     /** Runs `read` with the file to itself; its errors become ours. */
     template <class Read> void read_file(Read read) const;
     api::Error error(elvis_result code, const std::string& what) const { return {code, m_path, what}; }
@@ -117,7 +122,7 @@ private:
     mutable BlockCache m_cache;
     mutable std::mutex m_conversions_mutex;
     mutable std::vector<std::pair<native::Space, std::unique_ptr<const Conversion>>> m_conversions;
-    mutable std::vector<std::pair<native::Space, std::unique_ptr<const DerivativeWeights>>> m_derivative_weights;
+    mutable std::vector<std::pair<native::Space, std::unique_ptr<const Bounders>>> m_bounders;
     /** Filled when faces are first asked for. */
     mutable std::unordered_map<std::int64_t, std::int64_t> m_positions;
 };

@@ -13,8 +13,9 @@
 namespace elvis::test {
 
 /** (H, L, F, certainty) by element of the class, then component, in double. */
-inline std::vector<std::array<double, 4>> bound_rows(const Device& device, const DeviceVolume& data, std::uint32_t element_class,
-                                                     std::uint32_t n_elements, std::uint32_t n_components) {
+inline std::vector<std::array<double, 4>> bound_rows(const Device& device, const DeviceVolume& data,
+                                                     std::uint32_t element_class, std::uint32_t n_elements,
+                                                     std::uint32_t n_components) {
     KernelRequest request;
     request.name = "bound rows";
     request.kernel = "bound_rows.comp";

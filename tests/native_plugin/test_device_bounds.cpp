@@ -38,7 +38,8 @@ std::array<double, 2> sample(const RuntimeVolume& volume, std::uint32_t field, s
     volume.evaluate_field(field, 0, element, points, values, gradients);
     std::array<double, 2> largest{};
     for (std::size_t i = 0; i < values.size(); i += n_components) {
-        largest[0] = std::max(largest[0], std::abs(gradients[3 * i]) + std::abs(gradients[3 * i + 1]) + std::abs(gradients[3 * i + 2]));
+        largest[0] =
+            std::max(largest[0], std::abs(gradients[3 * i]) + std::abs(gradients[3 * i + 1]) + std::abs(gradients[3 * i + 2]));
         largest[1] = std::max(largest[1], std::abs(values[i] - offset));
     }
     return largest;
@@ -48,10 +49,11 @@ std::array<double, 2> sample(const RuntimeVolume& volume, std::uint32_t field, s
 
 TEST_CASE("bounds on the device are certified for polynomials, estimated for the others, and hold") {
     std::vector<ClassPlan> classes;
-    for (const native::Space& space : test::spaces_of_order(3))
+    for (const native::Space& space : test::spaces_of_order(2))
         classes.push_back({space, {space, space}});
-    const TestVolume file(classes, {{"f", "", 1, native::Continuity::discontinuous, {}, std::nan("")},
-                                    {"u", "", 3, native::Continuity::discontinuous, native::Transform::covariant, std::nan("")}});
+    const TestVolume file(classes,
+                          {{"f", "", 1, native::Continuity::discontinuous, {}, std::nan("")},
+                           {"u", "", 3, native::Continuity::discontinuous, native::Transform::covariant, std::nan("")}});
     const RuntimeVolume volume = file.open();
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         DeviceVolume data(device(), volume, precision, nullptr);
@@ -67,8 +69,8 @@ TEST_CASE("bounds on the device are certified for polynomials, estimated for the
                 for (std::size_t element = 0; element < 3; ++element) {
                     const auto& row = rows[element * n_components];
                     CHECK(row[3] == (is_polynomial ? 0 : 1));
-                    const auto sampled = sample(volume, field, file.first_element(i) + element, classes[i].geometry.shape,
-                                                data.field_offset(0));
+                    const auto sampled =
+                        sample(volume, field, file.first_element(i) + element, classes[i].geometry.shape, data.field_offset(0));
                     CHECK(row[1] >= sampled[0]);
                     CHECK(row[2] >= sampled[1]);
                     CHECK(row[0] < 1e6);

@@ -63,7 +63,8 @@ TestVolume::TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field
     for (const ClassPlan& plan : classes)
         m_description.classes.push_back({plan.geometry, plan.fields, plan.n_elements});
     m_description.dimension = native::dimension(classes[0].geometry.shape);
-    m_description.n_faces = m_description.dimension == 3 && m_description.n_elements() > static_cast<std::uint64_t>(example_face().element) ? 1 : 0;
+    m_description.n_faces =
+        m_description.dimension == 3 && m_description.n_elements() > static_cast<std::uint64_t>(example_face().element) ? 1 : 0;
 
     Random random(11);
     for (const ClassPlan& plan : classes) {
@@ -83,8 +84,8 @@ TestVolume::TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field
             for (const ClassPlan& plan : classes) {
                 std::vector<double>& numbers = m_fields.emplace_back();
                 for (std::uint64_t i = 0; i < plan.n_elements * m_description.fields[field].n_components; ++i) {
-                    const std::vector<double> coefficients = function ? fit(plan.fields[field], function)
-                                                                      : smooth_coefficients(plan.fields[field], random);
+                    const std::vector<double> coefficients =
+                        function ? fit(plan.fields[field], function) : smooth_coefficients(plan.fields[field], random);
                     numbers.insert(numbers.end(), coefficients.begin(), coefficients.end());
                 }
             }
