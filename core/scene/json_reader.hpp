@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/base/nearest_word.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <span>
@@ -14,9 +16,6 @@ namespace elvis {
 
 /** Parses a file. A syntax error names file, line and column. */
 nlohmann::json parse_json_file(const std::string& path);
-
-/** The known word nearest to one that is unknown, by edits. */
-std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 /** An object in a document, with its place for messages. */
 class JsonObject {

@@ -163,6 +163,10 @@ typedef struct elvis_fill_request {
 #define ELVIS_SNIPPET_FIELD_OFFSET 8u
 /** Positions that the snippet returns are relative to elvis_origin(element). */
 #define ELVIS_SNIPPET_LOCAL_ORIGIN 16u
+/** elvis_field_hessian: value, gradient and second derivatives of the field in xi. Since 0.9.1. */
+#define ELVIS_SNIPPET_FIELD_HESSIAN 32u
+/** elvis_mapping_hessian: mapping, Jacobian and second derivatives of the mapping. Since 0.9.1. */
+#define ELVIS_SNIPPET_MAPPING_HESSIAN 64u
 
 /** One GLSL text. */
 typedef struct elvis_text {

@@ -1,0 +1,516 @@
+#include <core/expression/glsl.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace elvis {
+
+namespace {
+
+/** A number as GLSL writes it in the precision in use. */
+std::string literal(double number) {
+    if (!std::isfinite(number)) {
+        return std::isnan(number) ? "core_nan()" : number > 0 ? "core_infinity()" : "(-core_infinity())";
+    }
+    char digits[40];
+    const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+    std::string text(digits, end);
+    if (text.find_first_of(".e") == std::string::npos) {
+        text += ".0";
+    }
+    return "elvis_real(" + text + "LF)";
+}
+
+std::string name(NodeId id) { return "core_n" + std::to_string(id); }
+
+std::string call(const std::string& function, std::initializer_list<std::string> arguments) {
+    std::string text = function + "(";
+    for (const std::string& argument : arguments) {
+        text += (text.back() == '(' ? "" : ", ") + argument;
+    }
+    return text + ")";
+}
+
+/** What an element gives, read once for one function. */
+class LeafWriter {
+public:
+    LeafWriter(const Expression& expression, const ExpressionClass& element_class, const std::vector<NodeId>& needed)
+        : m_expression(expression), m_class(element_class) {
+        for (const NodeId id : needed) {
+            note(expression.graph().node(id));
+        }
+    }
+
+    /** Declarations of all that the leaves stand on. */
+    std::string declarations() const {
+        std::string text;
+        const bool has_inverse = m_needs_inverse;
+        if (m_geometry == 1) {
+            text += "    elvis_vec3 core_x = elvis_mapping(element, xi);\n";
+        } else if (m_geometry >= 2) {
+            text += "    elvis_vec3 core_x;\n    elvis_mat3 core_j;\n";
+        }
+        if (m_geometry == 2) {
+            text += "    elvis_mapping_jacobian(element, xi, core_x, core_j);\n";
+        } else if (m_geometry == 3) {
+            text += "    elvis_mat3 core_m0, core_m1, core_m2;\n"
+                    "    elvis_mapping_hessian(element, xi, core_x, core_j, core_m0, core_m1, core_m2);\n";
+        }
+        if (m_needs_position) {
+            text += "    core_x += elvis_origin(element);\n";
+        }
+        if (has_inverse && m_class.dimension == 2) {
+            // Completed by a normal of about the length of the other columns: gradients are then tangential.
+            text += "    core_j[2] = cross(core_j[0], core_j[1]);\n    core_j[2] /= sqrt(length(core_j[2]));\n";
+        }
+        if (has_inverse) {
+            text += "    const elvis_mat3 core_k = inverse(core_j);\n";
+        }
+        for (const auto& [key, level] : m_fields) {
+            text += field(key.first, key.second, level);
+        }
+        return text;
+    }
+
+    std::string leaf(const Node& node) const {
+        const auto [i, j, k] = node.index;
+        const auto entry = [](const std::string& matrix, int row, int column) {
+            return matrix + "[" + std::to_string(column) + "][" + std::to_string(row) + "]";
+        };
+        const std::string of_field = is_of_field(node.operation) ? field_suffix(slot(node.field), node.component) : "";
+        switch (node.operation) {
+        case Operation::constant:
+            return literal(node.number);
+        case Operation::position:
+            return "core_x[" + std::to_string(i) + "]";
+        case Operation::field:
+            return "core_f" + of_field;
+        case Operation::slope:
+            return "core_s" + of_field + "[" + std::to_string(i) + "]";
+        case Operation::gradient:
+            return "core_g" + of_field + "[" + std::to_string(i) + "]";
+        case Operation::bend:
+            return entry("core_c" + of_field, i, j);
+        case Operation::hessian:
+            return entry("core_w" + of_field, i, j);
+        case Operation::jacobian:
+            return entry("core_j", i, j);
+        case Operation::inverse_jacobian:
+            return entry("core_k", i, j);
+        case Operation::mapping_hessian:
+            return entry("core_m" + std::to_string(i), j, k);
+        case Operation::order:
+            return literal(order(node.field));
+        case Operation::element:
+            return "elvis_real(elvis_fetch_core_elements(element, 0u))";
+        default:
+            assert(false && "not a leaf");
+            return {};
+        }
+    }
+
+    static bool is_of_field(Operation operation) {
+        return operation == Operation::field || operation == Operation::slope || operation == Operation::gradient ||
+               operation == Operation::bend || operation == Operation::hessian;
+    }
+    std::size_t slot(std::uint32_t field) const {
+        const auto& fields = m_expression.fields();
+        return static_cast<std::size_t>(std::find(fields.begin(), fields.end(), field) - fields.begin());
+    }
+    static std::string field_suffix(std::size_t slot, std::uint32_t component) {
+        return std::to_string(slot) + "_" + std::to_string(component);
+    }
+    static std::string instance_suffix(std::size_t slot) {
+        return slot == 0 ? std::string() : std::string("_").append(std::to_string(slot));
+    }
+
+    /** Values alone, values with gradients in xi whatever the leaves say. */
+    void raise_fields(int level) {
+        for (auto& [key, of_field] : m_fields) {
+            of_field = std::max(of_field, level);
+        }
+    }
+    void raise_geometry(int level) { m_geometry = std::max(m_geometry, level); }
+    bool needs_position() const { return m_needs_position; }
+
+private:
+    /** Levels of a field: 0 value, 1 gradient in xi, 2 world gradient, 3 bend, 4 world hessian; of geometry: 1 position, 2
+     * Jacobian, 3 second derivatives. */
+    void note(const Node& node) {
+        const auto at_least = [this, &node](int level) {
+            const auto [found, is_new] = m_fields.try_emplace({slot(node.field), node.component}, level);
+            found->second = std::max(found->second, level);
+            m_needs_inverse = m_needs_inverse || level >= 2;
+            raise_geometry(level >= 3 ? 3 : level >= 2 ? 2 : 0);
+        };
+        switch (node.operation) {
+        case Operation::field:
+            return at_least(0);
+        case Operation::slope:
+            return at_least(1);
+        case Operation::gradient:
+            return at_least(2);
+        case Operation::bend:
+            return at_least(3);
+        case Operation::hessian:
+            return at_least(4);
+        case Operation::position:
+            m_needs_position = true;
+            return raise_geometry(1);
+        case Operation::jacobian:
+            return raise_geometry(2);
+        case Operation::inverse_jacobian:
+            m_needs_inverse = true;
+            return raise_geometry(2);
+        case Operation::mapping_hessian:
+            return raise_geometry(3);
+        default:
+            return;
+        }
+    }
+
+    std::string field(std::size_t slot, std::uint32_t component, int level) const {
+        const std::string at = field_suffix(slot, component), instance = instance_suffix(slot);
+        const std::string number = std::to_string(component) + "u";
+        if (level == 0) {
+            return "    const elvis_real core_f" + at + " = elvis_field_value" + instance + "(element, xi, " + number + ");\n";
+        }
+        std::string text = "    elvis_real core_f" + at + ";\n    elvis_vec3 core_s" + at + ";\n";
+        if (level < 3) {
+            text +=
+                "    elvis_field_gradient" + instance + "(element, xi, " + number + ", core_f" + at + ", core_s" + at + ");\n";
+        } else {
+            text += "    elvis_mat3 core_h" + at + ";\n    elvis_field_hessian" + instance + "(element, xi, " + number +
+                    ", core_f" + at + ", core_s" + at + ", core_h" + at + ");\n";
+        }
+        if (level >= 2) {
+            // Row times matrix: G_i = sum_j s_j K_ji.
+            text += "    const elvis_vec3 core_g" + at + " = core_s" + at + " * core_k;\n";
+        }
+        if (level >= 3) {
+            text += "    const elvis_mat3 core_c" + at + " = core_h" + at + " - core_g" + at + ".x * core_m0 - core_g" + at +
+                    ".y * core_m1 - core_g" + at + ".z * core_m2;\n";
+        }
+        if (level >= 4) {
+            text += "    const elvis_mat3 core_w" + at + " = transpose(core_k) * core_c" + at + " * core_k;\n";
+        }
+        return text;
+    }
+
+    double order(std::uint32_t field) const {
+        if (field != any_field) {
+            return m_class.orders[field];
+        }
+        return m_class.orders.empty() ? 0 : *std::max_element(m_class.orders.begin(), m_class.orders.end());
+    }
+
+    const Expression& m_expression;
+    const ExpressionClass& m_class;
+    /** By slot and component. */
+    std::map<std::pair<std::size_t, std::uint32_t>, int> m_fields;
+    int m_geometry = 0;
+    bool m_needs_position = false;
+    bool m_needs_inverse = false;
+};
+
+std::string real_operation(const Node& node) {
+    const std::string a = name(node.operands[0]), b = name(node.operands[1]), c = name(node.operands[2]);
+    const auto truth = [](const std::string& condition) { return condition + " ? elvis_real(1) : elvis_real(0)"; };
+    switch (node.operation) {
+    case Operation::negate:
+        return "-" + a;
+    case Operation::whole_power:
+        return node.number == 2   ? a + " * " + a
+               : node.number == 3 ? a + " * " + a + " * " + a
+                                  : call("core_whole_power", {a, std::to_string(static_cast<int>(node.number)) + "u"});
+    case Operation::power_to:
+        return call("elvis_pow", {a, literal(node.number)});
+    case Operation::square_root:
+        return call("sqrt", {a});
+    case Operation::absolute:
+        return call("abs", {a});
+    case Operation::sign:
+        return call("sign", {a});
+    case Operation::sine:
+        return call("elvis_sin", {a});
+    case Operation::cosine:
+        return call("elvis_cos", {a});
+    case Operation::tangent:
+        return call("elvis_sin", {a}) + " / " + call("elvis_cos", {a});
+    case Operation::arcsine:
+        return call("elvis_asin", {a});
+    case Operation::arccosine:
+        return call("elvis_acos", {a});
+    case Operation::arctangent:
+        return call("elvis_atan", {a});
+    case Operation::exponential:
+        return call("elvis_exp", {a});
+    case Operation::logarithm:
+        return call("elvis_log", {a});
+    case Operation::add:
+        return a + " + " + b;
+    case Operation::subtract:
+        return a + " - " + b;
+    case Operation::multiply:
+        return a + " * " + b;
+    case Operation::divide:
+        return a + " / " + b;
+    case Operation::power:
+        return call("elvis_pow", {a, b});
+    case Operation::minimum:
+        return call("min", {a, b});
+    case Operation::maximum:
+        return call("max", {a, b});
+    case Operation::arctangent2:
+        return call("elvis_atan", {a, b});
+    case Operation::over_length:
+        return call("core_over_length", {a, b});
+    case Operation::less:
+        return truth(a + " < " + b);
+    case Operation::less_equal:
+        return truth(a + " <= " + b);
+    case Operation::equal:
+        return truth(a + " == " + b);
+    case Operation::length:
+        return "sqrt(" + a + " * " + a + " + " + b + " * " + b + " + " + c + " * " + c + ")";
+    case Operation::select:
+        return a + " != elvis_real(0) ? " + b + " : " + c;
+    default:
+        assert(false && "a leaf is no operation");
+        return {};
+    }
+}
+
+/** The same for types whose functions are PREFIX_add(a, b) and so on; `last` ends every list of arguments. */
+std::string enclosure_operation(const Node& node, const std::string& prefix, const std::string& last) {
+    const auto of = [&](const char* function, std::initializer_list<std::string> more) {
+        std::string text = prefix + function + "(" + name(node.operands[0]);
+        for (const std::string& one : more) {
+            text += ", " + one;
+        }
+        return text + last + ")";
+    };
+    const std::string b = name(node.operands[1]), c = name(node.operands[2]);
+    switch (node.operation) {
+    case Operation::negate:
+        return prefix + "negate(" + name(node.operands[0]) + ")";
+    case Operation::whole_power:
+        return node.number == 2 ? of("square", {}) : of("whole_power", {std::to_string(static_cast<int>(node.number)) + "u"});
+    case Operation::power_to:
+        return of("power_to", {literal(node.number)});
+    case Operation::square_root:
+        return of("sqrt", {});
+    case Operation::absolute:
+        return of("abs", {});
+    case Operation::sign:
+        return of("sign", {});
+    case Operation::sine:
+        return of("sin", {});
+    case Operation::cosine:
+        return of("cos", {});
+    case Operation::tangent:
+        return of("tan", {});
+    case Operation::arcsine:
+        return of("asin", {});
+    case Operation::arccosine:
+        return of("acos", {});
+    case Operation::arctangent:
+        return of("atan", {});
+    case Operation::exponential:
+        return of("exp", {});
+    case Operation::logarithm:
+        return of("log", {});
+    case Operation::add:
+        return of("add", {b});
+    case Operation::subtract:
+        return of("subtract", {b});
+    case Operation::multiply:
+        return of("multiply", {b});
+    case Operation::divide:
+        return of("divide", {b});
+    case Operation::power:
+        return of("power", {b});
+    case Operation::minimum:
+        return of("min", {b});
+    case Operation::maximum:
+        return of("max", {b});
+    case Operation::arctangent2:
+        return of("atan", {b});
+    case Operation::over_length:
+        return of("over_length", {b});
+    case Operation::less:
+        return of("less", {b});
+    case Operation::less_equal:
+        return of("less_equal", {b});
+    case Operation::equal:
+        return of("equal", {b});
+    case Operation::length:
+        return of("length", {b, c});
+    case Operation::select:
+        return of("select", {b, c});
+    default:
+        assert(false && "a leaf is no operation");
+        return {};
+    }
+}
+
+std::string commented(const Expression& expression) {
+    std::string text = expression.text();
+    // One line, and no backslash that would continue the comment.
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\\' || (c & 0x80) != 0; }, ' ');
+    return "// " + text + "\n";
+}
+
+std::string real_nodes(const Graph& graph, const std::vector<NodeId>& needed, const auto& leaf) {
+    std::string text;
+    for (const NodeId id : needed) {
+        const Node& node = graph.node(id);
+        text += "    const elvis_real " + name(id) + " = ";
+        text += (n_operands(node.operation) == 0 ? leaf(node) : real_operation(node)) + ";\n";
+    }
+    return text;
+}
+
+const char* const real_includes = "#include \"library/expression.glsl\"\n";
+
+std::vector<NodeId> roots_with_gradient(const Expression& expression) {
+    const auto& [d0, d1, d2] = expression.gradient().value();
+    return {expression.value(), d0, d1, d2};
+}
+
+std::string gradient_body(const Expression& expression) {
+    const auto& [d0, d1, d2] = expression.gradient().value();
+    return "    value = " + name(expression.value()) + ";\n    gradient = elvis_vec3(" + name(d0) + ", " + name(d1) + ", " +
+           name(d2) + ");\n}\n";
+}
+
+} // namespace
+
+ExpressionClass expression_class(const RuntimeVolume& volume, std::uint32_t element_class) {
+    ExpressionClass result;
+    result.dimension = volume.dimension();
+    result.is_affine = volume.classes()[element_class].is_affine;
+    result.capabilities = volume.snippet(element_class).capabilities;
+    for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
+        const ClassFieldInfo info = volume.class_field(element_class, field);
+        result.orders.push_back(*std::max_element(std::begin(info.order), std::end(info.order)));
+    }
+    return result;
+}
+
+std::string value_glsl(const Expression& expression, const ExpressionClass& element_class) {
+    const std::vector<NodeId> needed = expression.graph().needed({expression.value()});
+    const LeafWriter leaves(expression, element_class, needed);
+    return real_includes + commented(expression) + "elvis_real core_shown_value(uint element, elvis_vec3 xi) {\n" +
+           leaves.declarations() + real_nodes(expression.graph(), needed, [&](const Node& node) { return leaves.leaf(node); }) +
+           "    return " + name(expression.value()) + ";\n}\n";
+}
+
+std::string gradient_glsl(const Expression& expression, const ExpressionClass& element_class) {
+    if (!expression.gradient()) {
+        return "#include \"library/shown_gradient_default.glsl\"\n";
+    }
+    const std::vector<NodeId> needed = expression.graph().needed(roots_with_gradient(expression));
+    const LeafWriter leaves(expression, element_class, needed);
+    return real_includes + commented(expression) +
+           "void core_shown_gradient(uint element, elvis_vec3 xi, out elvis_real value, out elvis_vec3 gradient) {\n" +
+           leaves.declarations() + real_nodes(expression.graph(), needed, [&](const Node& node) { return leaves.leaf(node); }) +
+           gradient_body(expression);
+}
+
+std::string model_glsl(const Expression& expression, const ExpressionClass& element_class) {
+    const std::vector<NodeId> needed = expression.graph().needed({expression.value()});
+    LeafWriter leaves(expression, element_class, needed);
+    leaves.raise_fields(1);
+    if (leaves.needs_position()) {
+        leaves.raise_geometry(2);
+    }
+    const auto leaf = [&](const Node& node) -> std::string {
+        const std::size_t slot = leaves.slot(node.field);
+        switch (node.operation) {
+        case Operation::constant:
+        case Operation::order:
+        case Operation::element:
+            return call("core_model_constant", {leaves.leaf(node)});
+        case Operation::field: {
+            const std::string at = LeafWriter::field_suffix(slot, node.component);
+            const std::string bounds =
+                "core_field_bounds" + LeafWriter::instance_suffix(slot) + "(element, " + std::to_string(node.component) + "u)";
+            return call("core_model_leaf", {"core_f" + at, "core_s" + at, bounds, "cell"});
+        }
+        case Operation::position: {
+            if (!element_class.is_affine) {
+                return "core_model_unknown()";
+            }
+            const std::string i = std::to_string(node.index[0]);
+            return call(
+                "core_model_coordinate",
+                {"core_x[" + i + "]", "elvis_vec3(core_j[0][" + i + "], core_j[1][" + i + "], core_j[2][" + i + "])", "cell"});
+        }
+        default:
+            // Derivatives would take bounds of third derivatives of the field, and of derivatives of the mapping.
+            return "core_model_unknown()";
+        }
+    };
+    std::string text = "#include \"library/model.glsl\"\n#include \"library/model_choice.glsl\"\n" + commented(expression) +
+                       "core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell) {\n" + leaves.declarations();
+    for (const NodeId id : needed) {
+        const Node& node = expression.graph().node(id);
+        text += "    const core_model " + name(id) + " = ";
+        text += (n_operands(node.operation) == 0 ? leaf(node) : enclosure_operation(node, "core_model_", ", cell")) + ";\n";
+    }
+    return text + "    return " + name(expression.value()) + ";\n}\n";
+}
+
+std::string implicit_glsl(const Expression& expression) {
+    assert(expression.is_implicit());
+    const Graph& graph = expression.graph();
+    const auto leaf = [](const Node& node) {
+        return node.operation == Operation::constant ? literal(node.number) : "x[" + std::to_string(node.index[0]) + "]";
+    };
+    const auto interval_leaf = [](const Node& node) -> std::string {
+        constexpr const char* axes[] = {"x", "y", "z"};
+        // Integers of moderate size are exact in both precisions.
+        const bool is_exact = node.number == std::floor(node.number) && std::abs(node.number) < 1e6;
+        return node.operation != Operation::constant
+                   ? axes[node.index[0]]
+                   : call(is_exact ? "core_interval_number" : "core_interval_near", {literal(node.number)});
+    };
+    const std::vector<NodeId> of_value = graph.needed({expression.value()});
+    std::string text = std::string(real_includes) +
+                       "#include \"library/interval.glsl\"\n#include \"library/interval_choice.glsl\"\n" +
+                       commented(expression);
+    text += "elvis_real core_implicit_value(elvis_vec3 x) {\n" + real_nodes(graph, of_value, leaf) + "    return " +
+            name(expression.value()) + ";\n}\n";
+    text += "void core_implicit(elvis_vec3 x, out elvis_real value, out elvis_vec3 gradient) {\n" +
+            real_nodes(graph, graph.needed(roots_with_gradient(expression)), leaf) + gradient_body(expression);
+    text += "core_interval core_implicit_range(core_interval x, core_interval y, core_interval z) {\n";
+    for (const NodeId id : of_value) {
+        const Node& node = graph.node(id);
+        text += "    const core_interval " + name(id) + " = ";
+        text +=
+            (n_operands(node.operation) == 0 ? interval_leaf(node) : enclosure_operation(node, "core_interval_", "")) + ";\n";
+    }
+    return text + "    return " + name(expression.value()) + ";\n}\n";
+}
+
+bool value_is_estimated(const Expression& expression, const ExpressionClass& element_class) {
+    const auto lacks = [&](std::uint32_t capability) { return (element_class.capabilities & capability) == 0; };
+    return (expression.needs_gradients() && lacks(ELVIS_SNIPPET_FIELD_GRADIENT)) ||
+           (expression.needs_second_derivatives() &&
+            (lacks(ELVIS_SNIPPET_FIELD_HESSIAN) || lacks(ELVIS_SNIPPET_MAPPING_HESSIAN)));
+}
+
+bool gradient_is_estimated(const Expression& expression, const ExpressionClass& element_class) {
+    const auto lacks = [&](std::uint32_t capability) { return (element_class.capabilities & capability) == 0; };
+    return !expression.gradient() || lacks(ELVIS_SNIPPET_FIELD_GRADIENT) ||
+           (expression.gradient_needs_second_derivatives() &&
+            (lacks(ELVIS_SNIPPET_FIELD_HESSIAN) || lacks(ELVIS_SNIPPET_MAPPING_HESSIAN)));
+}
+
+} // namespace elvis
