@@ -26,17 +26,21 @@ struct DefaultFile {
 };
 
 /** In the order in which they may rest on each other. */
-constexpr std::array<DefaultFile, 2> default_files{
+constexpr std::array<DefaultFile, 4> default_files{
     DefaultFile{ELVIS_SNIPPET_MAPPING_JACOBIAN, "library/mapping_jacobian_default.glsl"},
     DefaultFile{ELVIS_SNIPPET_FIELD_GRADIENT, "library/gradient_default.glsl"},
+    DefaultFile{ELVIS_SNIPPET_FIELD_HESSIAN, "library/field_hessian_default.glsl"},
+    DefaultFile{ELVIS_SNIPPET_MAPPING_HESSIAN, "library/mapping_hessian_default.glsl"},
 };
 
-constexpr std::array<std::pair<const char*, std::uint32_t>, 5> capability_macros{
+constexpr std::array<std::pair<const char*, std::uint32_t>, 7> capability_macros{
     std::pair{"ELVIS_HAS_FIELD_GRADIENT", ELVIS_SNIPPET_FIELD_GRADIENT},
     std::pair{"ELVIS_HAS_MAPPING_JACOBIAN", ELVIS_SNIPPET_MAPPING_JACOBIAN},
     std::pair{"ELVIS_HAS_INVERSE_MAPPING", ELVIS_SNIPPET_INVERSE_MAPPING},
     std::pair{"ELVIS_HAS_FIELD_OFFSET", ELVIS_SNIPPET_FIELD_OFFSET},
     std::pair{"ELVIS_HAS_LOCAL_ORIGIN", ELVIS_SNIPPET_LOCAL_ORIGIN},
+    std::pair{"ELVIS_HAS_FIELD_HESSIAN", ELVIS_SNIPPET_FIELD_HESSIAN},
+    std::pair{"ELVIS_HAS_MAPPING_HESSIAN", ELVIS_SNIPPET_MAPPING_HESSIAN},
 };
 
 std::string define(const std::string& name, const std::string& value) { return "#define " + name + " " + value + "\n"; }
@@ -134,8 +138,10 @@ public:
         m_snippet_text = expand_includes(snippet.sources.front().text, snippet.sources.front().name, resolver(snippet));
         m_snippet_names = scan_glsl(m_snippet_text);
         std::string defaults = "#include \"library/reference_shape.glsl\"\n";
+        constexpr std::uint32_t second_derivatives = ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN;
+        const std::uint32_t unwanted = request.with_second_derivatives ? 0 : second_derivatives;
         for (const DefaultFile& file : default_files) {
-            if ((snippet.capabilities & file.capability) == 0) {
+            if (((snippet.capabilities | unwanted) & file.capability) == 0) {
                 defaults += std::string("#include \"") + file.path + "\"\n";
             }
         }
@@ -318,6 +324,7 @@ std::string compose(const Device& device, const KernelRequest& request, const Re
         text += fetch_macros(buffer.name, *buffer.records, records.number(buffer.records));
     }
     text += instances_text(request, records);
+    text += expand_includes(request.text, "(" + request.name + ")", shader_source);
     const std::string_view kernel = request.kernel_text.empty() ? shader_source(request.kernel) : request.kernel_text;
     return text + expand_includes(kernel, request.kernel, shader_source);
 }

@@ -7,14 +7,16 @@
  *   1. #version, extensions, ELVIS_REAL_IS_DOUBLE, ELVIS_N_INSTANCES, the request's #defines
  *   2. library/types.glsl, library/math.glsl
  *   3. fetch functions for every record buffer of host and instances (core/shader/fetch.hpp), and the host's elvis_fetch_NAME
- *   4. the instances, the first one last
+ *   4. the instances, the first one last; then the request's text
  *   5. the kernel's file, whose #includes reach everything below shaders/
  *
  * An instance is: ELVIS_SHAPE, ELVIS_N_COMPONENTS and ELVIS_HAS_... (FIELD_GRADIENT, MAPPING_JACOBIAN, INVERSE_MAPPING,
- * FIELD_OFFSET, LOCAL_ORIGIN: 0 or 1); elvis_origin; the fetch macros of its buffers; its constants; the snippet's first
- * source; library/reference_shape.glsl; and, where the snippet lacks them, library/mapping_jacobian_default.glsl and
- * library/gradient_default.glsl. A kernel that inverts mappings includes library/newton.glsl itself, which is about the first
- * instance. Afterwards the snippet's macros and fetch macros are undefined again.
+ * FIELD_OFFSET, LOCAL_ORIGIN, FIELD_HESSIAN, MAPPING_HESSIAN: 0 or 1); elvis_origin; the fetch macros of its buffers; its
+ * constants; the snippet's first source; library/reference_shape.glsl; and, where the snippet lacks them,
+ * library/mapping_jacobian_default.glsl, library/gradient_default.glsl and, if the request wants second derivatives,
+ * library/field_hessian_default.glsl and library/mapping_hessian_default.glsl. A kernel that inverts mappings includes
+ * library/newton.glsl itself, which is about the first instance. Afterwards the snippet's macros and fetch macros are undefined
+ * again.
  *
  * Instance k > 0 is the same text with #defines around it that append _k to the interface functions, to every identifier that
  * starts with the snippet's prefix, and to every name that the library files of the instance define. So a kernel calls
@@ -68,6 +70,10 @@ struct KernelRequest {
     std::string kernel;
     /** The kernel itself, if it is not among the files; `kernel` is its name in messages then. */
     std::string kernel_text;
+    /** Stands between the instances and the kernel, with #includes like the kernel's: functions that the kernel calls. */
+    std::string text;
+    /** Whether instances get second derivatives by differences where their snippet gives none. */
+    bool with_second_derivatives = false;
     Precision precision = Precision::float32;
     std::vector<SnippetInstance> instances;
     /** Record buffers of the host, visible to library and kernel. */

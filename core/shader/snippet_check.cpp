@@ -36,6 +36,14 @@ const std::vector<SnippetFunction>& snippet_functions() {
          ELVIS_SNIPPET_MAPPING_JACOBIAN},
         {"elvis_inverse_mapping", "bool elvis_inverse_mapping(uint element, elvis_vec3 x, out elvis_vec3 xi)",
          ELVIS_SNIPPET_INVERSE_MAPPING},
+        {"elvis_field_hessian",
+         "void elvis_field_hessian(uint element, elvis_vec3 xi, uint component, out elvis_real value, out elvis_vec3 gradient, "
+         "out elvis_mat3 hessian)",
+         ELVIS_SNIPPET_FIELD_HESSIAN},
+        {"elvis_mapping_hessian",
+         "void elvis_mapping_hessian(uint element, elvis_vec3 xi, out elvis_vec3 x, out elvis_mat3 jacobian, out elvis_mat3 "
+         "hessian_x, out elvis_mat3 hessian_y, out elvis_mat3 hessian_z)",
+         ELVIS_SNIPPET_MAPPING_HESSIAN},
     };
     return functions;
 }

@@ -4,6 +4,7 @@
 #include "native_snippet.hpp"
 #include "volume.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace elvis::native_plugin {
@@ -22,6 +23,19 @@ std::uint32_t count(std::size_t n) { return static_cast<std::uint32_t>(n); }
 /** An output array that may be missing. */
 std::span<double> optional(double* numbers, std::size_t size) {
     return numbers == nullptr ? std::span<double>() : std::span(numbers, size);
+}
+
+/** The snippet's texts, that of the field's second derivatives left empty if they are not given. */
+std::vector<elvis_text> make_sources(bool with_hessian) {
+    std::vector<elvis_text> texts;
+    for (const auto& file : snippet::files) {
+        // Known to #include and to messages by its name alone.
+        const char* slash = std::strrchr(file.name, '/');
+        const char* name = slash == nullptr ? file.name : slash + 1;
+        const bool is_left_out = !with_hessian && std::strcmp(name, "field_hessian.glsl") == 0;
+        texts.push_back(api::text(name, is_left_out ? "// Not with fields that have a transform.\n" : file.text));
+    }
+    return texts;
 }
 
 /** Two buffers a class: geometry, then field. */
@@ -105,17 +119,14 @@ public:
 
     void get_snippet(std::uint32_t element_class, elvis_snippet& out) override {
         check_class(element_class);
-        static const std::vector<elvis_text> sources = [] {
-            std::vector<elvis_text> texts;
-            for (const auto& file : snippet::files) {
-                // Known to #include and to messages by its name alone.
-                const char* slash = std::strrchr(file.name, '/');
-                texts.push_back(api::text(slash == nullptr ? file.name : slash + 1, file.text));
-            }
-            return texts;
-        }();
+        const bool has_hessians =
+            std::all_of(m_description.fields.begin(), m_description.fields.end(),
+                        [](const native::Field& field) { return field.transform == native::Transform::none; });
+        static const std::vector<elvis_text> all = make_sources(true), without_hessian = make_sources(false);
+        const std::vector<elvis_text>& sources = has_hessians ? all : without_hessian;
         out.capabilities = ELVIS_SNIPPET_FIELD_GRADIENT | ELVIS_SNIPPET_MAPPING_JACOBIAN | ELVIS_SNIPPET_FIELD_OFFSET |
-                           ELVIS_SNIPPET_LOCAL_ORIGIN;
+                           ELVIS_SNIPPET_LOCAL_ORIGIN | ELVIS_SNIPPET_MAPPING_HESSIAN |
+                           (has_hessians ? ELVIS_SNIPPET_FIELD_HESSIAN : 0u);
         out.prefix = "native";
         out.n_sources = count(sources.size());
         out.sources = sources.data();

@@ -21,32 +21,14 @@
 //   float32, anywhere         5e-5     5e-5     2e-4     3e-3
 // Outside the element (Newton's method passes there) the points start at xi.
 
-#if ELVIS_REAL_IS_DOUBLE
-#define CORE_GRADIENT_SPACING elvis_real(0.001LF)
-#else
-#define CORE_GRADIENT_SPACING elvis_real(0.02LF)
-#endif
-
-// Weight of point k of 7 for the derivative at point 3 (centred) or at point 0.
-elvis_real core_gradient_weight(int k, bool is_centred) {
-    const elvis_real sixtieth = elvis_real(1) / elvis_real(60);
-    if (is_centred) {
-        const int distance = abs(k - 3);
-        const elvis_real size = elvis_real(distance == 1 ? 45 : distance == 2 ? -9 : distance == 3 ? 1 : 0);
-        return (k < 3 ? -size : size) * sixtieth;
-    }
-    const int times_60 = k == 0 ? -147 : k == 1 ? 360 : k == 2 ? -450 : k == 3 ? 400 : k == 4 ? -225 : k == 5 ? 72 : -10;
-    return elvis_real(times_60) * sixtieth;
-}
+#include "library/stencil.glsl"
 
 // d/ds of the field at xi + s * direction, s = 0.
 elvis_real core_directional_derivative(uint element, elvis_vec3 xi, elvis_vec3 direction, uint component) {
-    const elvis_real three = elvis_real(3);
-    const elvis_real largest = CORE_GRADIENT_SPACING;
-    const elvis_real room = core_room(xi, -direction, three * largest) / three;
-    const bool is_centred = elvis_real(8) * room >= largest;
-    const elvis_real spacing = is_centred ? room : largest;
-    const int first = is_centred ? -3 : 0;
+    elvis_real spacing;
+    int first;
+    bool is_centred;
+    core_stencil(xi, direction, spacing, first, is_centred);
     elvis_real derivative = elvis_real(0);
     for (int k = 0; k < 7; ++k) {
         const elvis_vec3 point = xi + (elvis_real(first + k) * spacing) * direction;
@@ -56,21 +38,8 @@ elvis_real core_directional_derivative(uint element, elvis_vec3 xi, elvis_vec3 d
 }
 
 void elvis_field_gradient(uint element, elvis_vec3 xi, uint component, out elvis_real value, out elvis_vec3 gradient) {
-    // Barycentric coordinates of c1, c2, c3; that of c0 is what remains.
-    const elvis_vec3 b = elvis_real(0.5LF) * (xi + elvis_vec3(1));
-    const elvis_real b0 = elvis_real(1) - b.x - b.y - b.z;
-    const elvis_vec3 to_0 = elvis_vec3(-1, -1, -1) - xi;
-    elvis_vec3 first = elvis_vec3(1, -1, -1) - xi;
-    elvis_vec3 second = elvis_vec3(-1, 1, -1) - xi;
-    elvis_vec3 third = elvis_vec3(-1, -1, 1) - xi;
-    const elvis_real largest = max(max(abs(b.x), abs(b.y)), max(abs(b.z), abs(b0)));
-    if (abs(b.x) == largest) {
-        first = to_0;
-    } else if (abs(b.y) == largest) {
-        second = to_0;
-    } else if (abs(b.z) == largest) {
-        third = to_0;
-    }
+    elvis_vec3 first, second, third;
+    core_stencil_directions(xi, first, second, third);
     const elvis_real along_first = core_directional_derivative(element, xi, first, component);
     const elvis_real along_second = core_directional_derivative(element, xi, second, component);
     const elvis_real along_third = core_directional_derivative(element, xi, third, component);

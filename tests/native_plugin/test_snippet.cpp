@@ -36,14 +36,21 @@ constexpr std::size_t numbers_per_point = 20;
 class ClassOnDevice {
 public:
     ClassOnDevice(const RuntimeVolume& volume, std::uint32_t element_class, std::uint32_t field, Precision precision,
-                  std::span<const double> origins, std::span<const double> offset) {
+                  std::span<const double> origins, std::span<const double> offset,
+                  const std::string& kernel = "kernels/snippet_check.comp", std::size_t n_numbers = numbers_per_point,
+                  std::uint32_t without = 0)
+        : m_n_numbers(n_numbers) {
         m_request.name = "snippet check";
-        m_request.kernel = "kernels/snippet_check.comp";
+        m_request.kernel = kernel;
+        m_request.with_second_derivatives = true;
         m_request.precision = precision;
         m_request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
         m_request.push_constant_bytes = 4;
         SnippetInstance instance;
         instance.snippet = volume.snippet(element_class);
+        if (without != 0) {
+            leave_out(instance.snippet, without);
+        }
         instance.shape = volume.classes()[element_class].shape;
         instance.n_components = volume.fields()[field].n_components;
         instance.constants = volume.class_field(element_class, field).constants;
@@ -66,15 +73,29 @@ public:
 
     std::vector<double> evaluate(const std::vector<CheckPoint>& points) const {
         const Buffer input(device(), points.size() * sizeof(CheckPoint));
-        const Buffer output(device(), points.size() * numbers_per_point * sizeof(double));
+        const Buffer output(device(), points.size() * m_n_numbers * sizeof(double));
         input.write_items(std::span<const CheckPoint>(points));
         const auto n = static_cast<std::uint32_t>(points.size());
         const std::array<const Buffer*, 2> bindings{&input, &output};
         m_kernel->dispatch(bindings, std::as_bytes(std::span(&n, 1)), (n + 7) / 8);
-        return output.read_items<double>(points.size() * numbers_per_point);
+        return output.read_items<double>(points.size() * m_n_numbers);
     }
 
 private:
+    /** The snippet without functions of these capabilities: they are renamed. */
+    static void leave_out(Snippet& snippet, std::uint32_t capabilities) {
+        snippet.capabilities &= ~capabilities;
+        for (SnippetText& source : snippet.sources) {
+            for (const char* name : {"elvis_field_hessian", "elvis_mapping_hessian"}) {
+                const std::string old = name;
+                for (std::size_t at = source.text.find(old); at != std::string::npos; at = source.text.find(old, at)) {
+                    source.text.replace(at, old.size(), "native_" + old.substr(6) + "_unused");
+                }
+            }
+        }
+    }
+
+    std::size_t m_n_numbers;
     KernelRequest m_request;
     std::vector<std::unique_ptr<RecordBuffer>> m_buffers;
     std::optional<ComposedKernel> m_kernel;
@@ -241,6 +262,124 @@ TEST_CASE("snippets give vector fields with a transform and their gradients") {
         INFO(test::describe(spaces[i]) << ": " << describe(errors));
         CHECK(errors.largest() < 1e-11);
     }
+}
+
+namespace {
+
+/** Sixth-order difference of numbers along axis `d`; with h = 2e-3 its own error is a few 1e-12 of the gradient. */
+template <class Function> std::vector<double> difference(const Function& function, const double* xi, std::size_t d) {
+    constexpr double h = 2e-3;
+    constexpr double weights[] = {45.0 / 60, -9.0 / 60, 1.0 / 60};
+    std::vector<double> sum;
+    for (int k = -3; k <= 3; ++k) {
+        if (k == 0)
+            continue;
+        std::array<double, 3> at{xi[0], xi[1], xi[2]};
+        at[d] += k * h;
+        const std::vector<double> numbers = function(at);
+        sum.resize(numbers.size());
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            sum[i] += (k < 0 ? -1 : 1) * weights[std::abs(k) - 1] * numbers[i] / h;
+    }
+    return sum;
+}
+
+/** Second derivatives of field and mapping against differences of the CPU's gradients; points with xi3 <= top. */
+std::array<double, 2> hessian_errors(const TestVolume& file, std::uint32_t element_class, Precision precision, double top,
+                                     std::uint32_t without = 0) {
+    const RuntimeVolume volume = file.open();
+    const std::uint32_t n_components = volume.fields()[0].n_components;
+    const std::vector<double> origins(3 * volume.n_elements(), 0.0), offset(n_components, 0.0);
+    const ClassOnDevice on_device(volume, element_class, 0, precision, origins, offset, "kernels/hessian_check.comp", 52,
+                                  without);
+    std::vector<CheckPoint> points =
+        check_points(file.description().classes[element_class].geometry.shape,
+                     static_cast<std::uint32_t>(volume.classes()[element_class].n_elements), n_components, precision);
+    std::erase_if(points, [top](const CheckPoint& point) { return point.xi[2] > top; });
+    const std::vector<double> results = on_device.evaluate(points);
+    Comparison field, mapping;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double* result = results.data() + i * 52;
+        const std::uint64_t element = volume.classes()[element_class].first_element + points[i].element;
+        const auto gradient = [&](const std::array<double, 3>& xi) {
+            std::vector<double> values(n_components), gradients(3 * n_components);
+            volume.evaluate_field(0, 0, element, xi, values, gradients);
+            return std::vector<double>(gradients.begin() + 3 * points[i].component,
+                                       gradients.begin() + 3 * points[i].component + 3);
+        };
+        const auto jacobian = [&](const std::array<double, 3>& xi) {
+            std::vector<double> x(3), j(9);
+            volume.evaluate_mapping(element, xi, x, j);
+            return j;
+        };
+        for (std::size_t l = 0; l < 3; ++l) {
+            const std::vector<double> of_field = difference(gradient, points[i].xi, l);
+            const std::vector<double> of_mapping = difference(jacobian, points[i].xi, l);
+            for (std::size_t j = 0; j < 3; ++j) {
+                field.add(result[4 + 3 * l + j], of_field[j]);
+                for (std::size_t k = 0; k < 3; ++k)
+                    mapping.add(result[25 + 9 * k + 3 * l + j], of_mapping[3 * k + j]);
+            }
+        }
+    }
+    return {field.error(), mapping.error()};
+}
+
+} // namespace
+
+TEST_CASE("snippets give second derivatives of field and mapping") {
+    for (const std::uint32_t order : {2u, 5u}) {
+        const std::vector<native::Space> spaces = snippet_spaces(order);
+        const std::vector<native::Space> geometry = snippet_spaces(2 + order % 3);
+        std::vector<ClassPlan> classes;
+        for (std::size_t i = 0; i < spaces.size(); ++i)
+            classes.push_back({geometry[i], {spaces[i]}});
+        const TestVolume file(classes, {field_of(2, native::Transform::none)}, {0.0}, 1);
+        for (std::uint32_t i = 0; i < spaces.size(); ++i) {
+            // Second derivatives of a pyramid's functions grow towards its apex, and so do the differences' errors.
+            const double top = spaces[i].shape == native::Shape::pyramid ? 0.5 : 1;
+            const auto [field, mapping] = hessian_errors(file, i, Precision::float64, top);
+            const auto [field32, mapping32] = hessian_errors(file, i, Precision::float32, top);
+            std::cout << test::describe(spaces[i]) << ": second derivatives of the field " << field << " (float32 " << field32
+                      << "), of the mapping " << mapping << " (" << mapping32 << ")\n";
+            // The CPU's gradient of tensor pyramids loses a few 1e-16 / t, which a difference divides by 2e-3.
+            CHECK(field < 1e-8);
+            CHECK(mapping < 1e-8);
+            CHECK(field32 < 5e-6);
+            CHECK(mapping32 < 5e-6);
+        }
+    }
+}
+
+TEST_CASE("second derivatives that a snippet lacks are differences") {
+    const std::vector<native::Space> spaces = snippet_spaces(4);
+    std::vector<ClassPlan> classes;
+    for (const native::Space& space : spaces)
+        classes.push_back({space, {space}});
+    const TestVolume file(classes, {field_of(1, native::Transform::none)}, {0.0}, 1);
+    constexpr std::uint32_t without = ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN;
+    for (std::uint32_t i = 0; i < spaces.size(); ++i) {
+        const double top = spaces[i].shape == native::Shape::pyramid ? 0.5 : 1;
+        const auto [field, mapping] = hessian_errors(file, i, Precision::float64, top, without);
+        const auto [field32, mapping32] = hessian_errors(file, i, Precision::float32, top, without);
+        std::cout << test::describe(spaces[i]) << " by differences: " << field << " (float32 " << field32 << "), " << mapping
+                  << " (" << mapping32 << ")\n";
+        CHECK(field < 1e-9);
+        CHECK(mapping < 1e-9);
+        // 0.02 of the way to a corner is a large step where a pyramid's functions are rational.
+        CHECK(field32 < 2e-2);
+        CHECK(mapping32 < 2e-2);
+    }
+}
+
+TEST_CASE("volumes with transformed fields announce no second derivatives of fields") {
+    const std::vector<native::Space> spaces = snippet_spaces(2);
+    const TestVolume file({{spaces[0], {spaces[0], spaces[0]}}},
+                          {field_of(3, native::Transform::covariant),
+                           {"g", "", 1, native::Continuity::unknown, native::Transform::none, std::nan("")}});
+    const RuntimeVolume volume = file.open();
+    CHECK((volume.snippet(0).capabilities & ELVIS_SNIPPET_FIELD_HESSIAN) == 0);
+    CHECK((volume.snippet(0).capabilities & ELVIS_SNIPPET_MAPPING_HESSIAN) != 0);
 }
 
 TEST_CASE("the validation layer has nothing to say") { CHECK(device().validation_messages().empty()); }

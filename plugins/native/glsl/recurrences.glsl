@@ -113,3 +113,73 @@ elvis_vec3 native_jacobi_11(int n) {
             slope = slope_next;                                                                                                    \
         }                                                                                                                          \
     }
+
+// Second derivatives. With the partial derivatives of S by x and t,
+//
+//     Sx_{n+1}  = B S_n          + (A t + B x) Sx_n  - C t^2 Sx_{n-1}
+//     St_{n+1}  = A S_n          + (A t + B x) St_n  - C t^2 St_{n-1}  - 2 C t S_{n-1}
+//     Sxx_{n+1} = 2 B Sx_n       + (A t + B x) Sxx_n - C t^2 Sxx_{n-1}
+//     Sxt_{n+1} = A Sx_n + B St_n + (A t + B x) Sxt_n - C t^2 Sxt_{n-1} - 2 C t Sx_{n-1}
+//     Stt_{n+1} = 2 A St_n       + (A t + B x) Stt_n - C t^2 Stt_{n-1} - 4 C t St_{n-1} - 2 C S_{n-1}
+//
+// own = Sx, later = (Sx - St)/2; own own = Sxx, own later = (Sxx - Sxt)/2, later later = (Sxx - 2 Sxt + Stt)/4.
+#define NATIVE_SCALED_CURVES(order, abc, x, t, values, owns, laters, own_owns, own_laters, later_laters)                           \
+    {                                                                                                                              \
+        elvis_real s_ = elvis_real(1), s0_ = elvis_real(0), sx_ = elvis_real(0), sx0_ = elvis_real(0), st_ = elvis_real(0);        \
+        elvis_real st0_ = elvis_real(0), sxx_ = elvis_real(0), sxx0_ = elvis_real(0), sxt_ = elvis_real(0), sxt0_ = elvis_real(0); \
+        elvis_real stt_ = elvis_real(0), stt0_ = elvis_real(0);                                                                    \
+        for (int n = 0; n <= order; ++n) {                                                                                         \
+            values[n] = s_;                                                                                                        \
+            owns[n] = sx_;                                                                                                         \
+            laters[n] = elvis_real(0.5LF) * (sx_ - st_);                                                                           \
+            own_owns[n] = sxx_;                                                                                                    \
+            own_laters[n] = elvis_real(0.5LF) * (sxx_ - sxt_);                                                                     \
+            later_laters[n] = elvis_real(0.25LF) * (sxx_ - elvis_real(2) * sxt_ + stt_);                                           \
+            elvis_vec3 k = abc;                                                                                                    \
+            elvis_real l_ = k[0] * t + k[1] * x, c_ = k[2] * t * t, c1_ = elvis_real(2) * k[2] * t, c2_ = elvis_real(2) * k[2];    \
+            elvis_real next_stt = elvis_real(2) * k[0] * st_ + l_ * stt_ - c_ * stt0_ - elvis_real(2) * c1_ * st0_ - c2_ * s0_;    \
+            elvis_real next_sxt = k[0] * sx_ + k[1] * st_ + l_ * sxt_ - c_ * sxt0_ - c1_ * sx0_;                                   \
+            elvis_real next_sxx = elvis_real(2) * k[1] * sx_ + l_ * sxx_ - c_ * sxx0_;                                             \
+            elvis_real next_st = k[0] * s_ + l_ * st_ - c_ * st0_ - c1_ * s0_;                                                     \
+            elvis_real next_sx = k[1] * s_ + l_ * sx_ - c_ * sx0_;                                                                 \
+            elvis_real next_s = l_ * s_ - c_ * s0_;                                                                                \
+            s0_ = s_;                                                                                                              \
+            sx0_ = sx_;                                                                                                            \
+            st0_ = st_;                                                                                                            \
+            sxx0_ = sxx_;                                                                                                          \
+            sxt0_ = sxt_;                                                                                                          \
+            stt0_ = stt_;                                                                                                          \
+            s_ = next_s;                                                                                                           \
+            sx_ = next_sx;                                                                                                         \
+            st_ = next_st;                                                                                                         \
+            sxx_ = next_sxx;                                                                                                       \
+            sxt_ = next_sxt;                                                                                                       \
+            stt_ = next_stt;                                                                                                       \
+        }                                                                                                                          \
+    }
+
+// P_n(x) with first and second derivatives.
+#define NATIVE_PLAIN_CURVES(order, abc, x, values, slopes, curves)                                                                 \
+    {                                                                                                                              \
+        elvis_real s_ = elvis_real(1), s0_ = elvis_real(0), s1_ = elvis_real(0), s10_ = elvis_real(0), s2_ = elvis_real(0);        \
+        elvis_real s20_ = elvis_real(0);                                                                                           \
+        for (int n = 0; n <= order; ++n) {                                                                                         \
+            values[n] = s_;                                                                                                        \
+            slopes[n] = s1_;                                                                                                       \
+            curves[n] = s2_;                                                                                                       \
+            elvis_vec3 k = abc;                                                                                                    \
+            elvis_real l_ = k[0] + k[1] * x;                                                                                       \
+            elvis_real next_s2 = elvis_real(2) * k[1] * s1_ + l_ * s2_ - k[2] * s20_;                                              \
+            elvis_real next_s1 = k[1] * s_ + l_ * s1_ - k[2] * s10_;                                                               \
+            elvis_real next_s = l_ * s_ - k[2] * s0_;                                                                              \
+            s0_ = s_;                                                                                                              \
+            s10_ = s1_;                                                                                                            \
+            s20_ = s2_;                                                                                                            \
+            s_ = next_s;                                                                                                           \
+            s1_ = next_s1;                                                                                                         \
+            s2_ = next_s2;                                                                                                         \
+        }                                                                                                                          \
+    }
+
+// A, B, C of the Chebyshev polynomials.
+elvis_vec3 native_chebyshev(int n) { return elvis_vec3(0, elvis_real(n == 0 ? 1 : 2), elvis_real(n == 0 ? 0 : 1)); }

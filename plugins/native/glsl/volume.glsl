@@ -2,7 +2,7 @@
 //
 // shape.glsl defines a sum and its gradient; it is included once for the geometry (three numbers a mode) and once for the field.
 // What it is told:
-//   NATIVE_VALUE, NATIVE_GRADIENT    names of the functions to define
+//   NATIVE_VALUE, _GRADIENT, _HESSIAN   names of the functions to define
 //   NATIVE_TYPE                      type of the sum: elvis_real or elvis_vec3
 //   NATIVE_P, _Q, _R, NATIVE_BASIS   orders; for pyramids 0 tensor, 1 modified, 2 orthogonal
 //   NATIVE_SLAB_ROWS                 rows of four numbers from one slab of coefficients to the next
@@ -16,6 +16,7 @@
 
 #define NATIVE_VALUE native_mapping
 #define NATIVE_GRADIENT native_mapping_gradient
+#define NATIVE_HESSIAN native_mapping_hessian
 #define NATIVE_TYPE elvis_vec3
 #define NATIVE_P NATIVE_GEOMETRY_P
 #define NATIVE_Q NATIVE_GEOMETRY_Q
@@ -28,6 +29,7 @@
 #include "shape.glsl"
 #undef NATIVE_VALUE
 #undef NATIVE_GRADIENT
+#undef NATIVE_HESSIAN
 #undef NATIVE_TYPE
 #undef NATIVE_P
 #undef NATIVE_Q
@@ -39,6 +41,7 @@
 
 #define NATIVE_VALUE native_field
 #define NATIVE_GRADIENT native_field_gradient
+#define NATIVE_HESSIAN native_field_hessian
 #define NATIVE_P NATIVE_FIELD_P
 #define NATIVE_Q NATIVE_FIELD_Q
 #define NATIVE_R NATIVE_FIELD_R
@@ -56,6 +59,7 @@
 #include "shape.glsl"
 #undef NATIVE_VALUE
 #undef NATIVE_GRADIENT
+#undef NATIVE_HESSIAN
 #undef NATIVE_TYPE
 #undef NATIVE_P
 #undef NATIVE_Q
@@ -91,6 +95,25 @@ elvis_mat3 elvis_jacobian(uint element, elvis_vec3 xi) {
     return jacobian;
 }
 
+// Six second derivatives as a symmetric matrix, in the order of xi.
+elvis_mat3 native_symmetric(elvis_real d11, elvis_real d22, elvis_real d33, elvis_real d23, elvis_real d13, elvis_real d12) {
+#if ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+    return elvis_mat3(d11, d13, d12, d13, d33, d23, d12, d23, d22);
+#else
+    return elvis_mat3(d11, d12, d13, d12, d22, d23, d13, d23, d33);
+#endif
+}
+
+void elvis_mapping_hessian(uint element, elvis_vec3 xi, out elvis_vec3 x, out elvis_mat3 jacobian, out elvis_mat3 hessian_x,
+                           out elvis_mat3 hessian_y, out elvis_mat3 hessian_z) {
+    elvis_vec3 x1, x2, x3, x11, x22, x33, x23, x13, x12;
+    native_mapping_hessian(element, 0u, NATIVE_POINT(xi), x, x1, x2, x3, x11, x22, x33, x23, x13, x12);
+    jacobian = elvis_mat3(x1, NATIVE_SECOND, NATIVE_THIRD);
+    hessian_x = native_symmetric(x11.x, x22.x, x33.x, x23.x, x13.x, x12.x);
+    hessian_y = native_symmetric(x11.y, x22.y, x33.y, x23.y, x13.y, x12.y);
+    hessian_z = native_symmetric(x11.z, x22.z, x33.z, x23.z, x13.z, x12.z);
+}
+
 #if NATIVE_TRANSFORM == 0
 
 // Components follow one another in the record.
@@ -103,6 +126,8 @@ void elvis_field_gradient(uint element, elvis_vec3 xi, uint component, out elvis
     native_field_gradient(element, component * uint(NATIVE_FIELD_ROWS), NATIVE_POINT(xi), value, x1, x2, x3);
     gradient = elvis_vec3(x1, NATIVE_SECOND, NATIVE_THIRD);
 }
+
+#include "field_hessian.glsl"
 
 #else
 #include "transform.glsl"
