@@ -287,17 +287,18 @@ std::string real_operation(const Node& node) {
 
 /** The same for types whose functions are PREFIX_add(a, b) and so on; `last` ends every list of arguments. */
 std::string enclosure_operation(const Node& node, const std::string& prefix, const std::string& last) {
+    const auto operand = [&](std::size_t i) { return prefix + name(node.operands[i]); };
     const auto of = [&](const char* function, std::initializer_list<std::string> more) {
-        std::string text = prefix + function + "(" + name(node.operands[0]);
+        std::string text = prefix + function + "(" + operand(0);
         for (const std::string& one : more) {
             text += ", " + one;
         }
         return text + last + ")";
     };
-    const std::string b = name(node.operands[1]), c = name(node.operands[2]);
+    const std::string b = operand(1), c = operand(2);
     switch (node.operation) {
     case Operation::negate:
-        return prefix + "negate(" + name(node.operands[0]) + ")";
+        return prefix + "negate(" + operand(0) + ")";
     case Operation::whole_power:
         return node.number == 2 ? of("square", {}) : of("whole_power", {std::to_string(static_cast<int>(node.number)) + "u"});
     case Operation::power_to:
@@ -406,9 +407,11 @@ ExpressionClass expression_class(const RuntimeVolume& volume, std::uint32_t elem
 std::string value_glsl(const Expression& expression, const ExpressionClass& element_class) {
     const std::vector<NodeId> needed = expression.graph().needed({expression.value()});
     const LeafWriter leaves(expression, element_class, needed);
-    return real_includes + commented(expression) + "elvis_real core_shown_value(uint element, elvis_vec3 xi) {\n" +
-           leaves.declarations() + real_nodes(expression.graph(), needed, [&](const Node& node) { return leaves.leaf(node); }) +
-           "    return " + name(expression.value()) + ";\n}\n";
+    return std::string("#define CORE_SHOWN_BY_EXPRESSION 1\n#define CORE_VALUE_FLAGS ") +
+           (value_is_estimated(expression, element_class) ? "CORE_FLAG_ESTIMATED\n" : "0u\n") + real_includes +
+           commented(expression) + "elvis_real core_shown_value(uint element, elvis_vec3 xi) {\n" + leaves.declarations() +
+           real_nodes(expression.graph(), needed, [&](const Node& node) { return leaves.leaf(node); }) + "    return " +
+           name(expression.value()) + ";\n}\n";
 }
 
 std::string gradient_glsl(const Expression& expression, const ExpressionClass& element_class) {
@@ -423,48 +426,67 @@ std::string gradient_glsl(const Expression& expression, const ExpressionClass& e
            gradient_body(expression);
 }
 
+namespace {
+
+/** Whether bounds of everything in it are known: fields, constants, coordinates of affine mappings. */
+bool has_certified_model(const Expression& expression, const ExpressionClass& element_class) {
+    const std::vector<NodeId> needed = expression.graph().needed({expression.value()});
+    return std::all_of(needed.begin(), needed.end(), [&](NodeId id) {
+        const Operation operation = expression.graph().node(id).operation;
+        return n_operands(operation) > 0 || operation == Operation::constant || operation == Operation::field ||
+               operation == Operation::order || operation == Operation::element ||
+               (operation == Operation::position && element_class.is_affine);
+    });
+}
+
+} // namespace
+
 std::string model_glsl(const Expression& expression, const ExpressionClass& element_class) {
+    if (!has_certified_model(expression, element_class)) {
+        return "#include \"library/model.glsl\"\n" + gradient_glsl(expression, element_class) +
+               "#include \"library/estimated_model.glsl\"\n";
+    }
     const std::vector<NodeId> needed = expression.graph().needed({expression.value()});
     LeafWriter leaves(expression, element_class, needed);
     leaves.raise_fields(1);
     if (leaves.needs_position()) {
         leaves.raise_geometry(2);
     }
-    const auto leaf = [&](const Node& node) -> std::string {
-        const std::size_t slot = leaves.slot(node.field);
-        switch (node.operation) {
-        case Operation::constant:
-        case Operation::order:
-        case Operation::element:
-            return call("core_model_constant", {leaves.leaf(node)});
-        case Operation::field: {
-            const std::string at = LeafWriter::field_suffix(slot, node.component);
-            const std::string bounds =
-                "core_field_bounds" + LeafWriter::instance_suffix(slot) + "(element, " + std::to_string(node.component) + "u)";
-            return call("core_model_leaf", {"core_f" + at, "core_s" + at, bounds, "cell"});
-        }
-        case Operation::position: {
-            if (!element_class.is_affine) {
-                return "core_model_unknown()";
-            }
-            const std::string i = std::to_string(node.index[0]);
-            return call(
-                "core_model_coordinate",
-                {"core_x[" + i + "]", "elvis_vec3(core_j[0][" + i + "], core_j[1][" + i + "], core_j[2][" + i + "])", "cell"});
-        }
-        default:
-            // Derivatives would take bounds of third derivatives of the field, and of derivatives of the mapping.
-            return "core_model_unknown()";
-        }
+    const auto row = [&](const Node& node) {
+        return "elvis_fetch4_core_bounds" + LeafWriter::instance_suffix(leaves.slot(node.field)) + "(element, " +
+               std::to_string(node.component) + "u)";
     };
-    std::string text = "#include \"library/model.glsl\"\n#include \"library/model_choice.glsl\"\n" + commented(expression) +
-                       "core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell) {\n" + leaves.declarations();
+    const auto leaf = [&](const Node& node) -> std::string {
+        if (node.operation == Operation::field) {
+            const std::string at = LeafWriter::field_suffix(leaves.slot(node.field), node.component);
+            return call("core_model_leaf", {"core_f" + at, "core_s" + at, call("core_leaf_bounds", {row(node)}), "cell"});
+        }
+        if (node.operation == Operation::position) {
+            const std::string i = std::to_string(node.index[0]);
+            const std::string slope =
+                call("elvis_vec3", {"core_j[0][" + i + "]", "core_j[1][" + i + "]", "core_j[2][" + i + "]"});
+            return call("core_model_coordinate", {"core_x[" + i + "]", slope, "cell"});
+        }
+        return call("core_model_constant", {leaves.leaf(node)});
+    };
+    std::string text = "#include \"library/model.glsl\"\n#include \"library/model_choice.glsl\"\n#include "
+                       "\"library/leaf_bounds.glsl\"\n" +
+                       commented(expression) +
+                       "core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell, out elvis_real value) {\n" +
+                       leaves.declarations();
+    std::string is_estimated = "false";
     for (const NodeId id : needed) {
         const Node& node = expression.graph().node(id);
-        text += "    const core_model " + name(id) + " = ";
+        text += "    const core_model core_model_" + name(id) + " = ";
         text += (n_operands(node.operation) == 0 ? leaf(node) : enclosure_operation(node, "core_model_", ", cell")) + ";\n";
+        if (node.operation == Operation::field) {
+            is_estimated += " || " + row(node) + ".w > elvis_real(0)";
+        }
     }
-    return text + "    return " + name(expression.value()) + ";\n}\n";
+    // What is drawn is the value itself, not the model's, which is 0 where nothing is known.
+    text += real_nodes(expression.graph(), needed, [&](const Node& node) { return leaves.leaf(node); });
+    text += "    value = " + name(expression.value()) + ";\n    return core_model_" + name(expression.value()) + ";\n}\n";
+    return text + "bool core_is_model_estimated(uint element) { return " + is_estimated + "; }\n";
 }
 
 std::string implicit_glsl(const Expression& expression) {
@@ -492,11 +514,11 @@ std::string implicit_glsl(const Expression& expression) {
     text += "core_interval core_implicit_range(core_interval x, core_interval y, core_interval z) {\n";
     for (const NodeId id : of_value) {
         const Node& node = graph.node(id);
-        text += "    const core_interval " + name(id) + " = ";
+        text += "    const core_interval core_interval_" + name(id) + " = ";
         text +=
             (n_operands(node.operation) == 0 ? interval_leaf(node) : enclosure_operation(node, "core_interval_", "")) + ";\n";
     }
-    return text + "    return " + name(expression.value()) + ";\n}\n";
+    return text + "    return core_interval_" + name(expression.value()) + ";\n}\n";
 }
 
 bool value_is_estimated(const Expression& expression, const ExpressionClass& element_class) {

@@ -5,7 +5,8 @@
  *
  *     elvis_real core_shown_value(uint element, elvis_vec3 xi)
  *     void core_shown_gradient(uint element, elvis_vec3 xi, out elvis_real value, out elvis_vec3 gradient)   by xi
- *     core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell)          (shaders/library/model.glsl)
+ *     core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell, out elvis_real value)
+ * (shaders/library/model.glsl) bool core_is_model_estimated(uint element)
  *
  * and for implicit expressions, without any instance,
  *
@@ -43,6 +44,7 @@ ExpressionClass expression_class(const RuntimeVolume& volume, std::uint32_t elem
 
 std::string value_glsl(const Expression& expression, const ExpressionClass& element_class);
 std::string gradient_glsl(const Expression& expression, const ExpressionClass& element_class);
+/** value_glsl() comes first; has gradient_glsl() in it where it needs it. */
 std::string model_glsl(const Expression& expression, const ExpressionClass& element_class);
 std::string implicit_glsl(const Expression& expression);
 

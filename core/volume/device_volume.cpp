@@ -1,4 +1,5 @@
 #include <core/base/float_rounding.hpp>
+#include <core/expression/glsl.hpp>
 #include <core/volume/derivative_bounds.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/element_records.hpp>
@@ -22,6 +23,19 @@ double milliseconds_since(Clock::time_point start) {
 }
 
 } // namespace
+
+FieldSelection selection_of(const std::shared_ptr<const Expression>& expression, const RuntimeVolume& volume,
+                            std::uint32_t time_step) {
+    FieldSelection selection{{}, time_step, expression};
+    std::vector<std::uint32_t> fields = expression->fields();
+    if (fields.empty()) {
+        fields.push_back(0);
+    }
+    for (const std::uint32_t field : fields) {
+        selection.slots.push_back({field, std::vector<double>(volume.fields()[field].n_components, 0.0)});
+    }
+    return selection;
+}
 
 DeviceVolume::DeviceVolume(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control)
     : m_device(device), m_volume(volume), m_precision(precision), m_control(control), m_buffers(volume.n_buffers()) {
@@ -91,36 +105,59 @@ void DeviceVolume::build_class(std::uint32_t element_class, const std::vector<do
     m_classes.push_back(std::move(data));
 }
 
-bool DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const std::vector<double>& offset) {
+std::vector<double> DeviceVolume::possible_offset(const std::vector<double>& offset) const {
+    const bool can_subtract = std::all_of(m_classes.begin(), m_classes.end(), [](const ClassData& data) {
+        return (data.snippet.capabilities & ELVIS_SNIPPET_FIELD_OFFSET) != 0;
+    });
+    return can_subtract ? offset : std::vector<double>(offset.size(), 0.0);
+}
+
+bool DeviceVolume::is_slot(const Slot& slot, const FieldSlot& wanted) const {
+    return slot.field == wanted.field && slot.offset == possible_offset(wanted.offset);
+}
+
+void DeviceVolume::keep(std::span<const FieldSelection> selections) {
+    const auto is_unused = [&](const std::unique_ptr<Slot>& slot) {
+        return std::none_of(selections.begin(), selections.end(), [&](const FieldSelection& selection) {
+            return std::any_of(selection.slots.begin(), selection.slots.end(),
+                               [&](const FieldSlot& wanted) { return is_slot(*slot, wanted); });
+        });
+    };
+    std::erase_if(m_slots, is_unused);
+    m_selected.clear();
+}
+
+void DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const std::vector<double>& offset) {
+    const FieldSelection selection{{{field, offset}}, time_step, nullptr};
+    keep(std::span(&selection, 1));
+    select(selection);
+}
+
+void DeviceVolume::select(const FieldSelection& selection) {
+    assert(!selection.slots.empty());
     const Clock::time_point start = Clock::now();
-    bool can_subtract = true;
-    for (const ClassData& data : m_classes) {
-        can_subtract = can_subtract && (data.snippet.capabilities & ELVIS_SNIPPET_FIELD_OFFSET) != 0;
-    }
-    const std::vector<double> new_offset = can_subtract ? offset : std::vector<double>(offset.size(), 0.0);
-    if (field != m_field || time_step != m_time_step || new_offset != m_offset) {
-        for (ClassData& data : m_classes) {
-            data.derivative_bounds.reset();
-        }
-    }
-    m_offset = new_offset;
-    m_field = field;
-    m_time_step = time_step;
+    m_time_step = selection.time_step;
+    m_expression = selection.expression;
+    m_selected.clear();
     bool is_changed = false;
-    bool is_geometry_changed = false;
+    for (const FieldSlot& wanted : selection.slots) {
+        auto found = std::find_if(m_slots.begin(), m_slots.end(),
+                                  [&](const std::unique_ptr<Slot>& slot) { return is_slot(*slot, wanted); });
+        if (found == m_slots.end()) {
+            found = m_slots.insert(m_slots.end(), std::make_unique<Slot>());
+        }
+        is_changed = provide(wanted, **found) || is_changed;
+        m_selected.push_back(found->get());
+    }
+    bool is_geometry_changed = !m_has_elements;
     for (std::uint32_t index = 0; index < m_buffers.size(); ++index) {
         PluginBuffer& buffer = m_buffers[index];
-        const bool depends_on_field = (buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) != 0;
-        const bool depends_on_time = (buffer.info.depends & ELVIS_DEPENDS_ON_TIME) != 0;
-        const bool is_stale = !buffer.records || (depends_on_field && (buffer.field != field || buffer.offset != m_offset)) ||
-                              (depends_on_time && buffer.time_step != time_step);
-        if (is_stale) {
-            fill(index, buffer);
-            is_changed = true;
-            is_geometry_changed = is_geometry_changed || (buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) == 0;
+        buffer.info = m_volume.buffer(index, slot(0).field);
+        if ((buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) == 0) {
+            is_geometry_changed = provide(index, slot(0), buffer) || is_geometry_changed;
         }
     }
-    if (is_geometry_changed || !m_has_elements) {
+    if (is_geometry_changed) {
         for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
             if (m_classes[element_class].elements) {
                 write_elements(m_device, m_volume, element_class, instance(element_class), m_precision,
@@ -130,26 +167,49 @@ bool DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const st
         m_has_elements = true;
         ++m_geometry_version;
     }
-    m_upload_milliseconds = is_changed ? milliseconds_since(start) : m_upload_milliseconds;
+    m_upload_milliseconds = is_changed || is_geometry_changed ? milliseconds_since(start) : m_upload_milliseconds;
+}
+
+/** Fills what the slot lacks; returns whether there was something. */
+bool DeviceVolume::provide(const FieldSlot& wanted, Slot& slot) {
+    slot.field = wanted.field;
+    slot.offset = possible_offset(wanted.offset);
+    slot.buffers.resize(m_buffers.size());
+    slot.derivative_bounds.resize(m_classes.size());
+    bool is_changed = false;
+    for (std::uint32_t index = 0; index < m_buffers.size(); ++index) {
+        slot.buffers[index].info = m_volume.buffer(index, slot.field);
+        if ((slot.buffers[index].info.depends & ELVIS_DEPENDS_ON_FIELD) != 0) {
+            is_changed = provide(index, slot, slot.buffers[index]) || is_changed;
+        }
+    }
     return is_changed;
 }
 
-void DeviceVolume::fill(std::uint32_t index, PluginBuffer& buffer) {
-    buffer.records.reset();
-    buffer.info = m_volume.buffer(index, m_field);
-    buffer.field = m_field;
-    buffer.time_step = m_time_step;
-    buffer.offset = m_offset;
+bool DeviceVolume::provide(std::uint32_t index, const Slot& slot, PluginBuffer& buffer) {
+    const bool depends_on_time = (buffer.info.depends & ELVIS_DEPENDS_ON_TIME) != 0;
+    const bool is_stale = !buffer.records || (depends_on_time && buffer.time_step != m_time_step);
+    if (is_stale) {
+        fill(index, slot, buffer);
+    }
+    return is_stale;
+}
+
+void DeviceVolume::fill(std::uint32_t index, const Slot& slot, PluginBuffer& buffer) {
     const BufferInfo& info = buffer.info;
     const bool is_real = info.kind == ELVIS_BUFFER_REAL;
-    buffer.records = std::make_unique<RecordBuffer>(m_device, is_real ? RecordKind::real : RecordKind::uint, m_precision,
-                                                    info.n_records, info.record_size);
+    // Another time step takes the same room: kernels composed with the buffer stay valid.
+    if (!buffer.records) {
+        buffer.records = std::make_unique<RecordBuffer>(m_device, is_real ? RecordKind::real : RecordKind::uint, m_precision,
+                                                        info.n_records, info.record_size);
+    }
+    buffer.time_step = m_time_step;
     elvis_fill_request request{};
     request.struct_size = sizeof request;
     request.buffer = index;
-    request.field = m_field;
+    request.field = slot.field;
     request.time_step = m_time_step;
-    request.field_offset = m_offset.data();
+    request.field_offset = slot.offset.data();
     request.origins = has_capability(info.element_class, ELVIS_SNIPPET_LOCAL_ORIGIN) ? m_origins.data() : nullptr;
     const std::uint64_t block = std::max<std::uint64_t>(1, block_numbers / info.record_size);
     std::vector<double> reals;
@@ -183,13 +243,15 @@ std::array<double, 3> DeviceVolume::origin(std::uint64_t element) const {
     return {};
 }
 
-SnippetInstance DeviceVolume::instance(std::uint32_t element_class) const {
+SnippetInstance DeviceVolume::instance(std::uint32_t element_class, std::size_t index) const {
+    const Slot& of = slot(index);
     SnippetInstance instance;
     instance.snippet = m_classes[element_class].snippet;
     instance.shape = m_volume.classes()[element_class].shape;
-    instance.n_components = m_volume.fields()[m_field].n_components;
-    instance.constants = m_volume.class_field(element_class, m_field).constants;
-    for (const PluginBuffer& buffer : m_buffers) {
+    instance.n_components = m_volume.fields()[of.field].n_components;
+    instance.constants = m_volume.class_field(element_class, of.field).constants;
+    for (std::size_t i = 0; i < m_buffers.size(); ++i) {
+        const PluginBuffer& buffer = m_buffers[i].records ? m_buffers[i] : of.buffers[i];
         if (buffer.records && (buffer.info.element_class == element_class || buffer.info.element_class == ELVIS_ALL_CLASSES)) {
             instance.buffers.push_back({buffer.info.name, buffer.records.get()});
         }
@@ -198,31 +260,61 @@ SnippetInstance DeviceVolume::instance(std::uint32_t element_class) const {
     return instance;
 }
 
+void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class, bool with_bounds) const {
+    request.instances.clear();
+    for (std::size_t index = 0; index < m_selected.size(); ++index) {
+        request.instances.push_back(instance(element_class, index));
+        if (with_bounds) {
+            request.buffers.push_back(derivative_bounds(element_class, index));
+        }
+    }
+    if (m_expression) {
+        const ExpressionClass info = expression_class(m_volume, element_class);
+        request.text = value_glsl(*m_expression, info);
+        if (with_bounds) {
+            request.text += model_glsl(*m_expression, info);
+        }
+        request.with_second_derivatives =
+            m_expression->needs_second_derivatives() || (with_bounds && m_expression->gradient_needs_second_derivatives());
+    }
+}
+
 std::vector<FetchBuffer> DeviceVolume::host_buffers(std::uint32_t element_class) const {
     return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_elements", m_classes[element_class].elements.get()}};
 }
 
 void DeviceVolume::provide_derivative_bounds() {
-    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
-        if (!m_classes[index].derivative_bounds && m_volume.classes()[index].n_elements > 0) {
-            m_classes[index].derivative_bounds = make_derivative_bounds(
-                m_device, m_volume, index, {m_field, m_time_step, m_offset}, instance(index), m_precision, m_control);
+    for (std::size_t index = 0; index < m_selected.size(); ++index) {
+        Slot& of = *m_selected[index];
+        for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
+            std::unique_ptr<RecordBuffer>& bounds = of.derivative_bounds[element_class];
+            if ((!bounds || of.bounds_time_step != m_time_step) && m_volume.classes()[element_class].n_elements > 0) {
+                bounds = make_derivative_bounds(m_device, m_volume, element_class, {of.field, m_time_step, of.offset},
+                                                instance(element_class, index), m_precision, m_control);
+            }
         }
+        of.bounds_time_step = m_time_step;
     }
 }
 
-FetchBuffer DeviceVolume::derivative_bounds(std::uint32_t element_class) const {
-    assert(m_classes[element_class].derivative_bounds);
-    return {"core_bounds", m_classes[element_class].derivative_bounds.get()};
+FetchBuffer DeviceVolume::derivative_bounds(std::uint32_t element_class, std::size_t index) const {
+    assert(slot(index).derivative_bounds[element_class]);
+    std::string name = "core_bounds";
+    if (index > 0) {
+        name.append("_").append(std::to_string(index));
+    }
+    return {name, slot(index).derivative_bounds[element_class].get()};
 }
 
 std::uint64_t DeviceVolume::field_bytes() const {
     std::uint64_t sum = 0;
-    for (const ClassData& data : m_classes) {
-        sum += data.derivative_bounds ? data.derivative_bounds->bytes() : 0;
-    }
-    for (const PluginBuffer& buffer : m_buffers) {
-        sum += buffer.records && (buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) ? buffer.records->bytes() : 0;
+    for (const std::unique_ptr<Slot>& slot : m_slots) {
+        for (const PluginBuffer& buffer : slot->buffers) {
+            sum += buffer.records ? buffer.records->bytes() : 0;
+        }
+        for (const std::unique_ptr<RecordBuffer>& bounds : slot->derivative_bounds) {
+            sum += bounds ? bounds->bytes() : 0;
+        }
     }
     return sum;
 }
@@ -230,7 +322,7 @@ std::uint64_t DeviceVolume::field_bytes() const {
 std::uint64_t DeviceVolume::geometry_bytes() const {
     std::uint64_t sum = 0;
     for (const PluginBuffer& buffer : m_buffers) {
-        sum += buffer.records && !(buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) ? buffer.records->bytes() : 0;
+        sum += buffer.records ? buffer.records->bytes() : 0;
     }
     return sum;
 }

@@ -1,10 +1,11 @@
 /**
  * @file device_volume.hpp
- * A volume's data on the device: the plugin's buffers for one field and time step, and a hierarchy for each element class.
+ * A volume's data on the device: the plugin's buffers for some fields at a time step, and a hierarchy for each element class.
  */
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/expression/expression.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/shader/composer.hpp>
@@ -16,6 +17,26 @@
 #include <vector>
 
 namespace elvis {
+
+/** A field as it is wanted on the device: less `offset`, one number a component, where the snippets can do so. */
+struct FieldSlot {
+    std::uint32_t field = 0;
+    std::vector<double> offset;
+
+    bool operator==(const FieldSlot&) const = default;
+};
+
+/** What is to be shown: one field, or an expression over several. */
+struct FieldSelection {
+    /** At least one. Of an expression, its fields in their order, without offset; any field if it has none. */
+    std::vector<FieldSlot> slots;
+    std::uint32_t time_step = 0;
+    std::shared_ptr<const Expression> expression;
+};
+
+/** What an expression takes. */
+FieldSelection selection_of(const std::shared_ptr<const Expression>& expression, const RuntimeVolume& volume,
+                            std::uint32_t time_step);
 
 class DeviceVolume {
 public:
@@ -32,14 +53,28 @@ public:
     std::uint64_t geometry_version() const { return m_geometry_version; }
 
     /**
-     * Fills what depends on these and is not there yet. The field on the device lacks `offset` (one number a component), if the
-     * snippets can do so: field_offset() tells what was subtracted. Invalidates kernels composed before where it returns true.
+     * Makes a choice current: fills what it needs and is not there yet. What other choices need stays, until keep() drops it,
+     * and so do kernels composed with it.
      */
-    bool select(std::uint32_t field, std::uint32_t time_step, const std::vector<double>& offset);
-    double field_offset(std::uint32_t component) const { return m_offset[component]; }
+    void select(const FieldSelection& selection);
+    /** Drops what none of these needs. */
+    void keep(std::span<const FieldSelection> selections);
+    /**
+     * One field alone, and no other. It lacks `offset` (one number a component) on the device, if the snippets can do so:
+     * field_offset() tells what was subtracted.
+     */
+    void select(std::uint32_t field, std::uint32_t time_step, const std::vector<double>& offset);
+    /** Of the first field. */
+    double field_offset(std::uint32_t component) const { return slot(0).offset[component]; }
 
-    /** The class's snippet with the selected field; valid until the next select(). */
-    SnippetInstance instance(std::uint32_t element_class) const;
+    /** The class's snippet with field `index` of the selected ones; valid as long as the field is kept. */
+    SnippetInstance instance(std::uint32_t element_class, std::size_t index = 0) const;
+    /**
+     * What a kernel needs to show what is selected: instances, with bounds of derivatives if they are wanted (see below), and
+     * for an expression its functions (core/expression/glsl.hpp), of which core_shown_model comes with the bounds.
+     */
+    void add_field(KernelRequest& request, std::uint32_t element_class, bool with_bounds = false) const;
+
     /**
      * Nodes of the class's hierarchy as `core_nodes`, and as `core_elements` the number and linearized inverse mapping of its
      * elements (shaders/library/linearization.glsl).
@@ -47,15 +82,15 @@ public:
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
 
     /**
-     * Makes bounds of the selected field and its derivatives in every element, if they are not there yet. For kernels that need
-     * them; select() comes first.
+     * Makes bounds of the selected fields and their derivatives in every element, if they are not there yet. For kernels that
+     * need them; select() comes first.
      */
     void provide_derivative_bounds();
     /**
-     * `core_bounds`: elvis_fetch4_core_bounds(element, component) = (H, L, F, certainty), see derivative_bounds.hpp. Needs
-     * provide_derivative_bounds() after the latest select(); valid until select() chooses another field, time step or offset.
+     * `core_bounds` (of field `index` > 0 core_bounds_1 and so on): elvis_fetch4_core_bounds(element, component) = (H, L, F,
+     * certainty), see derivative_bounds.hpp. Needs provide_derivative_bounds(); valid as long as field and time step are kept.
      */
-    FetchBuffer derivative_bounds(std::uint32_t element_class) const;
+    FetchBuffer derivative_bounds(std::uint32_t element_class, std::size_t index = 0) const;
 
     std::uint64_t field_bytes() const;
     std::uint64_t geometry_bytes() const;
@@ -67,22 +102,33 @@ private:
     struct PluginBuffer {
         BufferInfo info;
         std::unique_ptr<RecordBuffer> records;
-        std::uint32_t field = 0;
         std::uint32_t time_step = 0;
+    };
+    /** A field on the device. */
+    struct Slot {
+        std::uint32_t field = 0;
         std::vector<double> offset;
+        /** By the plugin's buffers; empty where one does not depend on the field. */
+        std::vector<PluginBuffer> buffers;
+        /** By class; null until they are wanted. */
+        std::vector<std::unique_ptr<RecordBuffer>> derivative_bounds;
+        std::uint32_t bounds_time_step = 0;
     };
     struct ClassData {
         Snippet snippet;
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
         std::unique_ptr<RecordBuffer> elements;
-        /** Of the selected field; null until they are wanted. */
-        std::unique_ptr<RecordBuffer> derivative_bounds;
     };
 
     void read_bounds();
     void build_class(std::uint32_t element_class, const std::vector<double>& boxes);
-    void fill(std::uint32_t index, PluginBuffer& buffer);
+    bool provide(const FieldSlot& wanted, Slot& slot);
+    bool provide(std::uint32_t index, const Slot& slot, PluginBuffer& buffer);
+    void fill(std::uint32_t index, const Slot& slot, PluginBuffer& buffer);
+    std::vector<double> possible_offset(const std::vector<double>& offset) const;
+    bool is_slot(const Slot& slot, const FieldSlot& wanted) const;
+    const Slot& slot(std::size_t index) const { return *m_selected[index]; }
     bool has_capability(std::uint32_t element_class, std::uint32_t capability) const;
 
     const Device& m_device;
@@ -94,9 +140,12 @@ private:
     /** Three numbers an element, exact in single precision. */
     std::vector<double> m_origins;
     std::vector<ClassData> m_classes;
+    /** By the plugin's buffers; empty where one depends on the field. */
     std::vector<PluginBuffer> m_buffers;
-    std::vector<double> m_offset;
-    std::uint32_t m_field = 0;
+    std::vector<std::unique_ptr<Slot>> m_slots;
+    /** Among m_slots, in the order of the selection. */
+    std::vector<Slot*> m_selected;
+    std::shared_ptr<const Expression> m_expression;
     std::uint32_t m_time_step = 0;
     bool m_has_elements = false;
     std::uint64_t m_geometry_version = 0;

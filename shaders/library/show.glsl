@@ -23,6 +23,9 @@ struct core_location {
     bool is_cut_short;
 };
 
+// An expression brings its own core_shown_value, and whether it rests on estimates (core/expression/glsl.hpp).
+#ifndef CORE_SHOWN_BY_EXPRESSION
+#define CORE_VALUE_FLAGS 0u
 // The component, or the length of the vector of several.
 elvis_real core_shown_value(uint element, elvis_vec3 xi) {
     elvis_real value = elvis_field_value(element, xi, core_first_component);
@@ -36,6 +39,7 @@ elvis_real core_shown_value(uint element, elvis_vec3 xi) {
 #endif
     return value;
 }
+#endif
 
 // Puts what was found into the picture, unless another surface or element goes before it. Returns the number of field evaluations.
 uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_real value) {
@@ -57,7 +61,8 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
     const bool is_shared = has_found && (is_same_surface || (is_shown && found.n_candidates > 1u));
     owner |= is_shared ? CORE_OWNER_SHARED : 0u;
     core_marks[pixel].owner = owner;
-    const uint flags = (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u);
+    const uint flags = (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) |
+                       (is_shown ? CORE_VALUE_FLAGS : 0u);
     for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
         core_marks[pixel].flags |= flags;
     }

@@ -4,17 +4,16 @@
 
 #include "library/model.glsl"
 
-// Rounding of a value, relative to the largest, and of a gradient: twice what evaluations of orders up to 10 show.
-#define CORE_VALUE_ROUNDING (elvis_real(16) * CORE_ROUNDOFF)
-#define CORE_GRADIENT_ROUNDING (elvis_real(64) * CORE_ROUNDOFF)
+#include "library/leaf_bounds.glsl"
+
+// An expression brings its own (core/expression/glsl.hpp).
+#ifndef CORE_SHOWN_BY_EXPRESSION
 
 // `value`: what core_shown_value gives, also where there is no model.
 core_model core_component_model(uint element, elvis_vec3 xi, uint component, core_patch region, out elvis_real value) {
     elvis_vec3 gradient;
     elvis_field_gradient(element, xi, component, value, gradient);
-    const elvis_vec4 bounds = elvis_fetch4_core_bounds(element, component);
-    return core_model_leaf(value, gradient,
-                           elvis_vec3(bounds.x, CORE_VALUE_ROUNDING * bounds.z, CORE_GRADIENT_ROUNDING * bounds.y), region);
+    return core_model_leaf(value, gradient, core_leaf_bounds(elvis_fetch4_core_bounds(element, component)), region);
 }
 
 core_model core_shown_model(uint element, elvis_vec3 xi, core_patch region, out elvis_real value) {
@@ -42,3 +41,5 @@ bool core_is_model_estimated(uint element) {
     }
     return is_estimated;
 }
+
+#endif

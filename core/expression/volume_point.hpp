@@ -1,0 +1,51 @@
+/**
+ * @file volume_point.hpp
+ * A point of an element of a volume whose plugin evaluates on the CPU, for expressions.
+ */
+#pragma once
+
+#include <core/expression/evaluate.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace elvis {
+
+/** Second derivatives are differences of first ones, which plugins give on the CPU. */
+class VolumePoint : public ExpressionPoint {
+public:
+    /** Needs RuntimeVolume::has_evaluation(); the volume must outlive it. `element` counts as in the volume. */
+    VolumePoint(const RuntimeVolume& volume, std::uint64_t element, const std::array<double, 3>& xi, std::uint32_t time_step);
+
+    std::array<double, 3> position() override { return m_position; }
+    std::array<double, 9> jacobian() override { return m_jacobian; }
+    std::array<double, 27> mapping_hessian() override;
+    double value(std::uint32_t field, std::uint32_t component) override { return sample(field).values[component]; }
+    std::array<double, 3> gradient(std::uint32_t field, std::uint32_t component) override;
+    std::array<double, 9> hessian(std::uint32_t field, std::uint32_t component) override;
+    double order(std::uint32_t field) override;
+    double element_number() override;
+
+private:
+    struct Sample {
+        std::vector<double> values, gradients;
+        std::optional<std::vector<double>> hessians;
+    };
+    Sample& sample(std::uint32_t field);
+    std::uint32_t element_class() const;
+    /** Derivatives of n numbers by each reference coordinate: 3 n numbers, n of each. */
+    std::vector<double> differences(const std::function<std::vector<double>(const std::array<double, 3>&)>& function) const;
+
+    const RuntimeVolume& m_volume;
+    std::uint64_t m_element;
+    std::array<double, 3> m_xi;
+    std::uint32_t m_time_step;
+    std::array<double, 3> m_position{};
+    std::array<double, 9> m_jacobian{};
+    std::map<std::uint32_t, Sample> m_samples;
+};
+
+} // namespace elvis
