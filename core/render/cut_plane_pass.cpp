@@ -88,11 +88,8 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         ClassKernels kernels;
         kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
 
-        request.instances = {data.instance(index)};
+        data.add_field(request, index, m_with_lines);
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
-        if (m_with_lines) {
-            request.buffers.push_back(data.derivative_bounds(index));
-        }
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "kernels/cut_plane.comp";
         request.bindings = bindings(m_with_lines ? 6 : 5);

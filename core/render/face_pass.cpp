@@ -81,11 +81,11 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         request.push_constant_bytes = sizeof(TilesParameters);
         kernels.tiles = std::make_unique<ComposedKernel>(device, request);
 
-        request.instances = {data.instance(index)};
         request.buffers = {{"core_nodes", own.nodes.get()},
                            {"core_faces", own.faces.get()},
                            {"core_patches", own.patches.get()},
                            {"core_face_points", own.points.get()}};
+        data.add_field(request, index);
         if (own.is_polynomial) {
             request.defines.emplace_back("CORE_FACE_ORDER", std::to_string(own.order));
         }

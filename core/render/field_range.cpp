@@ -58,7 +58,8 @@ std::vector<FieldRange> ranges_from_samples(const Device& device, const RuntimeV
         request.name = "field_range of element class " + std::to_string(index);
         request.kernel = "kernels/field_range.comp";
         request.precision = data.precision();
-        request.instances = {data.instance(index)};
+        request.buffers = data.host_buffers(index);
+        data.add_field(request, index);
         request.bindings = {{0, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(Parameters);
         const ComposedKernel kernel(device, request);

@@ -16,7 +16,7 @@ std::vector<FieldRange> ranges_from_plugin(const RuntimeVolume& volume, std::uin
                                            elvis_certainty& certainty);
 
 /**
- * The same from samples on the device, for the field that `data` has selected without offset: seven points along each collapsed
+ * The same from samples on the device, for the field that `data` has selected without offset, or the expression, which is one number: seven points along each collapsed
  * direction of every element, faces included. An estimate.
  */
 std::vector<FieldRange> ranges_from_samples(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,

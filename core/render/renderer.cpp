@@ -3,10 +3,10 @@
 #include <core/render/cut_plane_pass.hpp>
 #include <core/render/device_time.hpp>
 #include <core/render/face_pass.hpp>
-#include <core/render/field_range.hpp>
 #include <core/render/layer.hpp>
 #include <core/render/merge_pass.hpp>
 #include <core/render/renderer.hpp>
+#include <core/render/shown_field.hpp>
 #include <core/render/surface_pass.hpp>
 
 #include <core/base/error.hpp>
@@ -17,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace elvis {
 
@@ -33,17 +34,6 @@ constexpr double float32_value_error = 1e-6;
 constexpr double channel_tolerance = 1e-3;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-FieldRange magnitude_range(const std::vector<FieldRange>& components) {
-    double lower = 0, upper = 0;
-    for (const FieldRange& range : components) {
-        const double near = range.lower > 0 ? range.lower : range.upper < 0 ? -range.upper : 0;
-        const double far = std::max(std::abs(range.lower), std::abs(range.upper));
-        lower += near * near;
-        upper += far * far;
-    }
-    return {std::sqrt(lower), std::sqrt(upper)};
-}
 
 /** What the picture's samples lack of a surface's. */
 struct SurfaceFacts {
@@ -66,6 +56,12 @@ std::optional<FaceGeometry> face_geometry(const Surface& surface) {
         },
         surface.geometry);
 }
+/** The passes that show one field. */
+struct FieldPasses {
+    std::optional<CutPlanePass> cut_planes, cut_planes_with_lines;
+    std::map<FaceGeometry, FacePass> faces;
+    std::optional<SurfacePass> cut_shapes;
+};
 
 /** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
 constexpr std::uint32_t max_rounds = 64;
@@ -80,28 +76,28 @@ struct Renderer::Impl {
     DeviceVolume data;
     ColorPass color_pass;
     MergePass merge_pass;
-    std::optional<CutPlanePass> cut_planes, cut_planes_with_lines;
-    /** The passes are of the selected field, the sets of the geometry that has this version. */
+    ShownFields fields;
+    /** Of the geometry that has this version. */
     std::map<FaceGeometry, FaceSet> face_sets;
-    std::map<FaceGeometry, FacePass> face_passes;
     std::uint64_t faces_version = 0;
-    std::optional<SurfacePass> cut_shapes;
+    /** By what they show: ShownFields::key. Those of the last frame, and of its time step. */
+    std::map<std::string, FieldPasses> passes;
+    /** Of the selected field. */
+    FieldPasses* current = nullptr;
+    std::uint32_t passes_step = 0;
     /** By solver_key(); of no field. */
     std::map<std::string, SurfaceSolver> solvers;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::vector<FieldRange>, elvis_certainty>> ranges;
-    std::optional<FieldChoice> selected;
-    std::uint32_t selected_step = 0;
     RendererTimes times;
     /** Kept from frame to frame: fresh memory costs a page fault for each page. */
     std::unique_ptr<Layer> layer;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
         : device(on), volume(of), precision(with), control(task), data(on, of, with, task), color_pass(on, with),
-          merge_pass(on, with) {
+          merge_pass(on, with), fields(on, of, data) {
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
     }
 
-    const std::pair<std::vector<FieldRange>, elvis_certainty>& component_ranges(std::uint32_t field, std::uint32_t time_step);
+    void keep_fields(const FrameRequest& request);
     void select(const FieldChoice& field, std::uint32_t time_step);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
     void check(const FrameRequest& request) const;
@@ -115,10 +111,7 @@ struct Renderer::Impl {
     template <class Real>
     void read(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) const;
     CutPlaneGeometry view(const FrameRequest& request, const Surface& surface) const;
-    /** What the surface's field lacks on the device. */
-    double offset_of(const Surface& surface) const {
-        return surface.field.component < 0 ? 0.0 : data.field_offset(static_cast<std::uint32_t>(surface.field.component));
-    }
+    double offset_of(const Surface& surface) const { return fields.offset(surface.field); }
     bool is_flat() const { return volume.dimension() == 2; }
 };
 
@@ -141,7 +134,7 @@ void Renderer::Impl::check(const FrameRequest& request) const {
 }
 
 CutPlanePass& Renderer::Impl::cut_plane_pass(bool with_lines) {
-    std::optional<CutPlanePass>& pass = with_lines ? cut_planes_with_lines : cut_planes;
+    std::optional<CutPlanePass>& pass = with_lines ? current->cut_planes_with_lines : current->cut_planes;
     if (!pass) {
         if (with_lines) {
             data.provide_derivative_bounds();
@@ -153,17 +146,19 @@ CutPlanePass& Renderer::Impl::cut_plane_pass(bool with_lines) {
 
 FacePass& Renderer::Impl::face_pass(const FaceGeometry& faces) {
     if (data.geometry_version() != faces_version) {
-        face_passes.clear();
+        for (auto& [key, of_field] : passes) {
+            of_field.faces.clear();
+        }
         face_sets.clear();
         faces_version = data.geometry_version();
     }
-    auto found = face_passes.find(faces);
-    if (found == face_passes.end()) {
+    auto found = current->faces.find(faces);
+    if (found == current->faces.end()) {
         auto set = face_sets.find(faces);
         if (set == face_sets.end()) {
             set = face_sets.try_emplace(faces, device, volume, data, chosen_faces(faces), control).first;
         }
-        found = face_passes.try_emplace(faces, device, volume, data, set->second).first;
+        found = current->faces.try_emplace(faces, device, volume, data, set->second).first;
     }
     return found->second;
 }
@@ -181,8 +176,8 @@ void Renderer::Impl::provide_passes(const Surface& surface) {
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         cut_plane_pass(surface.has_lines());
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
-        if (!cut_shapes) {
-            cut_shapes.emplace(device, volume, data);
+        if (!current->cut_shapes) {
+            current->cut_shapes.emplace(device, volume, data);
         }
         solvers.try_emplace(solver_key(*shape), device, precision, *shape);
     } else {
@@ -191,58 +186,36 @@ void Renderer::Impl::provide_passes(const Surface& surface) {
     times.compile_milliseconds += milliseconds_since(start);
 }
 
-const std::pair<std::vector<FieldRange>, elvis_certainty>& Renderer::Impl::component_ranges(std::uint32_t field,
-                                                                                            std::uint32_t time_step) {
-    const auto [found, is_new] = ranges.try_emplace({field, time_step});
-    if (is_new) {
-        elvis_certainty certainty = ELVIS_ESTIMATED;
-        const std::uint32_t n_components = volume.fields()[field].n_components;
-        std::vector<FieldRange> all;
-        if (volume.has_field_ranges()) {
-            all = ranges_from_plugin(volume, field, time_step, certainty);
-        } else {
-            data.select(field, time_step, std::vector<double>(n_components, 0.0));
-            selected.reset();
-            all = ranges_from_samples(device, volume, data, n_components);
-        }
-        found->second = {std::move(all), certainty};
+/** Drops what the frame's surfaces do not need. */
+void Renderer::Impl::keep_fields(const FrameRequest& request) {
+    std::vector<FieldSelection> selections;
+    std::set<std::string> keys;
+    for (const Surface& surface : request.surfaces) {
+        selections.push_back(fields.selection(surface.field, request.time_step));
+        keys.insert(ShownFields::key(surface.field));
     }
-    return found->second;
+    // Bounds of derivatives, on which passes rest, are made anew for another step.
+    const bool is_other_step = passes_step != request.time_step;
+    std::erase_if(passes, [&](const auto& entry) { return is_other_step || !keys.contains(entry.first); });
+    data.keep(selections);
+    passes_step = request.time_step;
+    current = nullptr;
 }
 
 void Renderer::Impl::select(const FieldChoice& field, std::uint32_t time_step) {
-    const bool is_same =
-        selected && selected->field == field.field && selected->component == field.component && selected_step == time_step;
-    if (is_same) {
-        return;
-    }
-    const std::vector<FieldRange>& components = component_ranges(field.field, time_step).first;
-    std::vector<double> offset(components.size(), 0.0);
-    // The middle of the range, so that small variations of large values keep their digits; a magnitude needs the values
-    // themselves.
-    if (field.component >= 0) {
-        const FieldRange& range = components[static_cast<std::size_t>(field.component)];
-        const double middle = 0.5 * (range.lower + range.upper);
-        offset[static_cast<std::size_t>(field.component)] = std::isfinite(middle) ? middle : 0.0;
-    }
-    // What a field's buffers hold depends on the offset: fill them again for another component.
-    data.select(field.field, time_step, offset);
+    data.select(fields.selection(field, time_step));
     times.upload_milliseconds = data.upload_milliseconds();
-    cut_planes.reset();
-    cut_planes_with_lines.reset();
-    face_passes.clear();
-    cut_shapes.reset();
-    selected = field;
-    selected_step = time_step;
+    current = &passes[ShownFields::key(field)];
 }
 
 std::uint32_t Renderer::Impl::flags_of_range(const Surface& surface, std::uint32_t time_step, double offset) {
     if (precision == Precision::float64 || surface.colors.points.size() < 2) {
         return 0;
     }
-    const auto& [components, certainty] = component_ranges(surface.field.field, time_step);
-    const FieldRange range = surface.field.component < 0 ? magnitude_range(components)
-                                                         : components[static_cast<std::size_t>(surface.field.component)];
+    // An expression would have to be sampled over the volume: what the colours are for stands for it.
+    const FieldRange range = surface.field.expression
+                                 ? FieldRange{surface.colors.points.front().value, surface.colors.points.back().value}
+                                 : fields.range(surface.field, time_step);
     const double largest = std::max(std::abs(range.lower - offset), std::abs(range.upper - offset));
     const double extent = surface.colors.points.back().value - surface.colors.points.front().value;
     return float32_value_error * largest > channel_tolerance * extent ? pixel_flag::range_too_fine : 0;
@@ -266,16 +239,14 @@ CutPlaneGeometry Renderer::Impl::view(const FrameRequest& request, const Surface
 void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target,
                                    FrameCounts& counts) {
     const CutPlaneGeometry rays = view(request, surface);
-    const FieldInfo& field = volume.fields()[surface.field.field];
-    const ShownComponent component{surface.field.component, field.n_components,
-                                   field.continuity != ELVIS_CONTINUITY_CONTINUOUS};
+    const ShownComponent component = fields.component(surface.field);
     // A layer holds one surface; each class of faces counts as one, so that the nearest wins.
     constexpr std::uint32_t first = 1;
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         const double offset = offset_of(surface);
         cut_plane_pass(surface.has_lines()).draw(rays, first, component, line_request(surface, offset), target, counts);
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
-        cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, target, counts);
+        current->cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, target, counts);
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
     }
@@ -364,11 +335,7 @@ Renderer::~Renderer() = default;
 std::array<double, 6> Renderer::bounds() const { return m_impl->data.bounds(); }
 
 FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {
-    const auto& [components, how_sure] = m_impl->component_ranges(field.field, time_step);
-    if (certainty) {
-        *certainty = how_sure;
-    }
-    return field.component < 0 ? magnitude_range(components) : components[static_cast<std::size_t>(field.component)];
+    return m_impl->fields.range(field, time_step, certainty);
 }
 
 Frame Renderer::render(const FrameRequest& request) {
@@ -387,6 +354,7 @@ Frame Renderer::render(const FrameRequest& request) {
     if (!is_alone) {
         impl.merge_pass.begin(request.width, request.height, request.background);
     }
+    impl.keep_fields(request);
     std::vector<SurfaceFacts> facts;
     double wall = 0, device = 0;
     for (std::size_t index = 0; index < request.surfaces.size(); ++index) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -31,13 +32,17 @@ struct ColorTable {
     Color nan{};
 };
 
-/** Which number of a field is drawn. */
+class Expression;
+
+/** Which number is drawn: of a field, or an expression over fields. */
 struct FieldChoice {
     std::uint32_t field = 0;
     /** Component, or -1 for the magnitude of a vector. A scalar has component 0. */
     std::int32_t component = 0;
+    /** In place of the field, if there is one; of the same volume. */
+    std::shared_ptr<const Expression> expression{};
 
-    bool operator==(const FieldChoice&) const = default;
+    bool operator==(const FieldChoice& other) const;
 };
 
 /** The plane a x + b y + c z + d = 0; (a, b, c) need not be of unit length but not zero. */

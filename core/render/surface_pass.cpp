@@ -73,7 +73,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
 
         request.name = "surface_pixels of element class " + std::to_string(index);
         request.kernel = "kernels/surface_pixels.comp";
-        request.instances = {data.instance(index)};
+        data.add_field(request, index);
         request.bindings = {{0, BindingType::uniform_buffer}};
         for (std::uint32_t binding = 1; binding <= 6; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});

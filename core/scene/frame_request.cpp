@@ -1,8 +1,11 @@
 #include <core/scene/frame_request.hpp>
 
 #include <core/base/error.hpp>
+#include <core/expression/expression.hpp>
 #include <core/scene/color_map.hpp>
 #include <core/scene/resolve.hpp>
+
+#include <algorithm>
 
 namespace elvis {
 
@@ -86,14 +89,24 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
     if (volume.fields().empty()) {
         throw Error(volume.path(), "has no field to draw");
     }
-    const FieldExpression expression = text ? parse_field_expression(*text) : FieldExpression{volume.fields()[0].name, -1};
+    const std::vector<FieldInfo>& fields = volume.fields();
+    // A name may be no word of the language of expressions.
+    const auto named =
+        text ? std::find_if(fields.begin(), fields.end(), [&](const FieldInfo& info) { return info.name == *text; })
+             : fields.begin();
     FieldChoice choice;
-    choice.field = volume.field_index(expression.name);
-    const std::uint32_t n_components = volume.fields()[choice.field].n_components;
-    if (expression.component >= static_cast<std::int32_t>(n_components)) {
-        throw Error("field '" + *text + "'", "has only " + std::to_string(n_components) + " components, counted from 0");
+    if (named != fields.end()) {
+        choice.field = static_cast<std::uint32_t>(named - fields.begin());
+        choice.component = named->n_components > 1 ? -1 : 0;
+        return choice;
     }
-    choice.component = expression.component >= 0 ? expression.component : n_components > 1 ? -1 : 0;
+    const auto expression = std::make_shared<const Expression>(*text, fields, volume.dimension());
+    if (expression->plain()) {
+        choice.field = expression->plain()->field;
+        choice.component = expression->plain()->component;
+    } else {
+        choice.expression = expression;
+    }
     return choice;
 }
 

@@ -10,7 +10,10 @@
 
 namespace elvis {
 
-/** A field, or a component of one, by name; the first field of the volume if there is no text. */
+/**
+ * A field by its name, or an expression over fields (core/expression/expression.hpp); the first field of the volume if there is no
+ * text.
+ */
 FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::string>& text);
 
 /**

@@ -51,20 +51,6 @@ double fitting_distance(const std::array<double, 6>& bounds, const Vector3& look
 
 } // namespace
 
-FieldExpression parse_field_expression(const std::string& text) {
-    const std::size_t open = text.find('[');
-    if (open == std::string::npos) {
-        return {text, -1};
-    }
-    const std::string index = text.substr(open + 1, text.size() > open + 2 ? text.size() - open - 2 : 0);
-    const bool is_number = !index.empty() && index.size() < 5 &&
-                           std::all_of(index.begin(), index.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (open == 0 || text.back() != ']' || !is_number) {
-        throw Error("field '" + text + "'", "is neither a name nor name[component]");
-    }
-    return {text.substr(0, open), std::stoi(index)};
-}
-
 Camera resolve_camera(const SceneCamera& scene, const std::array<double, 6>& bounds, std::span<const CutPlane> planes,
                       double aspect) {
     Camera camera;

@@ -13,13 +13,6 @@
 
 namespace elvis {
 
-/** "name" or "name[i]": name of the field, and component or -1 where none is named. */
-struct FieldExpression {
-    std::string name;
-    std::int32_t component = -1;
-};
-FieldExpression parse_field_expression(const std::string& text);
-
 /**
  * Camera with everything decided. Defaults: looks at the centre of the bounds (min x y z, max x y z), at the first cut plane
  * from its front or along a diagonal, sees the whole of the bounds; up is +y, or +z when looking along y. Throws Error where

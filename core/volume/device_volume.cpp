@@ -269,6 +269,11 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
         }
     }
     if (m_expression) {
+        // For the element's number.
+        const auto is_elements = [](const FetchBuffer& buffer) { return buffer.name == "core_elements"; };
+        if (std::none_of(request.buffers.begin(), request.buffers.end(), is_elements)) {
+            request.buffers.push_back({"core_elements", m_classes[element_class].elements.get()});
+        }
         const ExpressionClass info = expression_class(m_volume, element_class);
         request.text = value_glsl(*m_expression, info);
         if (with_bounds) {

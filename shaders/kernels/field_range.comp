@@ -17,7 +17,11 @@ void main() {
     for (uint node = 0u; node < 343u; ++node) {
         const elvis_vec3 step = elvis_vec3(node % 7u, (node / 7u) % 7u, node / 49u);
         const elvis_vec3 xi = core_expand(step / elvis_real(3) - elvis_vec3(1));
+#ifdef CORE_SHOWN_BY_EXPRESSION
+        const elvis_real value = core_shown_value(core_first + index, xi);
+#else
         const elvis_real value = elvis_field_value(core_first + index, xi, core_component);
+#endif
         const bool is_finite = core_is_finite(value);
         lower = is_finite ? min(lower, value) : lower;
         upper = is_finite ? max(upper, value) : upper;

@@ -1,0 +1,114 @@
+#include <core/render/field_range.hpp>
+#include <core/render/shown_field.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elvis {
+
+namespace {
+
+FieldRange magnitude_range(const std::vector<FieldRange>& components) {
+    double lower = 0, upper = 0;
+    for (const FieldRange& range : components) {
+        const double near = range.lower > 0 ? range.lower : range.upper < 0 ? -range.upper : 0;
+        const double far = std::max(std::abs(range.lower), std::abs(range.upper));
+        lower += near * near;
+        upper += far * far;
+    }
+    return {std::sqrt(lower), std::sqrt(upper)};
+}
+
+/** Whether neighbours may have different values on a face that they share. */
+bool jumps(const Expression& expression, const RuntimeVolume& volume) {
+    const std::vector<NodeId> needed = expression.graph().needed({expression.value()});
+    return std::any_of(needed.begin(), needed.end(), [&](NodeId id) {
+        const Node& node = expression.graph().node(id);
+        if (node.operation == Operation::field) {
+            return volume.fields()[node.field].continuity != ELVIS_CONTINUITY_CONTINUOUS;
+        }
+        // Gradients of continuous fields jump, and so does all that tells elements apart.
+        return n_operands(node.operation) == 0 && node.operation != Operation::constant &&
+               node.operation != Operation::position;
+    });
+}
+
+} // namespace
+
+bool FieldChoice::operator==(const FieldChoice& other) const {
+    if (expression && other.expression) {
+        return expression == other.expression || expression->text() == other.expression->text();
+    }
+    return !expression && !other.expression && field == other.field && component == other.component;
+}
+
+std::string ShownFields::key(const FieldChoice& field) {
+    if (field.expression) {
+        return "= " + field.expression->text();
+    }
+    // A component is a matter of constants, but a magnitude takes the field without offset.
+    return (field.component < 0 ? "magnitude " : "component ") + std::to_string(field.field);
+}
+
+FieldSelection ShownFields::selection(const FieldChoice& field, std::uint32_t time_step) {
+    if (field.expression) {
+        return selection_of(field.expression, m_volume, time_step);
+    }
+    const std::vector<FieldRange>& components = of_components(field.field, time_step).first;
+    std::vector<double> offset(components.size(), 0.0);
+    for (std::size_t i = 0; i < offset.size() && field.component >= 0; ++i) {
+        const double middle = 0.5 * (components[i].lower + components[i].upper);
+        offset[i] = std::isfinite(middle) ? middle : 0.0;
+    }
+    return {{{field.field, offset}}, time_step, nullptr};
+}
+
+double ShownFields::offset(const FieldChoice& field) const {
+    return field.expression || field.component < 0 ? 0.0 : m_data.field_offset(static_cast<std::uint32_t>(field.component));
+}
+
+ShownComponent ShownFields::component(const FieldChoice& field) const {
+    if (field.expression) {
+        return {0, 1, jumps(*field.expression, m_volume)};
+    }
+    const FieldInfo& info = m_volume.fields()[field.field];
+    return {field.component, info.n_components, info.continuity != ELVIS_CONTINUITY_CONTINUOUS};
+}
+
+const ShownFields::Ranges& ShownFields::of_components(std::uint32_t field, std::uint32_t time_step) {
+    const auto [found, is_new] = m_of_components.try_emplace({field, time_step});
+    if (is_new) {
+        elvis_certainty certainty = ELVIS_ESTIMATED;
+        const std::uint32_t n_components = m_volume.fields()[field].n_components;
+        std::vector<FieldRange> all;
+        if (m_volume.has_field_ranges()) {
+            all = ranges_from_plugin(m_volume, field, time_step, certainty);
+        } else {
+            m_data.select({{{field, std::vector<double>(n_components, 0.0)}}, time_step, nullptr});
+            all = ranges_from_samples(m_device, m_volume, m_data, n_components);
+        }
+        found->second = {std::move(all), certainty};
+    }
+    return found->second;
+}
+
+FieldRange ShownFields::range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {
+    if (!field.expression) {
+        const auto& [components, how_sure] = of_components(field.field, time_step);
+        if (certainty) {
+            *certainty = how_sure;
+        }
+        return field.component < 0 ? magnitude_range(components) : components[static_cast<std::size_t>(field.component)];
+    }
+    const auto [found, is_new] = m_of_expressions.try_emplace({field.expression->text(), time_step});
+    if (is_new) {
+        m_data.select(selection(field, time_step));
+        found->second = ranges_from_samples(m_device, m_volume, m_data, 1)[0];
+    }
+    if (certainty) {
+        *certainty = ELVIS_ESTIMATED;
+    }
+    return found->second;
+}
+
+} // namespace elvis

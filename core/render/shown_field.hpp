@@ -1,0 +1,46 @@
+/**
+ * @file shown_field.hpp
+ * From the field of a surface, or an expression over fields, to what the device needs of it, and its range.
+ */
+#pragma once
+
+#include <core/render/layer.hpp>
+#include <core/render/surface.hpp>
+#include <core/volume/device_volume.hpp>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elvis {
+
+class ShownFields {
+public:
+    /** All must outlive it. */
+    ShownFields(const Device& device, const RuntimeVolume& volume, DeviceVolume& data)
+        : m_device(device), m_volume(volume), m_data(data) {}
+
+    /** What kernels of the field are made of; equal for fields that share kernels. */
+    static std::string key(const FieldChoice& field);
+    /** Plain components lack the middle of their range, so that small variations of large values keep their digits. */
+    FieldSelection selection(const FieldChoice& field, std::uint32_t time_step);
+    /** What the field lacks on the device, while it is selected there. */
+    double offset(const FieldChoice& field) const;
+    ShownComponent component(const FieldChoice& field) const;
+
+    /** Over the volume. Expressions are sampled on the device, which then has another selection. */
+    FieldRange range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
+
+private:
+    using Ranges = std::pair<std::vector<FieldRange>, elvis_certainty>;
+    const Ranges& of_components(std::uint32_t field, std::uint32_t time_step);
+
+    const Device& m_device;
+    const RuntimeVolume& m_volume;
+    DeviceVolume& m_data;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Ranges> m_of_components;
+    std::map<std::pair<std::string, std::uint32_t>, FieldRange> m_of_expressions;
+};
+
+} // namespace elvis
