@@ -1,0 +1,61 @@
+/**
+ * @file mask.hpp
+ * Antialiased shapes: how much of each pixel they cover. Positions are in pixels, y downwards, pixel (0, 0) covers [0, 1]².
+ */
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+using Point2 = std::array<double, 2>;
+
+/** Whole pixels; right and bottom are not part of it. Empty where right <= left. */
+struct PixelBox {
+    int left = 0, top = 0, right = 0, bottom = 0;
+
+    int width() const { return right - left; }
+    int height() const { return bottom - top; }
+    bool is_empty() const { return right <= left || bottom <= top; }
+    bool meets(const PixelBox& other) const {
+        return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+    }
+    bool contains(const PixelBox& other) const {
+        return left <= other.left && top <= other.top && right >= other.right && bottom >= other.bottom;
+    }
+};
+
+/** The least box around two; an empty one counts for nothing. */
+PixelBox united(const PixelBox& a, const PixelBox& b);
+
+PixelBox moved(const PixelBox& box, int right, int down);
+
+/** On each side. */
+PixelBox grown(const PixelBox& box, int by);
+
+/** Coverage of the pixels of a box, from 0 to 1, top row first. */
+struct Mask {
+    PixelBox box;
+    std::vector<float> coverage;
+};
+
+Mask empty_mask(const PixelBox& box);
+
+/** Each pixel the larger of both; the box of `onto` stays. */
+void unite(Mask& onto, const Mask& other);
+
+/**
+ * The area that a polygon without self-intersection covers of every pixel, exact up to rounding; either orientation. Fewer
+ * than three points cover nothing.
+ */
+Mask polygon_mask(std::span<const Point2> points);
+
+/** A line with flat ends, `thickness` wide. Nothing for a line without length. */
+Mask line_mask(const Point2& from, const Point2& to, double thickness);
+
+/** The mask and what lies within `radius` pixels around it: what a halo covers. */
+Mask grown_mask(const Mask& mask, double radius);
+
+} // namespace elvis
