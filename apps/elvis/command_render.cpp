@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "volume_argument.hpp"
 
+#include <core/annotation/font.hpp>
 #include <core/base/error.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/buffers_file.hpp>
@@ -44,6 +45,7 @@ struct Arguments {
     double field_of_view = 0;
     double orthographic = 0;
     std::string background;
+    std::string annotation;
     std::string size;
     std::string precision;
     std::string device;
@@ -159,6 +161,9 @@ void apply_options(const Arguments& arguments, Scene& scene) {
             }
         }
     }
+    if (!arguments.annotation.empty()) {
+        scene.annotation = arguments.annotation == "default" ? std::optional(SceneAnnotation{}) : std::nullopt;
+    }
     if (!arguments.size.empty()) {
         unsigned width = 0, height = 0;
         int used = 0;
@@ -258,6 +263,10 @@ void run(const Arguments& arguments) {
     if (scene.volume.empty()) {
         throw Error(arguments.input, "'volume' is missing");
     }
+    if (scene.annotation) {
+        // Before the work is done: is there a font?
+        const Font font(scene.annotation->style.font);
+    }
     const bool is_double = scene.precision.value_or("float32") == "float64";
 
     const PluginRegistry registry;
@@ -269,12 +278,18 @@ void run(const Arguments& arguments) {
     Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
     FrameRequest request = make_frame_request(scene, volume, renderer);
     request.with_buffers = !arguments.buffers.empty();
-    const Frame frame = renderer.render(request);
+    Frame frame = renderer.render(request);
     std::vector<double> repeated;
     for (int repetition = 0; repetition < arguments.repeat; ++repetition) {
         const Clock::time_point frame_start = Clock::now();
         renderer.render(request);
         repeated.push_back(milliseconds_since(frame_start));
+    }
+    if (scene.annotation) {
+        const AnnotationRequest annotation = make_annotation_request(*scene.annotation, request, frame, volume);
+        for (const std::string& name : annotate(frame, annotation)) {
+            spdlog::warn("annotation: there is no room for the {}", name);
+        }
     }
     write_png(frame, arguments.output, arguments.bits);
     if (!arguments.buffers.empty()) {
@@ -314,6 +329,8 @@ void add_render(CLI::App& app) {
     command->add_option("--fov", a->field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
     command->add_option("--orthographic", a->orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
     command->add_option("--background", a->background, "R,G,B or R,G,B,A from 0 to 1");
+    command->add_option("--annotation", a->annotation, "none, or default: color bars, axes and a title")
+        ->check(CLI::IsMember({"none", "default"}));
     command->add_option("--size", a->size, "WIDTHxHEIGHT");
     command->add_option("--precision", a->precision, "float32 or float64")->check(CLI::IsMember({"float32", "float64"}));
     command->add_option("--device", a->device, "Name (or part of it) or index of the Vulkan device");

@@ -13,10 +13,14 @@ struct ColorParameters {
     std::uint32_t n_pixels, groups_x, width;
     std::uint32_t n_points, n_isovalues, n_clips;
     std::uint32_t common_flags;
+    std::uint32_t surface;
     /** Of the two kinds of lines: 1 undecided pixels have a colour; contours: 2 they have a colour of their own. */
     std::uint32_t contour_style, mesh_style;
     float contour_reach, mesh_reach;
 };
+
+/** Words a surface: whether there are values below, above, and none at all. */
+constexpr std::size_t n_special = 3;
 
 constexpr std::uint32_t with_undecided_color = 1;
 constexpr std::uint32_t with_own_color = 2;
@@ -39,12 +43,29 @@ ColorPass::ColorPass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision),
       m_color(device, pixel_kernel("color", precision,
                                    {BindingType::uniform_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
-                                    BindingType::storage_buffer, BindingType::storage_buffer},
+                                    BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer},
                                    sizeof(ColorParameters))),
       m_frame(device, cut_plane_rows * 4 * real_bytes(precision), Buffer::Use::uniform) {}
 
-void ColorPass::draw(const Layer& layer, const Surface& surface, const CutPlaneGeometry& view, const Color& background,
-                     double offset, std::uint32_t common_flags) {
+void ColorPass::begin(std::size_t n_surfaces) {
+    if (!m_special || n_surfaces > m_n_surfaces) {
+        m_special = std::make_unique<Buffer>(m_device, n_surfaces * n_special * sizeof(std::uint32_t));
+    }
+    m_n_surfaces = n_surfaces;
+    m_special->fill(0);
+}
+
+std::vector<SpecialValues> ColorPass::special_values() const {
+    const std::vector<std::uint32_t> words = m_special->read_items<std::uint32_t>(n_special * m_n_surfaces);
+    std::vector<SpecialValues> result;
+    for (std::size_t at = 0; at < words.size(); at += n_special) {
+        result.push_back({words[at] != 0, words[at + 1] != 0, words[at + 2] != 0});
+    }
+    return result;
+}
+
+void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
+                     const Color& background, double offset, std::uint32_t common_flags) {
     std::vector<double> numbers;
     const ColorTable& table = surface.colors;
     for (const ColorTable::Point& point : table.points) {
@@ -80,11 +101,12 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, const CutPlaneG
                                      static_cast<std::uint32_t>(isovalues.size()),
                                      static_cast<std::uint32_t>(surface.clip.size()),
                                      common_flags,
+                                     static_cast<std::uint32_t>(index),
                                      style_bits(contour),
                                      style_bits(mesh),
                                      reach(contour),
                                      reach(mesh)};
-    dispatch_pixels(m_color, {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks},
+    dispatch_pixels(m_color, {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()},
                     std::as_bytes(std::span(&parameters, 1)), n_pixels);
 }
 

@@ -9,25 +9,36 @@
 #include <core/render/layer.hpp>
 #include <core/shader/composer.hpp>
 
+#include <memory>
+#include <vector>
+
 namespace elvis {
 
 class ColorPass {
 public:
     ColorPass(const Device& device, Precision precision);
 
+    /** Before the surfaces of a picture. */
+    void begin(std::size_t n_surfaces);
+
     /**
-     * Colours the layer of a surface. Its field lacks `offset` on the device. `background`: colour where the surface is not
-     * seen; its opacity must be 0 for a layer that is to be merged. `common_flags` are set on every pixel that is hit. `view`: the
-     * geometry of any plane: only its rays matter.
+     * Colours the layer of the surface with this index in the picture. Its field lacks `offset` on the device. `background`:
+     * colour where the surface is not seen; its opacity must be 0 for a layer that is to be merged. `common_flags` are set on
+     * every pixel that is hit. `view`: the geometry of any plane: only its rays matter.
      */
-    void draw(const Layer& layer, const Surface& surface, const CutPlaneGeometry& view, const Color& background, double offset,
-              std::uint32_t common_flags);
+    void draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
+              const Color& background, double offset, std::uint32_t common_flags);
+
+    /** Of the surfaces drawn since begin. */
+    std::vector<SpecialValues> special_values() const;
 
 private:
     const Device& m_device;
     Precision m_precision;
     ComposedKernel m_color;
     Buffer m_frame;
+    std::unique_ptr<Buffer> m_special;
+    std::size_t m_n_surfaces = 0;
 };
 
 } // namespace elvis

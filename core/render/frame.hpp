@@ -78,6 +78,14 @@ struct FrameCounts {
     std::uint64_t refined_pixels = 0;
 };
 
+/**
+ * Which values beyond the points of its colour table one surface shows, hidden pixels included. Those that are outside by less than
+ * 1e-4 of the table's extent do not count: the end of a range may be missed by rounding.
+ */
+struct SpecialValues {
+    bool below = false, above = false, nan = false;
+};
+
 /** One picture, top row first; every vector has width * height entries (times components), if asked for. */
 struct Frame {
     std::uint32_t width = 0;
@@ -89,6 +97,8 @@ struct Frame {
     std::vector<double> normal;        ///< 3 a pixel, unit, towards the viewer; NaN where nothing was hit
     std::vector<std::uint32_t> flags;
     FrameCounts counts;
+    /** Of each surface that was asked for. */
+    std::vector<SpecialValues> special_values;
     /** Wall time of this frame, without upload, hierarchy and compilation. */
     double render_milliseconds = 0;
     /** What render_milliseconds would be on a machine with nothing else to do (DeviceTimer). */

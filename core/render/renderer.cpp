@@ -265,7 +265,7 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     for (std::uint32_t round = 0; n_wanted > 0 && round < max_rounds; ++round) {
         layer->marks.fill(0);
         draw_geometry(request, surface, {*layer, beyond}, frame.counts);
-        color_pass.draw(*layer, surface, rays, is_alone ? request.background : Color{}, offset, common_flags);
+        color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags);
         n_wanted =
             is_alone ? 0 : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane, surface.is_see_through());
         // A plane is met once.
@@ -355,6 +355,7 @@ Frame Renderer::render(const FrameRequest& request) {
         impl.merge_pass.begin(request.width, request.height, request.background);
     }
     impl.keep_fields(request);
+    impl.color_pass.begin(request.surfaces.size());
     std::vector<SurfaceFacts> facts;
     double wall = 0, device = 0;
     for (std::size_t index = 0; index < request.surfaces.size(); ++index) {
@@ -372,6 +373,7 @@ Frame Renderer::render(const FrameRequest& request) {
     frame.render_milliseconds = wall + timer.wall_milliseconds();
     frame.device_milliseconds = device + timer.milliseconds();
 
+    frame.special_values = impl.color_pass.special_values();
     const Layer& drawn = is_alone ? *impl.layer : impl.merge_pass.picture();
     if (impl.precision == Precision::float64) {
         impl.read<double>(drawn, facts, request.with_buffers, frame);

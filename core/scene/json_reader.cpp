@@ -57,9 +57,19 @@ void JsonObject::fail(const std::string& key, const std::string& what) const {
 }
 
 const json& JsonObject::schema_of(const char* key) const {
-    const json& schema = m_schema->at("properties").at(key);
-    if (const auto reference = schema.find("$ref"); reference != schema.end()) {
-        return m_root_schema->at(json::json_pointer(reference->get<std::string>().substr(1)));
+    const auto follow = [this](const json& schema) -> const json& {
+        const auto reference = schema.find("$ref");
+        return reference == schema.end() ? schema
+                                         : m_root_schema->at(json::json_pointer(reference->get<std::string>().substr(1)));
+    };
+    const json& schema = follow(m_schema->at("properties").at(key));
+    if (const auto alternatives = schema.find("anyOf"); alternatives != schema.end()) {
+        for (const json& alternative : *alternatives) {
+            const json& one = follow(alternative);
+            if (m_value->at(key).is_string() ? one.contains("enum") : one.contains("properties")) {
+                return one;
+            }
+        }
     }
     return schema;
 }
@@ -104,6 +114,13 @@ std::string JsonObject::word(const char* key) const {
         fail(key, "is " + raw(key).dump() + "; allowed are " + allowed.dump());
     }
     return raw(key).get<std::string>();
+}
+
+bool JsonObject::flag(const char* key) const {
+    if (!raw(key).is_boolean()) {
+        fail(key, "is " + raw(key).dump() + ", where true or false is expected");
+    }
+    return raw(key).get<bool>();
 }
 
 double JsonObject::checked(const json& value, const json& schema, const std::string& key) const {

@@ -30,6 +30,7 @@ public:
     std::vector<std::string> texts(const char* key) const;
     /** A text among the schema's "enum". */
     std::string word(const char* key) const;
+    bool flag(const char* key) const;
     double number(const char* key) const;
     bool truth(const char* key) const;
     std::uint32_t integer(const char* key) const;
@@ -43,6 +44,7 @@ public:
     [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
 private:
+    /** Follows references; of "anyOf" the alternative for a value of this kind (text or object). */
     const nlohmann::json& schema_of(const char* key) const;
     double checked(const nlohmann::json& value, const nlohmann::json& schema, const std::string& key) const;
     std::vector<double> checked_list(const nlohmann::json& value, const nlohmann::json& schema, const std::string& key) const;

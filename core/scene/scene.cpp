@@ -96,6 +96,9 @@ Scene read_scene(const std::string& path) {
             const std::vector<double> color = image.numbers("background");
             std::copy(color.begin(), color.end(), scene.background.begin());
         }
+        if (image.has("annotation")) {
+            scene.annotation = read_annotation(image, path);
+        }
     }
     if (root.has("color_map")) {
         scene.color_map = read_color_map(root.object("color_map"), path);

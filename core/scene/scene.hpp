@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/render/frame.hpp>
+#include <core/scene/scene_annotation.hpp>
 
 #include <array>
 #include <cstdint>
@@ -76,6 +77,8 @@ struct Scene {
     SceneCamera camera;
     std::array<std::uint32_t, 2> size{1024, 768};
     std::array<double, 4> background{1, 1, 1, 1};
+    /** Nothing is written on the picture if absent: then its colours are those of the surfaces. */
+    std::optional<SceneAnnotation> annotation;
     SceneColorMap color_map;
     std::optional<SceneContours> contours;
     std::optional<SceneLineStyle> mesh_lines;

@@ -14,6 +14,8 @@ layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_s
 layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+// Three words a surface: 1 where there are values below, above, and such that are no numbers.
+layout(set = 0, binding = 5, std430) writeonly buffer core_special_block { uint core_special_values[]; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
@@ -23,6 +25,7 @@ layout(push_constant) uniform core_parameters {
     uint core_n_clips;
     // Flags of every pixel that is hit.
     uint core_common_flags;
+    uint core_surface;
     // CORE_STYLE_...
     uint core_contour_style;
     uint core_mesh_style;
@@ -125,6 +128,12 @@ void main() {
     const uint special = is_seen ? (is_nan ? 2u : (is_below ? 0u : 1u)) : 3u;
     const bool is_special = !is_seen || is_nan || is_below || is_above;
     elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+    // Outside by more than rounding may have done (core/render/frame.hpp).
+    const elvis_real beyond = elvis_real(1.0e-4LF) * (core_rows[core_n_points - 1u].x - core_rows[0].x);
+    const bool is_far = value < core_rows[0].x - beyond || value > core_rows[core_n_points - 1u].x + beyond;
+    for (uint turn = 0u; turn < (is_seen && (is_nan || is_far) ? 1u : 0u); ++turn) {
+        core_special_values[3u * core_surface + (is_nan ? 2u : (is_below ? 0u : 1u))] = 1u;
+    }
 
     // What is decided goes over what is not, contours over mesh lines.
     const bool has_contour_color = is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;

@@ -129,9 +129,44 @@ TEST_CASE("A scene file and the same options give the same picture") {
     CHECK(read_file(place.path("scene.png")) == read_file(place.path("options.png")));
 }
 
+TEST_CASE("A picture is annotated only if that is asked for, from a scene file as from the command line") {
+    const Workplace place;
+    place.write("scene.json",
+                R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"size": [320, 240], "annotation": "default"}})");
+    place.write("own.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"size": [320, 240], "annotation": {
+                               "title": "", "color_bars": false, "axes": false}}})");
+    const auto picture = [&](const std::string& arguments) {
+        const Outcome outcome = place.run("render " + arguments + " -o annotated.png");
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        return read_file(place.path("annotated.png"));
+    };
+    const std::string plain = picture("ball.h5 --size 320x240");
+    const std::string annotated = picture("ball.h5 --size 320x240 --annotation default");
+    CHECK(plain != annotated);
+    CHECK(picture("ball.h5 --size 320x240 --annotation none") == plain);
+    CHECK(picture("scene.json") == annotated);
+    CHECK(picture("scene.json --annotation none") == plain);
+    // Everything is turned off by itself, and back on by the command line.
+    CHECK(picture("own.json") == plain);
+    CHECK(picture("own.json --annotation default") == annotated);
+    // What finds no room is said.
+    const Outcome tiny = place.run("render ball.h5 --size 64x48 --annotation default -o annotated.png");
+    CHECK(tiny.status == 0);
+    CHECK_THAT(tiny.err, Catch::Contains("no room for the color bar of sphere"));
+}
+
 TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
     const Workplace place;
     place.write("unknown_key.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "colour_map": {"name": "viridis"}})");
+    const auto annotation = [&](const std::string& name, const std::string& value) {
+        place.write(name, R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"annotation": )" + value + "}}");
+    };
+    annotation("annotation_key.json", R"({"titel": "x"})");
+    annotation("annotation_word.json", R"("all")");
+    annotation("annotation_number.json", "7");
+    annotation("annotation_flag.json", R"({"axes": 1})");
+    annotation("annotation_font.json", R"({"font": "missing.ttf"})");
     place.write("broken.json", "{\"version\": 1,\n \"volume\": }");
     place.write("bad_field.json", R"({"generator": 1, "mesh": "box", "fields": "sphere", "shpae": "prism"})");
     place.write("not_a_volume.h5", "this is no HDF5 file");
@@ -148,6 +183,12 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
         {"render ball.h5 --field temperature -o x.png", 1, "sphere"},
         {"render ball.h5 --field 'sphere[3]' -o x.png", 1, "components"},
         {"render unknown_key.json -o x.png", 1, "color_map"},
+        {"render annotation_key.json -o x.png", 1, "'image.annotation.titel' is unknown; the nearest known key is 'title'"},
+        {"render annotation_word.json -o x.png", 1, "'image.annotation' is \"all\"; allowed are"},
+        {"render annotation_number.json -o x.png", 1, "image.annotation"},
+        {"render annotation_flag.json -o x.png", 1, "true or false"},
+        {"render annotation_font.json -o x.png", 1, "missing.ttf"},
+        {"render ball.h5 --annotation some -o x.png", 2, "--annotation"},
         {"render broken.json -o x.png", 1, "broken.json:2"},
         {"render ball.h5 --size 0x10 -o x.png", 2, "--size"},
         {"render ball.h5 --cut-plane 0,0,0,1 -o x.png", 2, "--cut-plane"},
