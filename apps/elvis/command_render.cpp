@@ -46,6 +46,7 @@ struct Arguments {
     double orthographic = 0;
     std::string background;
     std::string annotation;
+    std::string lighting;
     std::string size;
     std::string precision;
     std::string device;
@@ -163,6 +164,9 @@ void apply_options(const Arguments& arguments, Scene& scene) {
     }
     if (!arguments.annotation.empty()) {
         scene.annotation = arguments.annotation == "default" ? std::optional(SceneAnnotation{}) : std::nullopt;
+    }
+    if (!arguments.lighting.empty()) {
+        scene.lighting = arguments.lighting == "default" ? std::optional(Lighting{}) : std::nullopt;
     }
     if (!arguments.size.empty()) {
         unsigned width = 0, height = 0;
@@ -329,6 +333,8 @@ void add_render(CLI::App& app) {
     command->add_option("--fov", a->field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
     command->add_option("--orthographic", a->orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
     command->add_option("--background", a->background, "R,G,B or R,G,B,A from 0 to 1");
+    command->add_option("--lighting", a->lighting, "none, or default: a headlight on all surfaces")
+        ->check(CLI::IsMember({"none", "default"}));
     command->add_option("--annotation", a->annotation, "none, or default: color bars, axes and a title")
         ->check(CLI::IsMember({"none", "default"}));
     command->add_option("--size", a->size, "WIDTHxHEIGHT");

@@ -17,6 +17,7 @@ struct ColorParameters {
     /** Of the two kinds of lines: 1 undecided pixels have a colour; contours: 2 they have a colour of their own. */
     std::uint32_t contour_style, mesh_style;
     float contour_reach, mesh_reach;
+    std::uint32_t is_plane;
 };
 
 /** Words a surface: whether there are values below, above, and none at all. */
@@ -37,15 +38,32 @@ void append(std::vector<double>& numbers, const std::optional<std::array<double,
     numbers.insert(numbers.end(), {rgb[0], rgb[1], rgb[2], 1.0});
 }
 
+KernelRequest color_kernel(Precision precision, bool is_lit) {
+    constexpr BindingType storage = BindingType::storage_buffer;
+    KernelRequest request =
+        pixel_kernel(is_lit ? "lit_color" : "color", precision,
+                     {BindingType::uniform_buffer, storage, storage, storage, storage, storage}, sizeof(ColorParameters));
+    request.kernel = "kernels/color.comp";
+    request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
+    if (is_lit) {
+        for (const std::uint32_t binding : {6u, 7u}) {
+            request.bindings.push_back({binding, storage});
+        }
+    }
+    return request;
+}
+
 } // namespace
 
 ColorPass::ColorPass(const Device& device, Precision precision)
-    : m_device(device), m_precision(precision),
-      m_color(device, pixel_kernel("color", precision,
-                                   {BindingType::uniform_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
-                                    BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer},
-                                   sizeof(ColorParameters))),
+    : m_device(device), m_precision(precision), m_color(device, color_kernel(precision, false)),
       m_frame(device, cut_plane_rows * 4 * real_bytes(precision), Buffer::Use::uniform) {}
+
+void ColorPass::provide_lit() {
+    if (!m_lit_color) {
+        m_lit_color = std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, true));
+    }
+}
 
 void ColorPass::begin(std::size_t n_surfaces) {
     if (!m_special || n_surfaces > m_n_surfaces) {
@@ -65,7 +83,7 @@ std::vector<SpecialValues> ColorPass::special_values() const {
 }
 
 void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
-                     const Color& background, double offset, std::uint32_t common_flags) {
+                     const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting) {
     std::vector<double> numbers;
     const ColorTable& table = surface.colors;
     for (const ColorTable::Point& point : table.points) {
@@ -105,9 +123,21 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      style_bits(contour),
                                      style_bits(mesh),
                                      reach(contour),
-                                     reach(mesh)};
-    dispatch_pixels(m_color, {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()},
-                    std::as_bytes(std::span(&parameters, 1)), n_pixels);
+                                     reach(mesh),
+                                     std::holds_alternative<CutPlane>(surface.geometry) ? 1u : 0u};
+    const std::span<const std::byte> push_constants = std::as_bytes(std::span(&parameters, 1));
+    std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
+    if (!lighting) {
+        dispatch_pixels(m_color, bindings, push_constants, n_pixels);
+        return;
+    }
+    provide_lit();
+    const std::array<double, 4>& reference = view.rows[6];
+    const std::vector<double> light_numbers = lighting_rows(*lighting, {reference[0], reference[1], reference[2]});
+    const Buffer lights(m_device, light_numbers.size() * real_bytes(m_precision));
+    write_reals(lights, m_precision, light_numbers);
+    bindings.insert(bindings.end(), {&lights, &layer.normals});
+    dispatch_pixels(*m_lit_color, bindings, push_constants, n_pixels);
 }
 
 } // namespace elvis

@@ -24,10 +24,14 @@ public:
     /**
      * Colours the layer of the surface with this index in the picture. Its field lacks `offset` on the device. `background`:
      * colour where the surface is not seen; its opacity must be 0 for a layer that is to be merged. `common_flags` are set on
-     * every pixel that is hit. `view`: the geometry of any plane: only its rays matter.
+     * every pixel that is hit. `view`: the geometry of any plane: only its rays matter, and its normal if the surface is a
+     * plane. `lighting`: of this surface; null for none.
      */
     void draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
-              const Color& background, double offset, std::uint32_t common_flags);
+              const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting);
+
+    /** Compiles what surfaces with light need. */
+    void provide_lit();
 
     /** Of the surfaces drawn since begin. */
     std::vector<SpecialValues> special_values() const;
@@ -36,6 +40,7 @@ private:
     const Device& m_device;
     Precision m_precision;
     ComposedKernel m_color;
+    std::unique_ptr<ComposedKernel> m_lit_color;
     Buffer m_frame;
     std::unique_ptr<Buffer> m_special;
     std::size_t m_n_surfaces = 0;

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/render/lighting.hpp>
 #include <core/render/surface.hpp>
 
 #include <array>
@@ -39,6 +40,8 @@ struct FrameRequest {
     std::uint32_t time_step = 0;
     /** The nearest hit wins. */
     std::vector<Surface> surfaces;
+    /** Surfaces show their colours as they are if absent. */
+    std::optional<Lighting> lighting;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
     bool with_buffers = true;
 };

@@ -63,6 +63,8 @@ struct FieldPasses {
     std::optional<SurfacePass> cut_shapes;
 };
 
+bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
+
 /** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
 constexpr std::uint32_t max_rounds = 64;
 
@@ -101,7 +103,7 @@ struct Renderer::Impl {
     void select(const FieldChoice& field, std::uint32_t time_step);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
     void check(const FrameRequest& request) const;
-    void provide_passes(const Surface& surface);
+    void provide_passes(const FrameRequest& request, const Surface& surface);
     CutPlanePass& cut_plane_pass(bool with_lines);
     FacePass& face_pass(const FaceGeometry& faces);
     std::vector<ElementFace> chosen_faces(const FaceGeometry& faces) const;
@@ -171,8 +173,11 @@ std::vector<ElementFace> Renderer::Impl::chosen_faces(const FaceGeometry& faces)
 }
 
 /** Compiles what the surface needs and is not there yet. */
-void Renderer::Impl::provide_passes(const Surface& surface) {
+void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& surface) {
     const Clock::time_point start = Clock::now();
+    if (is_lit(request, surface)) {
+        color_pass.provide_lit();
+    }
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         cut_plane_pass(surface.has_lines());
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
@@ -265,7 +270,8 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     for (std::uint32_t round = 0; n_wanted > 0 && round < max_rounds; ++round) {
         layer->marks.fill(0);
         draw_geometry(request, surface, {*layer, beyond}, frame.counts);
-        color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags);
+        color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags,
+                        is_lit(request, surface) ? &*request.lighting : nullptr);
         n_wanted =
             is_alone ? 0 : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane, surface.is_see_through());
         // A plane is met once.
@@ -360,7 +366,7 @@ Frame Renderer::render(const FrameRequest& request) {
     double wall = 0, device = 0;
     for (std::size_t index = 0; index < request.surfaces.size(); ++index) {
         impl.select(request.surfaces[index].field, request.time_step);
-        impl.provide_passes(request.surfaces[index]);
+        impl.provide_passes(request, request.surfaces[index]);
         const DeviceTimer timer(impl.device);
         impl.draw_surface(request, index, is_alone, frame, facts);
         wall += timer.wall_milliseconds();

@@ -97,6 +97,8 @@ struct Surface {
     std::vector<std::array<double, 4>> clip{};
     /** In [0, 1]. */
     double opacity = 1;
+    /** Whether the picture's lighting is for this surface, too. */
+    bool is_lit = true;
 
     /** Whether something behind it can be seen through it. */
     bool is_see_through() const { return opacity < 1 || !clip.empty(); }

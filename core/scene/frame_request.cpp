@@ -80,6 +80,7 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
     surface.subdivisions = scene.subdivisions;
     surface.clip = own.clip;
     surface.opacity = own.opacity;
+    surface.is_lit = own.is_lit;
     return surface;
 }
 
@@ -119,6 +120,7 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
     request.width = scene.size[0];
     request.height = scene.size[1];
     request.background = scene.background;
+    request.lighting = scene.lighting;
     request.time_step = scene.time_step;
     const std::vector<SceneSurface> surfaces = surfaces_of(scene, volume, renderer);
     request.camera = resolve_camera(scene.camera, renderer.bounds(), planes_looked_at(surfaces, volume, renderer),

@@ -112,6 +112,9 @@ Scene read_scene(const std::string& path) {
     if (root.has("subdivisions")) {
         scene.subdivisions = root.integer("subdivisions");
     }
+    if (root.has("lighting")) {
+        scene.lighting = read_lighting(root);
+    }
     if (root.has("surfaces")) {
         for (const JsonObject& surface : root.objects("surfaces")) {
             scene.surfaces.push_back(read_surface(surface, path));

@@ -64,6 +64,7 @@ struct SceneSurface {
     std::optional<SceneLineStyle> mesh_lines{};
     std::vector<std::array<double, 4>> clip{};
     double opacity = 1;
+    bool is_lit = true;
 };
 
 struct Scene {
@@ -85,6 +86,8 @@ struct Scene {
     /** How often a pixel is halved at most to decide whether it meets a line. */
     std::uint32_t subdivisions = Surface{}.subdivisions;
     std::vector<SceneSurface> surfaces;
+    /** Colours are those of the colour map if absent. */
+    std::optional<Lighting> lighting;
 };
 
 /** Reads a scene file; paths in it become relative to the working directory. Throws Error naming file, key and cause. */

@@ -7,6 +7,12 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "library/cut_frame.glsl"
 #include "library/finite.glsl"
 #include "library/samples.glsl"
+// A kernel without light costs nothing for it.
+#if CORE_IS_LIT
+#define CORE_LIGHTS_BINDING 6
+#include "library/lighting.glsl"
+layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
+#endif
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 // In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of contours, of undecided ones,
@@ -32,6 +38,8 @@ layout(push_constant) uniform core_parameters {
     // In pixels, from one that meets the line to the farthest that is drawn.
     float core_contour_reach;
     float core_mesh_reach;
+    // The surface has one normal, that of the rays' plane.
+    uint core_is_plane;
 };
 
 #define CORE_STYLE_UNDECIDED 1u
@@ -39,13 +47,18 @@ layout(push_constant) uniform core_parameters {
 
 elvis_vec4 core_special(uint which) { return core_rows[core_n_points + which]; }
 
-// Whether the point that the pixel sees is cut away.
-bool core_is_clipped(uint pixel, elvis_real depth) {
+// The point that the pixel sees, relative to the reference point, and the direction of its ray, of any length.
+elvis_vec3 core_position(uint pixel, elvis_real depth, out elvis_vec3 direction) {
     const core_cut_column column = core_cut_begin(elvis_real(pixel % core_width));
     const elvis_real down = elvis_real(pixel / core_width) - column.row0;
-    const elvis_vec3 direction = (column.direction + down * column.direction_row).xyz;
-    const elvis_vec3 position =
-        (column.base + down * column.base_row).xyz + (depth / length(direction) - column.reference_distance) * direction;
+    direction = (column.direction + down * column.direction_row).xyz;
+    return (column.base + down * column.base_row).xyz + (depth / length(direction) - column.reference_distance) * direction;
+}
+
+// Whether that point is cut away.
+bool core_is_clipped(uint pixel, elvis_real depth) {
+    elvis_vec3 direction;
+    const elvis_vec3 position = core_position(pixel, depth, direction);
     bool is_clipped = false;
     for (uint i = 0u; i < core_n_clips; ++i) {
         const elvis_vec4 plane = core_special(9u + i);
@@ -128,6 +141,17 @@ void main() {
     const uint special = is_seen ? (is_nan ? 2u : (is_below ? 0u : 1u)) : 3u;
     const bool is_special = !is_seen || is_nan || is_below || is_above;
     elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+#if CORE_IS_LIT
+    for (uint turn = 0u; turn < (is_seen ? 1u : 0u); ++turn) {
+        elvis_vec3 direction;
+        const elvis_vec3 position = core_position(pixel, core_samples[pixel].depth, direction);
+        const elvis_vec3 own_normal =
+            elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+        const elvis_vec3 normal = core_is_plane != 0u ? core_plane_normal.xyz : own_normal;
+        color.xyz = core_lit(color.xyz, normal, position, -normalize(direction));
+    }
+#endif
+
     // Outside by more than rounding may have done (core/render/frame.hpp).
     const elvis_real beyond = elvis_real(1.0e-4LF) * (core_rows[core_n_points - 1u].x - core_rows[0].x);
     const bool is_far = value < core_rows[0].x - beyond || value > core_rows[core_n_points - 1u].x + beyond;
@@ -135,7 +159,7 @@ void main() {
         core_special_values[3u * core_surface + (is_nan ? 2u : (is_below ? 0u : 1u))] = 1u;
     }
 
-    // What is decided goes over what is not, contours over mesh lines.
+    // Lines have their colours whatever the light. What is decided goes over what is not, contours over mesh lines.
     const bool has_contour_color = is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;
     const bool shows_undecided_contour = is_contour_undecided && !is_contour;
     const bool has_mesh_color = is_mesh_line && (core_mesh_style & CORE_STYLE_COLOR) != 0u;

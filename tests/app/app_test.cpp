@@ -156,6 +156,34 @@ TEST_CASE("A picture is annotated only if that is asked for, from a scene file a
     CHECK_THAT(tiny.err, Catch::Contains("no room for the color bar of sphere"));
 }
 
+TEST_CASE("Surfaces are lit only if that is asked for, and each by itself") {
+    const Workplace place;
+    const auto scene = [&](const std::string& name, const std::string& lighting, const std::string& own) {
+        place.write(name, R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"size": [80, 60]}, "lighting": )" +
+                              lighting + R"(, "surfaces": [{"type": "boundary", "lighting": )" + own + "}]}");
+    };
+    scene("default.json", R"("default")", "true");
+    scene("same.json", R"({"ambient": [0.3, 0.3, 0.3], "headlight": [0.7, 0.7, 0.7]})", "true");
+    scene("own.json", R"({"lights": [{"type": "point", "position": [2, 2, 2]}], "specular": 0.5})", "true");
+    scene("not_here.json", R"("default")", "false");
+    const auto picture = [&](const std::string& arguments) {
+        const Outcome outcome = place.run("render " + arguments + " --validation -o lit.png");
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        return read_file(place.path("lit.png"));
+    };
+    const std::string plain = picture("ball.h5 --size 80x60");
+    const std::string lit = picture("ball.h5 --size 80x60 --lighting default");
+    CHECK(plain != lit);
+    CHECK(picture("default.json") == lit);
+    CHECK(picture("same.json") == lit);
+    CHECK(picture("not_here.json") == plain);
+    CHECK(picture("default.json --lighting none") == plain);
+    const std::string own = picture("own.json");
+    CHECK(own != lit);
+    CHECK(own != plain);
+}
+
 TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
     const Workplace place;
     place.write("unknown_key.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "colour_map": {"name": "viridis"}})");
@@ -167,6 +195,13 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
     annotation("annotation_number.json", "7");
     annotation("annotation_flag.json", R"({"axes": 1})");
     annotation("annotation_font.json", R"({"font": "missing.ttf"})");
+    const auto lighting = [&](const std::string& name, const std::string& value) {
+        place.write(name, R"({"version": 1, "volume": {"path": "ball.h5"}, "lighting": )" + value + "}");
+    };
+    lighting("light_key.json", R"({"ambiant": [1, 1, 1]})");
+    lighting("light_kind.json", R"({"lights": [{"type": "point", "direction": [1, 1, 1]}]})");
+    lighting("light_nowhere.json", R"({"lights": [{"type": "directional", "direction": [0, 0, 0]}]})");
+    lighting("light_negative.json", R"({"headlight": [1, 1, -0.5]})");
     place.write("broken.json", "{\"version\": 1,\n \"volume\": }");
     place.write("bad_field.json", R"({"generator": 1, "mesh": "box", "fields": "sphere", "shpae": "prism"})");
     place.write("not_a_volume.h5", "this is no HDF5 file");
@@ -189,6 +224,10 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
         {"render annotation_flag.json -o x.png", 1, "true or false"},
         {"render annotation_font.json -o x.png", 1, "missing.ttf"},
         {"render ball.h5 --annotation some -o x.png", 2, "--annotation"},
+        {"render light_key.json -o x.png", 1, "'lighting.ambiant' is unknown; the nearest known key is 'ambient'"},
+        {"render light_kind.json -o x.png", 1, "'lighting.lights[0].direction' means nothing"},
+        {"render light_nowhere.json -o x.png", 1, "'lighting.lights[0].direction' has length zero"},
+        {"render light_negative.json -o x.png", 1, "'lighting.headlight' is -0.5; it must be at least 0"},
         {"render broken.json -o x.png", 1, "broken.json:2"},
         {"render ball.h5 --size 0x10 -o x.png", 2, "--size"},
         {"render ball.h5 --cut-plane 0,0,0,1 -o x.png", 2, "--cut-plane"},
