@@ -46,12 +46,15 @@ public:
 
 private:
     void upload(const TriangleMesh& mesh, const Vector3& middle);
+    void upload(const PatchMesh& mesh, const Vector3& middle);
+    void upload_nodes(std::span<const double> boxes, const Vector3& middle);
 
     const Device& m_device;
     Precision m_precision;
     /** Held so that another file's data never have the same address, which solver_key() names. */
-    std::shared_ptr<const TriangleMesh> m_mesh;
-    std::unique_ptr<RecordBuffer> m_triangles, m_nodes;
+    std::shared_ptr<const void> m_mesh;
+    /** Triangles or patches, and the hierarchy over them. */
+    std::unique_ptr<RecordBuffer> m_items, m_nodes;
     std::uint32_t m_hit_rows = surface_tile_height;
     std::uint32_t m_n_rows = 0;
     std::optional<Buffer> m_rows;

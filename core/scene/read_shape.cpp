@@ -29,7 +29,7 @@ const std::vector<PlaceKey>& place_keys() {
                                                {"axis", {"torus"}},
                                                {"major_radius", {"torus"}},
                                                {"minor_radius", {"torus"}},
-                                               {"file", {"mesh"}}};
+                                               {"file", {"mesh", "bezier"}}};
     return keys;
 }
 
@@ -53,6 +53,9 @@ CutShape shape_of(const JsonObject& object, const std::string& type, const std::
     }
     if (type == "mesh") {
         return MeshSurface{std::make_shared<const TriangleMesh>(read_triangle_mesh(beside(scene, object.text("file"))))};
+    }
+    if (type == "bezier") {
+        return BezierSurface{std::make_shared<const PatchMesh>(read_patch_mesh(beside(scene, object.text("file"))))};
     }
     return Torus{vector(object, "center"), vector(object, "axis"), object.number("major_radius"),
                  object.number("minor_radius")};

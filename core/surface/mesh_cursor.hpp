@@ -66,6 +66,10 @@ private:
     const MeshCursor* m_cursor;
 };
 
+/** All of a file, and the ending of its name in lower case. */
+std::string read_mesh_text(const std::string& path);
+std::string mesh_ending(const std::string& path);
+
 /** The readers. */
 TriangleMesh read_obj(const std::string& path, std::string_view text);
 TriangleMesh read_stl(const std::string& path, std::string_view text);

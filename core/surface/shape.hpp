@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/surface/patch_mesh.hpp>
 #include <core/surface/triangle_mesh.hpp>
 
 #include <array>
@@ -53,7 +54,11 @@ struct MeshSurface {
     std::shared_ptr<const TriangleMesh> mesh; ///< not null
 };
 
-using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, MeshSurface>;
+struct BezierSurface {
+    std::shared_ptr<const PatchMesh> mesh; ///< not null
+};
+
+using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, MeshSurface, BezierSurface>;
 
 /** Checks what the comments above ask for; throws Error that names `place` and the number. */
 void check_shape(const CutShape& shape, const std::string& place);

@@ -104,6 +104,7 @@ struct FormOf {
     /** These have rows of their own. */
     Form operator()(const Torus&) const { return {}; }
     Form operator()(const MeshSurface&) const { return {}; }
+    Form operator()(const BezierSurface&) const { return {}; }
 };
 
 /** A point of the surface near the reference point, in local coordinates: Newton's method along gradients. */
@@ -189,10 +190,11 @@ std::array<double, 6> join(const std::array<double, 6>& a, const std::array<doub
 } // namespace
 
 std::string shape_solver(const CutShape& shape) {
-    return std::holds_alternative<MeshSurface>(shape) ? "mesh"
-           : std::holds_alternative<Torus>(shape)     ? "torus"
-           : has_ends(shape)                          ? "round"
-                                                      : "quadric";
+    return std::holds_alternative<MeshSurface>(shape)     ? "mesh"
+           : std::holds_alternative<BezierSurface>(shape) ? "bezier"
+           : std::holds_alternative<Torus>(shape)         ? "torus"
+           : has_ends(shape)                              ? "round"
+                                                          : "quadric";
 }
 
 ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
@@ -200,8 +202,8 @@ ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
     if (const auto* torus = std::get_if<Torus>(&shape)) {
         return {solver, torus_rows(*torus, convert(reference))};
     }
-    if (const auto* surface = std::get_if<MeshSurface>(&shape)) {
-        return {solver, {row(convert(reference) - convert(middle_of(surface->mesh->bounds())), 0)}};
+    if (solver == "mesh" || solver == "bezier") {
+        return {solver, {row(convert(reference) - convert(shape_middle(shape)), 0)}};
     }
     return {solver, quadric_rows(std::visit(FormOf{convert(reference)}, shape))};
 }
@@ -221,6 +223,7 @@ std::array<double, 6> shape_bounds(const CutShape& shape) {
             return {-infinity, -infinity, -infinity, infinity, infinity, infinity};
         }
         std::array<double, 6> operator()(const MeshSurface& surface) const { return surface.mesh->bounds(); }
+        std::array<double, 6> operator()(const BezierSurface& surface) const { return surface.mesh->bounds(); }
         std::array<double, 6> operator()(const Torus& torus) const {
             return box_of(torus.center, torus.major_radius + torus.minor_radius);
         }

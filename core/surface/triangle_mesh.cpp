@@ -9,9 +9,7 @@
 
 namespace elvis {
 
-namespace {
-
-std::string read_all(const std::string& path) {
+std::string read_mesh_text(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file || std::filesystem::is_directory(path)) {
         throw Error(path, "cannot be read");
@@ -23,14 +21,12 @@ std::string read_all(const std::string& path) {
     return text;
 }
 
-std::string ending_of(const std::string& path) {
+std::string mesh_ending(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;
 }
-
-} // namespace
 
 std::array<double, 6> TriangleMesh::bounds() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -47,11 +43,11 @@ std::array<double, 6> TriangleMesh::bounds() const {
 }
 
 TriangleMesh read_triangle_mesh(const std::string& path) {
-    const std::string ending = ending_of(path);
+    const std::string ending = mesh_ending(path);
     if (ending != ".obj" && ending != ".stl" && ending != ".ply") {
         throw Error(path, "is no mesh of triangles that can be read: its name ends in none of .obj, .stl, .ply");
     }
-    const std::string text = read_all(path);
+    const std::string text = read_mesh_text(path);
     TriangleMesh mesh = ending == ".obj"   ? read_obj(path, text)
                         : ending == ".stl" ? read_stl(path, text)
                                            : read_ply(path, text);

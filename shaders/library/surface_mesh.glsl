@@ -6,25 +6,11 @@
 // Rows: xyz: reference point minus the origin of corners and hierarchy.
 //
 // Buffers: core_triangles, nine numbers each; core_nodes.
-//
-// Rounding moves corners by a little, across the ray: rays that pass an edge within that are near it. A ray near the edge of a single
-// triangle, or of two that fold back there, is undecided, unless another triangle decides it.
 
-#include "library/surface_hit.glsl"
-#include "library/hierarchy.glsl"
+#include "library/surface_descent.glsl"
 
 // Turns of one pixel: see library/locate.glsl.
 #define CORE_WORK_LIMIT 3000u
-
-// Where the ray enters the box, a little before; more than anything if it does not meet it between its ends.
-float core_box_entry(core_node node, vec3 origin, vec3 inverse, float tolerance, float from, float to) {
-    const vec3 a = (node.lower - tolerance - origin) * inverse;
-    const vec3 b = (node.upper + tolerance - origin) * inverse;
-    const vec3 low = min(a, b), high = max(a, b);
-    const float enter = max(max(low.x, low.y), low.z), leave = min(min(high.x, high.y), high.z);
-    const float slack = 1e-5 * (abs(enter) + abs(leave));
-    return enter <= leave + slack && leave + slack >= from && enter - slack <= to ? enter - slack : 3.3e38;
-}
 
 // The sign, exact, of a b - c d; times its rounded value.
 elvis_real core_edge_function(elvis_real a, elvis_real b, elvis_real c, elvis_real d) {
@@ -52,36 +38,24 @@ core_hit core_next_hit(core_ray ray) {
     const elvis_real scale = elvis_real(1) / core_component(ray.direction, kz);
     const elvis_real shear_x = core_component(ray.direction, kx) * scale, shear_y = core_component(ray.direction, ky) * scale;
 
-    const vec3 box_origin = vec3(origin);
-    const vec3 box_direction = vec3(ray.direction);
-    const vec3 tiny = vec3(1e-30);
-    const vec3 box_inverse = 1.0 / mix(box_direction, tiny, lessThan(abs(box_direction), tiny));
-    const vec3 shift = abs(vec3(CORE_SHAPE(0).xyz));
-    const float box_tolerance = float(elvis_real(2) * ray.noise) + 8.0 * CORE_FLOAT_ROUNDOFF * max(max(shift.x, shift.y), shift.z);
-    const float from = float(max(ray.from, min(ray.after, ray.to))), to = float(ray.to);
-
+    const core_box_ray box_ray = core_make_box_ray(ray, origin, CORE_SHAPE(0).xyz);
     uint stack[CORE_STACK_SIZE];
     stack[0] = 0u;
     uint stack_size = ray.from < ray.to ? 1u : 0u;
     uint item = CORE_NO_NODE;
     uint work = 0u;
-    // What is known of the nearest crossing: some triangle holds it well inside; near it, triangles facing the ray and facing away.
-    bool is_sure = false;
-    uint n_facing = 0u, n_averted = 0u;
-    // The nearest near miss.
-    elvis_real near_t = CORE_FAR, near_error = elvis_real(0);
-    bool is_near_facing = false;
+    core_votes votes = core_no_votes();
     while ((item != CORE_NO_NODE || stack_size > 0u) && work < CORE_WORK_LIMIT) {
         work += 1u;
         while (item == CORE_NO_NODE && stack_size > 0u) {
             stack_size -= 1u;
             const core_node node = core_fetch_node(stack[stack_size]);
-            const float farthest = min(to, float(best.t + best.error));
-            const bool is_met = core_box_entry(node, box_origin, box_inverse, box_tolerance, from, farthest) < 3e38;
+            const float farthest = float(best.t + best.error);
+            const bool is_met = core_box_entry(node, box_ray, farthest) < 3e38;
             item = is_met && node.is_leaf ? node.child : CORE_NO_NODE;
             for (uint turn = 0u; turn < (is_met && !node.is_leaf ? 1u : 0u); ++turn) {
-                const float first = core_box_entry(core_fetch_node(node.child), box_origin, box_inverse, box_tolerance, from, to);
-                const float second = core_box_entry(core_fetch_node(node.child + 1u), box_origin, box_inverse, box_tolerance, from, to);
+                const float first = core_box_entry(core_fetch_node(node.child), box_ray, farthest);
+                const float second = core_box_entry(core_fetch_node(node.child + 1u), box_ray, farthest);
                 stack[stack_size] = node.child + (second < first ? 0u : 1u);
                 stack[stack_size + 1u] = node.child + (second < first ? 1u : 0u);
                 stack_size += 2u;
@@ -121,26 +95,8 @@ core_hit core_next_hit(core_ray ray) {
         const elvis_vec3 normal = cross(b - a, c - a);
         const elvis_real across = abs(dot(normal, ray.direction));
         const elvis_real error = off * core_norm1(normal) / max(across, elvis_real(1e-30LF) * core_norm1(normal));
-        const bool is_facing = area < elvis_real(0);
-
-        const bool counts = is_active && is_regular && t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after;
-        const bool is_hit = counts && is_within;
-        const bool is_same = abs(t - best.t) <= elvis_real(2) * (error + best.error);
-        const bool is_better = is_hit && t < best.t;
-        const bool is_news = is_better && !is_same;
-        // The near miss found before may be of the same crossing.
-        const bool is_near_same = abs(t - near_t) <= elvis_real(2) * (error + near_error);
-        n_facing = is_news ? (is_near_same && is_near_facing ? 1u : 0u) : n_facing;
-        n_averted = is_news ? (is_near_same && !is_near_facing ? 1u : 0u) : n_averted;
-        is_sure = is_sure && !is_news;
-        const bool votes = counts && is_near && (is_news || is_same);
-        n_facing += votes && is_facing ? 1u : 0u;
-        n_averted += votes && !is_facing ? 1u : 0u;
-        is_sure = is_sure || (is_hit && is_clear && (is_news || is_same));
-        const bool is_miss = counts && is_near && !is_within && t < near_t;
-        near_t = is_miss ? t : near_t;
-        near_error = is_miss ? error : near_error;
-        is_near_facing = is_miss ? is_facing : is_near_facing;
+        const bool counts = is_active && is_regular && is_near && t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after;
+        const bool is_better = core_vote(votes, best, t, error, is_within, is_clear, area < elvis_real(0), counts);
         best.t = is_better ? t : best.t;
         best.error = is_better ? error : best.error;
         best.normal_x = is_better ? normal.x : best.normal_x;
@@ -149,8 +105,7 @@ core_hit core_next_hit(core_ray ray) {
         best.is_hit = best.is_hit || is_better;
         item = CORE_NO_NODE;
     }
-    const bool is_missed_before = near_t < best.t - elvis_real(2) * (near_error + best.error);
-    best.is_undecided = is_missed_before || (best.is_hit && !is_sure && max(n_facing, n_averted) < 2u);
+    best.is_undecided = core_is_undecided(votes, best);
     best.is_cut_short = item != CORE_NO_NODE || stack_size > 0u;
     return best;
 }

@@ -68,4 +68,31 @@ TEST_CASE("what is wrong with a file is said with its place") {
     CHECK_THROWS_WITH(read_triangle_mesh("thing.txt"), Contains(".obj, .stl, .ply"));
 }
 
+TEST_CASE("Bezier patches are read with v running first") {
+    const PatchMesh mesh = read_bpt("file", samples::bpt());
+    REQUIRE(mesh.patches.size() == 2);
+    CHECK(mesh.patches[1].points[7] == std::array<double, 3>{2, 3, 0.7});
+    using Catch::Matchers::Contains;
+    CHECK_THROWS_WITH(read_bpt("thing", "1\n2 3\n"), Contains("thing:2") && Contains("only bicubic ones"));
+    CHECK_THROWS_WITH(read_bpt("thing", "1\n3 3\n0 0 0\n"), Contains("a number is expected"));
+    CHECK_THROWS_WITH(read_bpt("thing", "900000\n"), Contains("thing:1") && Contains("cannot be"));
+    CHECK_THROWS_WITH(read_bpt("thing", samples::bpt() + "1"), Contains("more than the 2 patches"));
+}
+
+TEST_CASE("the part of a patch is the patch there") {
+    BezierPatch patch;
+    for (std::size_t i = 0; i < 16; ++i) {
+        // x = u, y = v, z = u^2 v^3, as control points.
+        const double u = static_cast<double>(i / 4) / 3, v = static_cast<double>(i % 4) / 3;
+        const std::array<double, 4> square = {0, 0, 1.0 / 3, 1};
+        patch.points[i] = {u, v, square[i / 4] * (i % 4 == 3 ? 1.0 : 0.0)};
+    }
+    const BezierPatch part = patch.part(0.25, 0.5, 0.5);
+    CHECK(part.points[0][0] == Approx(0.25));
+    CHECK(part.points[0][2] == Approx(0.25 * 0.25 * 0.5 * 0.5 * 0.5));
+    CHECK(part.points[12][2] == Approx(0.75 * 0.75 * 0.5 * 0.5 * 0.5));
+    CHECK(part.points[15][1] == Approx(1));
+    CHECK(part.points[15][2] == Approx(0.75 * 0.75));
+}
+
 } // namespace elvis

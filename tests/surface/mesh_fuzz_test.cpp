@@ -13,7 +13,9 @@ namespace elvis {
 TEST_CASE("damaged mesh files are refused or read, and nothing worse") {
     std::mt19937 random(20240611);
     std::size_t n_read = 0, n_refused = 0;
-    for (const samples::Sample& sample : samples::all()) {
+    std::vector<samples::Sample> all = samples::all();
+    all.push_back({"bpt", samples::bpt(), samples::read_bpt_points});
+    for (const samples::Sample& sample : all) {
         for (int round = 0; round < 2000; ++round) {
             std::string text = sample.text;
             const auto place = [&] { return std::uniform_int_distribution<std::size_t>(0, text.size() - 1)(random); };

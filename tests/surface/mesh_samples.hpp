@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/surface/mesh_cursor.hpp>
+#include <core/surface/patch_mesh.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -101,11 +102,36 @@ inline std::string ply(const std::string& format) {
            bytes_of(0.25, is_big);
 }
 
+/** Two patches. */
+inline std::string bpt() {
+    std::string text = "2\n";
+    for (int patch = 0; patch < 2; ++patch) {
+        text += "3 3\n";
+        for (int i = 0; i < 16; ++i) {
+            text += text_of(i / 4 + patch) + " " + text_of(i % 4) + "\t" + text_of(0.1 * i) + "\n";
+        }
+    }
+    return text;
+}
+
 struct Sample {
     std::string name;
     std::string text;
     std::function<TriangleMesh(const std::string&, std::string_view)> read;
 };
+
+/** Control points of patches, as triangles, for tests that only ask whether they are sound. */
+inline TriangleMesh read_bpt_points(const std::string& path, std::string_view text) {
+    TriangleMesh mesh;
+    for (const BezierPatch& patch : read_bpt(path, text).patches) {
+        for (const auto& point : patch.points) {
+            const auto index = static_cast<std::uint32_t>(mesh.points.size());
+            mesh.points.push_back(point);
+            mesh.triangles.push_back({index, index, index});
+        }
+    }
+    return mesh;
+}
 
 inline std::vector<Sample> all() {
     return {{"obj", obj(), read_obj},
