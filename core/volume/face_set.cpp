@@ -17,7 +17,7 @@ constexpr std::uint64_t block = 65536;
 /** Beyond this order, polynomials through points would amplify rounding and take longer than the mapping itself. */
 constexpr int largest_order = 10;
 /** Times a patch is halved at most, as long as that leaves no more patches than this. */
-constexpr int largest_level = 3;
+constexpr int largest_level = 5;
 constexpr std::uint64_t many_patches = 1u << 22;
 /** Rounding errors of a position, sum of a few terms of its size: what interpolation may leave of a polynomial. */
 constexpr double misfit_roundings = 32;

@@ -1,4 +1,5 @@
 // Two-dimensional volumes and boundaries, whose pictures are known in closed form.
+#include "face_accuracy.hpp"
 #include "meshes.hpp"
 #include "ray.hpp"
 #include "test_files.hpp"
@@ -228,6 +229,61 @@ TEST_CASE("a curved boundary has no holes") {
         CHECK(beyond == 0);
         CHECK(off_sphere < 1e-3);
         CHECK(frame.counts.work_limit_pixels == 0);
+    }
+}
+
+TEST_CASE("a curved boundary is where the elements put it") {
+    for (const auto& [mesh, shape] : {std::pair{"ball", "hexahedron"}, {"ball", "pyramid"}, {"torus", "prism"}, {"torus", "tetrahedron"}}) {
+        const TemporaryFile file("curved.h5");
+        generate(std::string(R"({"generator": 1, "elements": [3, 3, 8], "order": 1, "field": "waves", "mesh": ")") + mesh +
+                     R"(", "shape": ")" + shape + "\"}",
+                 file.path());
+        const RuntimeVolume volume = open_volume(file.path());
+        const Volume model(read_volume(file.path()));
+        const Boundary surface(model, faces_of(volume));
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
+            const FaceAccuracy r = measure_faces(device(), volume, surface, precision, 400, 2500, 40);
+            const bool is_single = precision == Precision::float32;
+            WARN(mesh << " of " << shape << (is_single ? ", float32: " : ", float64: ") << r.n_hits << " hits, depth error "
+                      << r.depth_error << ", grazing " << r.grazing_error << ", " << r.n_careful << " careful, " << r.n_flagged << " flagged, "
+                      << r.n_leaks << " leaks of " << r.n_edge_rays);
+            CHECK(r.n_hits > 500);
+            CHECK(r.depth_error <= (is_single ? 1e-5 : 1e-11));
+            CHECK(r.grazing_error <= (is_single ? 1e-6 : 1e-12));
+            CHECK(r.n_missed == 0);
+            CHECK(r.n_invented == 0);
+            CHECK(r.n_leaks == 0);
+            CHECK(r.n_flagged <= 20);
+        }
+    }
+}
+
+TEST_CASE("a ray that enters a closed boundary leaves it") {
+    for (const auto& [mesh, cells] : {std::pair{"ball", 3}, {"torus", 4}, {"box", 20}}) {
+        const TemporaryFile file("closed.h5");
+        generate(std::string(R"({"generator": 1, "order": 1, "field": "waves", "mesh": ")") + mesh + R"(", "elements": )" +
+                     std::to_string(cells) + "}",
+                 file.path());
+        const RuntimeVolume volume = open_volume(file.path());
+        FrameRequest request = boundary_view(100);
+        request.surfaces[0].opacity = 0.5;
+        request.background = {0, 0, 0, 0};
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
+            Renderer renderer(device(), volume, precision);
+            const Frame frame = renderer.render(request);
+            std::size_t open = 0, hits = 0;
+            for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
+                // Each crossing leaves half of what is behind it.
+                const double crossings = -std::log2(1 - frame.color[4 * pixel + 3]);
+                hits += crossings > 0.5;
+                const bool is_even = std::abs(crossings - 2 * std::round(crossings / 2)) < 1e-3;
+                open += !is_even && (frame.flags[pixel] & pixel_flag::undecided) == 0;
+            }
+            WARN(mesh << (precision == Precision::float32 ? ", float32: " : ", float64: ") << open << " of " << hits << " pixels open");
+            CHECK(hits > 500);
+            // Where a ray enters and leaves within rounding.
+            CHECK(open <= (precision == Precision::float32 ? 2 : 0));
+        }
     }
 }
 
