@@ -51,7 +51,8 @@ struct BernsteinTables {
 };
 
 template <std::size_t lanes>
-void BernsteinTables::transform(const double* coefficients, double* workspace, double* result) const {
+[[gnu::always_inline]] inline void BernsteinTables::transform(const double* coefficients, double* workspace,
+                                                              double* result) const {
     const std::size_t n = size_inner;
     const std::size_t plane = size_mid * n;
     double* const line_sum = workspace;

@@ -83,7 +83,8 @@ private:
 };
 
 template <std::size_t lanes>
-void DerivativeForms::evaluate(const double* coefficients, double* workspace, double* forms, double* magnitude) const {
+[[gnu::always_inline]] inline void DerivativeForms::evaluate(const double* coefficients, double* workspace, double* forms,
+                                                             double* magnitude) const {
     std::fill_n(magnitude, lanes, 0.0);
     for (std::size_t mode = 0; mode < m_tables.weights.size(); ++mode)
         for (std::size_t lane = 0; lane < lanes; ++lane) {

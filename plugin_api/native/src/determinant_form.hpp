@@ -53,7 +53,8 @@ private:
 };
 
 template <std::size_t lanes>
-void DeterminantForm::evaluate(const std::array<const double*, 9>& columns, double* workspace, double* result) const {
+[[gnu::always_inline]] inline void DeterminantForm::evaluate(const std::array<const double*, 9>& columns, double* workspace,
+                                                             double* result) const {
     std::array<double*, 9> scaled{};
     for (std::size_t j = 0; j < 3; ++j)
         for (std::size_t i = 0; i < 3; ++i) {

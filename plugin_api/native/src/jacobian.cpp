@@ -4,6 +4,8 @@
  * it does in every mean of coefficients with weights >= 0, thus everywhere, and det (G J) >= prod_j min (m_jj - sum |m_ij|) > 0
  * (A. M. Ostrowski, Bull. Sci. Math. 61, 1937). G may be as rounded as it likes; only det G > 0 must be sure.
  *
+ * Between the stages, the corners: the Jacobians there are known already, and a tangled element is mostly tangled at a corner.
+ *
  * Second stage: subdivision.hpp.
  */
 #include "derivative_forms.hpp"
@@ -31,8 +33,52 @@ constexpr double largest_product = 1e260;
 /** See jacobian.hpp: a thousand times what conversions leave, far less than anyone would draw. */
 constexpr double apex_tolerance = 1e-9;
 
+/*
+ * The loops over lanes, once more for processors with twice the vector length. Without fused multiply-add, so that every
+ * machine gives the same bits.
+ */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&                       \
+    !defined(__SANITIZE_THREAD__)
+#define ELVIS_NATIVE_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define ELVIS_NATIVE_CLONES
+#endif
+
+ELVIS_NATIVE_CLONES void evaluate_forms(const DerivativeForms& forms, const double* coefficients, double* workspace,
+                                        double* result, double* magnitudes) {
+    forms.evaluate<lanes>(coefficients, workspace, result, magnitudes);
+}
+
+ELVIS_NATIVE_CLONES void evaluate_determinant(const DeterminantForm& form, const std::array<const double*, 9>& columns,
+                                              double* workspace, double* result) {
+    form.evaluate<lanes>(columns, workspace, result);
+}
+
 double permanent(const std::array<double, 9>& m) {
     return m[0] * (m[4] * m[8] + m[5] * m[7]) + m[1] * (m[3] * m[8] + m[5] * m[6]) + m[2] * (m[3] * m[7] + m[4] * m[6]);
+}
+
+/** Of a matrix by columns or by rows. */
+double determinant(const std::array<double, 9>& m) {
+    return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+/** Five roundings a term, and some for the bound. */
+constexpr double determinant_gamma = 8 * unit;
+
+/**
+ * Bound of |det (A + dA) - fl(det A)| from magnitudes |A| + |dA| and errors |dA|, entry 3 j + i being component i of column j;
+ * gamma as in Higham for the roundings of a product of three. |prod (a + da) - prod a| <= prod (|a| + |da|) - prod |a|, which
+ * is summed over the six products without cancellation.
+ */
+double determinant_error(const std::array<double, 9>& magnitudes, const std::array<double, 9>& errors, double gamma) {
+    double bound = gamma * permanent(magnitudes);
+    for (std::size_t j = 0; j < 9; j += 3) {
+        std::array<double, 9> part = magnitudes;
+        for (std::size_t i = j; i < j + 3; ++i)
+            part[i] = errors[i];
+        bound += permanent(part);
+    }
+    return bound * (1 + 100 * unit);
 }
 
 /** Modes that add up to 1 where each has the coefficient 1. */
@@ -73,6 +119,8 @@ private:
     void load(std::span<const double> coefficients, const std::array<std::size_t, lanes>& elements);
     /** The first stage; whether each lane is positive, with its lower bound. */
     void test_dominance(std::array<bool, lanes>& is_positive, std::array<double, lanes>& lower) const;
+    /** Between the stages: whether an element that is not positive is surely negative at a corner; then writes its check. */
+    bool is_negative_at_corner(std::size_t lane, JacobianCheck& check) const;
     /** The second stage. */
     void test_determinant(std::size_t n_used, const std::array<std::size_t, lanes>& elements, std::span<JacobianCheck> checks);
 
@@ -80,7 +128,13 @@ private:
         return m_forms_of[i].data() + m_forms.columns()[j].offset * lanes;
     }
 
+    /** Of component k % 3 of column k / 3. */
+    double column_error(std::size_t k, std::size_t lane) const {
+        return m_forms.columns()[k / 3].error * m_magnitudes[k % 3][lane];
+    }
+
     Space m_space;
+    Sizes m_places;
     JacobianOptions m_options;
     DerivativeForms m_forms;
     DeterminantForm m_determinant;
@@ -95,9 +149,9 @@ private:
 };
 
 JacobianChecker::Impl::Impl(const Space& space, const JacobianOptions& options)
-    : m_space(space), m_options(options), m_forms(space), m_determinant(m_forms.columns()),
-      m_subdivision(space.shape, m_determinant.sizes(), options), m_modes_of_one(modes_of_one(space)),
-      m_apex_modes(apex_modes(space)) {
+    : m_space(space), m_places(storage_places(space.shape)), m_options(options), m_forms(space),
+      m_determinant(m_forms.columns()), m_subdivision(space.shape, m_determinant.sizes(), options),
+      m_modes_of_one(modes_of_one(space)), m_apex_modes(apex_modes(space)) {
     m_coefficients.resize(m_forms.n_modes() * lanes);
     m_workspace.resize(m_forms.workspace_size() * lanes);
     for (auto& forms : m_forms_of)
@@ -132,7 +186,7 @@ void JacobianChecker::Impl::load(std::span<const double> coefficients, const std
                     m_coefficients[mode * lanes + lane] = m_coefficients[m_apex_modes[0] * lanes + lane];
             else
                 std::fill_n(m_coefficients.begin() + static_cast<std::ptrdiff_t>(mode * lanes), lanes, 0.0);
-        m_forms.evaluate<lanes>(m_coefficients.data(), m_workspace.data(), m_forms_of[i].data(), m_magnitudes[i].data());
+        evaluate_forms(m_forms, m_coefficients.data(), m_workspace.data(), m_forms_of[i].data(), m_magnitudes[i].data());
         for (std::size_t lane = 0; lane < lanes; ++lane)
             m_is_broken[lane] =
                 m_is_broken[lane] || apex[lane] > apex_tolerance * m_magnitudes[i][lane] || !(m_magnitudes[i][lane] < 1e200);
@@ -200,16 +254,58 @@ void JacobianChecker::Impl::test_dominance(std::array<bool, lanes>& is_positive,
             matrix[k] = g[k][lane];
             magnitudes[k] = std::abs(g[k][lane]);
         }
-        const double determinant = matrix[0] * (matrix[4] * matrix[8] - matrix[5] * matrix[7]) -
-                                   matrix[1] * (matrix[3] * matrix[8] - matrix[5] * matrix[6]) +
-                                   matrix[2] * (matrix[3] * matrix[7] - matrix[4] * matrix[6]);
-        // Five roundings a term.
-        const double error = 8 * unit * permanent(magnitudes);
-        is_positive[lane] = is_positive[lane] && !m_is_broken[lane] && determinant > error && determinant > smallest_product &&
-                            determinant < largest_product && margins[lane] > smallest_product &&
-                            margins[lane] < largest_product;
-        lower[lane] = margins[lane] / (determinant + error) * (1 - 16 * unit);
+        const double det_g = determinant(matrix);
+        const double error = determinant_gamma * permanent(magnitudes);
+        is_positive[lane] = is_positive[lane] && !m_is_broken[lane] && det_g > error && det_g > smallest_product &&
+                            det_g < largest_product && margins[lane] > smallest_product && margins[lane] < largest_product;
+        lower[lane] = margins[lane] / (det_g + error) * (1 - 16 * unit);
     }
+}
+
+bool JacobianChecker::Impl::is_negative_at_corner(std::size_t lane, JacobianCheck& check) const {
+    if (m_is_broken[lane])
+        return false;
+    // At corners of the cube of eta, the form's corner coefficients are its values.
+    double least = 0;
+    std::size_t least_corner = 8;
+    std::array<double, 9> least_matrix{};
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        // xi cannot tell the directions at the apex of a pyramid apart.
+        if (m_space.shape == Shape::pyramid && (corner & 4) != 0)
+            continue;
+        std::array<double, 9> matrix{};
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Sizes& n = m_forms.columns()[j].sizes;
+            Sizes at{};
+            for (std::size_t direction = 0; direction < 3; ++direction)
+                at[m_places[direction]] = (corner >> direction) % 2 != 0 ? n[m_places[direction]] - 1 : 0;
+            const std::size_t k = (at[0] * n[1] + at[1]) * n[2] + at[2];
+            for (std::size_t i = 0; i < 3; ++i)
+                matrix[3 * j + i] = column(j, i)[k * lanes + lane];
+        }
+        const double value = determinant(matrix);
+        if (value < least) {
+            least = value;
+            least_corner = corner;
+            least_matrix = matrix;
+        }
+    }
+    if (least_corner == 8)
+        return false;
+    std::array<double, 9> errors{};
+    for (std::size_t k = 0; k < 9; ++k) {
+        errors[k] = column_error(k, lane);
+        least_matrix[k] = std::abs(least_matrix[k]) + errors[k];
+    }
+    const double size = permanent(least_matrix);
+    if (!(size > smallest_product && size < largest_product) ||
+        !(least < -determinant_error(least_matrix, errors, determinant_gamma)))
+        return false;
+    Point eta{};
+    for (std::size_t direction = 0; direction < 3; ++direction)
+        eta[direction] = (least_corner >> direction) % 2 != 0 ? 1 : -1;
+    check = {JacobianSign::negative, nan, expand(m_space.shape, eta), least};
+    return true;
 }
 
 void JacobianChecker::Impl::test_determinant(std::size_t n_used, const std::array<std::size_t, lanes>& elements,
@@ -228,23 +324,15 @@ void JacobianChecker::Impl::test_determinant(std::size_t n_used, const std::arra
                     largest[3 * j + i][lane] =
                         std::max(largest[3 * j + i][lane], std::abs(columns[3 * j + i][k * lanes + lane]));
         }
-    m_determinant.evaluate<lanes>(columns, m_product_workspace.data(), m_product.data());
+    evaluate_determinant(m_determinant, columns, m_product_workspace.data(), m_product.data());
     for (std::size_t lane = 0; lane < n_used; ++lane) {
         JacobianCheck& check = checks[elements[lane]];
-        // |prod (a + da) - prod a| <= prod (|a| + |da|) - prod |a|, summed over the six products without cancellation.
         std::array<double, 9> whole{}, error{};
         for (std::size_t k = 0; k < 9; ++k) {
-            error[k] = m_forms.columns()[k / 3].error * m_magnitudes[k % 3][lane];
+            error[k] = column_error(k, lane);
             whole[k] = largest[k][lane] + error[k];
         }
-        double bound = m_determinant.gamma() * permanent(whole);
-        for (std::size_t j = 0; j < 3; ++j) {
-            std::array<double, 9> part = whole;
-            std::copy_n(error.begin() + static_cast<std::ptrdiff_t>(3 * j), 3,
-                        part.begin() + static_cast<std::ptrdiff_t>(3 * j));
-            bound += permanent(part);
-        }
-        bound *= 1 + 100 * unit;
+        const double bound = determinant_error(whole, error, m_determinant.gamma());
         const double size = permanent(whole);
         if (m_is_broken[lane] || !(size > smallest_product && size < largest_product)) {
             check = {JacobianSign::undecided, size == 0 && !m_is_broken[lane] ? 0 : -infinity, expand(m_space.shape, {0, 0, 0}),
@@ -278,10 +366,17 @@ void JacobianChecker::Impl::check(std::span<const double> coefficients, std::spa
         std::array<bool, lanes> is_positive{};
         std::array<double, lanes> lower{};
         test_dominance(is_positive, lower);
-        for (std::size_t lane = 0; lane < n; ++lane)
+        std::array<bool, lanes> is_open{};
+        for (std::size_t lane = 0; lane < n; ++lane) {
+            JacobianCheck& check = checks[elements[lane]];
             if (is_positive[lane])
-                checks[elements[lane]] = {JacobianSign::positive, lower[lane], {nan, nan, nan}, nan};
-            else {
+                check = {JacobianSign::positive, lower[lane], {nan, nan, nan}, nan};
+            else
+                is_open[lane] = !is_negative_at_corner(lane, check);
+        }
+        // Only now, because it loads other elements.
+        for (std::size_t lane = 0; lane < n; ++lane)
+            if (is_open[lane]) {
                 rest[n_rest++] = elements[lane];
                 if (n_rest == lanes)
                     decide_rest();
