@@ -19,6 +19,7 @@ struct Arguments {
     std::vector<std::uint32_t> elements{16, 32};
     std::vector<std::uint32_t> orders{3, 6, 8};
     std::vector<std::uint32_t> sizes{512, 1024};
+    std::uint64_t n_jacobians = 1000000;
     bool json = false;
 };
 
@@ -49,6 +50,34 @@ void print(const SurfaceResult& result, double unit) {
     std::fflush(stdout);
 }
 
+/** Smooth, and disturbed so much that many elements need the determinant's own form, and that many are negative. */
+constexpr double jacobian_disturbances[] = {0, 0.1, 0.2, 0.4};
+
+nlohmann::ordered_json run_jacobian(const Arguments& arguments) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const std::uint32_t order : {1u, 2u}) {
+        for (const double disturbance : jacobian_disturbances) {
+            const JacobianResult result = bench_jacobian(arguments.n_jacobians, order, disturbance);
+            list.push_back({{"n_elements", result.n_elements},
+                            {"geometry_order", result.geometry_order},
+                            {"disturbance", result.disturbance},
+                            {"elements_a_second_a_core", result.elements_a_second},
+                            {"n_negative", result.n_negative},
+                            {"n_undecided", result.n_undecided}});
+            if (!arguments.json) {
+                std::printf(
+                    "Jacobians of %llu hexahedra of geometry order %u, nodes disturbed by %.2f: %9.0f elements a second a "
+                    "core, %llu negative, %llu undecided\n",
+                    static_cast<unsigned long long>(result.n_elements), result.geometry_order, result.disturbance,
+                    result.elements_a_second, static_cast<unsigned long long>(result.n_negative),
+                    static_cast<unsigned long long>(result.n_undecided));
+                std::fflush(stdout);
+            }
+        }
+    }
+    return list;
+}
+
 void run(const Arguments& arguments) {
     nlohmann::ordered_json root;
     const bool all = arguments.suite == "all";
@@ -63,6 +92,9 @@ void run(const Arguments& arguments) {
                         static_cast<unsigned long long>(result.n_items), result.wall_milliseconds, result.depth,
                         result.boxes_a_query);
         }
+    }
+    if (all || arguments.suite == "jacobian") {
+        root["jacobian"] = run_jacobian(arguments);
     }
     if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary") {
         const PluginRegistry registry;
@@ -104,14 +136,15 @@ void run(const Arguments& arguments) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure speed and memory on scenes that anyone can repeat");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("suite", arguments->suite, "unit, cut-plane, boundary, hierarchy or all")
-        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "all"}))
+    command->add_option("suite", arguments->suite, "unit, cut-plane, boundary, hierarchy, jacobian or all")
+        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "jacobian", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
     command->add_option("--elements", arguments->elements, "Elements along each side")->delimiter(',');
     command->add_option("--orders", arguments->orders, "Orders of the field")->delimiter(',');
     command->add_option("--sizes", arguments->sizes, "Sides of the picture in pixels")->delimiter(',');
+    command->add_option("--jacobians", arguments->n_jacobians, "Elements of the suite jacobian")->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
     command->callback([arguments] { run(*arguments); });
 }

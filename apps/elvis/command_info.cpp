@@ -1,10 +1,12 @@
 #include "commands.hpp"
 #include "volume_argument.hpp"
 
-#include <algorithm>
+#include <core/volume/jacobian_check.hpp>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -20,6 +22,8 @@ struct Arguments {
     std::string volume;
     std::string plugin;
     std::uint32_t time_step = 0;
+    double jacobian_tolerance = default_jacobian_tolerance;
+    bool lists_all = false;
     bool json = false;
 };
 
@@ -36,36 +40,42 @@ const char* continuity_name(elvis_continuity continuity) {
                                                           : "unknown";
 }
 
-/** Elements whose Jacobian determinant is negative at one of 125 points spread over the cube around the shape, clipped to it.
- */
-std::uint64_t count_negative_jacobians(const RuntimeVolume& volume) {
-    std::uint64_t n_negative = 0;
-    for (const ClassInfo& element_class : volume.classes()) {
-        std::vector<double> xi;
-        for (int node = 0; node < 125; ++node) {
-            const double x = 0.5 * (node % 5) - 1, y = 0.5 * (node / 5 % 5) - 1, z = 0.5 * (node / 25) - 1;
-            const bool is_inside = element_class.shape == ELVIS_SHAPE_PRISM         ? x + z <= 0
-                                   : element_class.shape == ELVIS_SHAPE_PYRAMID     ? x + z <= 0 && y + z <= 0
-                                   : element_class.shape == ELVIS_SHAPE_TETRAHEDRON ? x + y + z <= -1
-                                                                                    : true;
-            if (is_inside) {
-                xi.insert(xi.end(), {x, y, z});
-            }
+/** Elements listed by default: enough to look at, and no flood. */
+constexpr std::size_t n_listed_by_default = 20;
+
+ordered_json point(const std::array<double, 3>& x) { return {number(x[0]), number(x[1]), number(x[2])}; }
+
+/** Signs of the Jacobian determinant: counts, and the elements that are not positive, each with a point to look at. */
+ordered_json describe_jacobians(const RuntimeVolume& volume, double tolerance, bool lists_all) {
+    const JacobianReport report = check_jacobians(volume, tolerance);
+    ordered_json root = {{"n_elements", report.n_negative},
+                         {"certainty", report.certainty == ELVIS_CERTIFIED ? "certified" : "estimated"},
+                         {"tolerance", tolerance},
+                         {"n_positive", report.n_positive},
+                         {"n_undecided", report.n_undecided},
+                         {"elements", ordered_json::array()},
+                         {"undecided", ordered_json::array()}};
+    for (const auto& [element, check] : report.findings) {
+        const bool is_negative = check.sign == ELVIS_JACOBIAN_NEGATIVE;
+        ordered_json& list = root[is_negative ? "elements" : "undecided"];
+        if (!lists_all && list.size() == n_listed_by_default) {
+            continue;
         }
-        std::vector<double> jacobians(3 * xi.size());
-        for (std::uint64_t element = 0; element < element_class.n_elements; ++element) {
-            volume.evaluate_mapping(element_class.first_element + element, xi, {}, jacobians);
-            bool is_negative = false;
-            for (std::size_t at = 0; at < jacobians.size(); at += 9) {
-                const double* j = &jacobians[at];
-                const double determinant = j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) +
-                                           j[2] * (j[3] * j[7] - j[4] * j[6]);
-                is_negative = is_negative || determinant < 0;
-            }
-            n_negative += is_negative ? 1 : 0;
+        std::int64_t element_number = 0;
+        volume.element_numbers(element, 1, std::span(&element_number, 1));
+        ordered_json entry = {{"element", element_number}, {"xi", point(check.xi)}};
+        if (volume.has_evaluation()) {
+            std::array<double, 3> x{};
+            volume.evaluate_mapping(element, check.xi, x, {});
+            entry["x"] = point(x);
         }
+        entry["determinant"] = number(check.determinant);
+        if (!is_negative) {
+            entry["lower_bound"] = number(check.lower);
+        }
+        list.push_back(entry);
     }
-    return n_negative;
+    return root;
 }
 
 struct Range {
@@ -122,7 +132,7 @@ ordered_json describe_fields(const RuntimeVolume& volume, std::uint32_t time_ste
     return fields;
 }
 
-ordered_json describe(const RuntimeVolume& volume, std::uint32_t time_step) {
+ordered_json describe(const RuntimeVolume& volume, const Arguments& arguments) {
     ordered_json root;
     root["path"] = volume.path();
     root["plugin"] = volume.plugin().id();
@@ -146,12 +156,11 @@ ordered_json describe(const RuntimeVolume& volume, std::uint32_t time_step) {
     }
     root["bounds"] = {{bounds[0].lower, bounds[1].lower, bounds[2].lower}, {bounds[0].upper, bounds[1].upper, bounds[2].upper}};
     root["bounds_certainty"] = certainty == ELVIS_CERTIFIED ? "certified" : "estimated";
-    root["fields"] = describe_fields(volume, time_step);
+    root["fields"] = describe_fields(volume, arguments.time_step);
     root["times"] = volume.times();
     root["boundary_groups"] = volume.boundary_groups();
-    if (volume.has_evaluation() && volume.dimension() == 3) {
-        // From samples: an element that is negative between them is not counted.
-        root["negative_jacobians"] = {{"n_elements", count_negative_jacobians(volume)}, {"certainty", "estimated"}};
+    if (can_check_jacobians(volume)) {
+        root["negative_jacobians"] = describe_jacobians(volume, arguments.jacobian_tolerance, arguments.lists_all);
     }
     root["notes"] = ordered_json::object();
     for (const auto& [key, value] : volume.notes()) {
@@ -161,6 +170,24 @@ ordered_json describe(const RuntimeVolume& volume, std::uint32_t time_step) {
 }
 
 std::string text_of(const ordered_json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+void print_jacobians(const ordered_json& root) {
+    std::printf("  Jacobian determinant (%s): negative somewhere in %s elements, undecided in %s, positive in %s\n",
+                text_of(root["certainty"]).c_str(), root["n_elements"].dump().c_str(), root["n_undecided"].dump().c_str(),
+                root["n_positive"].dump().c_str());
+    const auto print_list = [](const ordered_json& list, const ordered_json& n_all, const char* word) {
+        for (const ordered_json& entry : list) {
+            std::printf("    element %s: %s %s at xi %s%s%s\n", entry["element"].dump().c_str(), word,
+                        entry["determinant"].dump().c_str(), entry["xi"].dump().c_str(), entry.contains("x") ? ", x " : "",
+                        entry.contains("x") ? entry["x"].dump().c_str() : "");
+        }
+        if (n_all > list.size()) {
+            std::printf("    and %zu more (--all lists them)\n", n_all.get<std::size_t>() - list.size());
+        }
+    };
+    print_list(root["elements"], root["n_elements"], "negative,");
+    print_list(root["undecided"], root["n_undecided"], "undecided, smallest seen");
+}
 
 void print_table(const ordered_json& root) {
     std::printf("%s\n  served by %s\n  %s elements, %s faces\n", text_of(root["path"]).c_str(), text_of(root["plugin"]).c_str(),
@@ -181,8 +208,7 @@ void print_table(const ordered_json& root) {
     }
     std::printf("  times %s\n  boundary groups %s\n", root["times"].dump().c_str(), root["boundary_groups"].dump().c_str());
     if (root.contains("negative_jacobians")) {
-        std::printf("  elements with a negative Jacobian among samples: %s\n",
-                    root["negative_jacobians"]["n_elements"].dump().c_str());
+        print_jacobians(root["negative_jacobians"]);
     }
     for (const auto& [key, value] : root["notes"].items()) {
         std::printf("  %s: %s\n", key.c_str(), text_of(value).c_str());
@@ -197,6 +223,13 @@ void add_info(CLI::App& app) {
     command->add_option("volume", a->volume, "Volume")->required();
     command->add_option("--plugin", a->plugin, "Id of the runtime plugin (default: the one surest of the file)");
     command->add_option("--time-step", a->time_step, "Time step whose ranges are given");
+    command
+        ->add_option("--jacobian-tolerance", a->jacobian_tolerance,
+                     "Elements whose smallest Jacobian determinant is closer to zero than this times its largest may stay "
+                     "undecided")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command->add_flag("--all", a->lists_all, "List all elements with a negative or undecided Jacobian, not the first 20");
     command->add_flag("--json", a->json, "Answer in JSON");
     command->callback([a] {
         const PluginRegistry registry;
@@ -204,7 +237,7 @@ void add_info(CLI::App& app) {
         if (a->time_step >= volume.times().size()) {
             throw Error(a->volume, "has " + std::to_string(volume.times().size()) + " time steps, counted from 0");
         }
-        const ordered_json root = describe(volume, a->time_step);
+        const ordered_json root = describe(volume, *a);
         a->json ? static_cast<void>(std::printf("%s\n", root.dump(2).c_str())) : print_table(root);
     });
 }

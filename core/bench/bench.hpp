@@ -61,4 +61,17 @@ struct HierarchyResult {
 };
 HierarchyResult bench_hierarchy(std::uint64_t n_items);
 
+struct JacobianResult {
+    std::uint64_t n_elements = 0;
+    std::uint32_t geometry_order = 0;
+    /** Largest random shift of a node, over the distance between nodes. */
+    double disturbance = 0;
+    /** Of one processor core. */
+    double elements_a_second = 0;
+    std::uint64_t n_negative = 0;
+    std::uint64_t n_undecided = 0;
+};
+/** The certified check of Jacobians on hexahedra of the waves mesh; geometry order 1 or 2. */
+JacobianResult bench_jacobian(std::uint64_t n_elements, std::uint32_t geometry_order, double disturbance);
+
 } // namespace elvis

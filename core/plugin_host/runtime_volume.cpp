@@ -408,4 +408,38 @@ void RuntimeVolume::evaluate_field(std::uint32_t field, std::uint32_t time_step,
                   "evaluate_field");
 }
 
+bool RuntimeVolume::has_jacobian_checks() const { return m_impl->table->check_jacobians != nullptr; }
+
+elvis_certainty RuntimeVolume::check_jacobians(std::uint64_t first, double tolerance, std::span<JacobianCheck> out) const {
+    assert(has_jacobian_checks() && dimension() == 3 && first + out.size() <= n_elements());
+    std::vector<elvis_jacobian_check> theirs(out.size(), sized<elvis_jacobian_check>());
+    elvis_certainty certainty = ELVIS_ESTIMATED;
+    HostServices::clear_error();
+    m_impl->check(m_impl->table->check_jacobians(m_impl->volume, first, out.size(), tolerance, theirs.data(), &certainty),
+                  "check_jacobians");
+    m_impl->check_certainty(certainty, "check_jacobians");
+    for (std::size_t index = 0; index < out.size(); ++index) {
+        const elvis_jacobian_check& check = theirs[index];
+        const auto element = [&] { return " for element " + std::to_string(first + index); };
+        if (check.sign > ELVIS_JACOBIAN_UNDECIDED) {
+            m_impl->refuse("check_jacobians", "the unknown sign " + std::to_string(check.sign) + element());
+        }
+        if (check.sign == ELVIS_JACOBIAN_NEGATIVE) {
+            for (const double x : check.xi) {
+                // All shapes lie in this cube.
+                if (!(x >= -1 && x <= 1)) {
+                    m_impl->refuse("check_jacobians", "a point outside the reference shape" + element());
+                }
+            }
+            if (!(check.determinant <= 0)) {
+                m_impl->refuse("check_jacobians", "a negative sign and a determinant that is not" + element());
+            }
+        } else if (std::isnan(check.lower) || (check.sign == ELVIS_JACOBIAN_POSITIVE && check.lower < 0)) {
+            m_impl->refuse("check_jacobians", "a lower bound of " + std::to_string(check.lower) + element());
+        }
+        out[index] = {check.sign, {check.xi[0], check.xi[1], check.xi[2]}, check.determinant, check.lower};
+    }
+    return certainty;
+}
+
 } // namespace elvis

@@ -10,6 +10,7 @@
 #include <core/base/cancel.hpp>
 #include <elvis/runtime.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -77,6 +78,14 @@ struct DerivativeBounds {
     double second = 0; ///< H
 };
 
+/** See elvis_jacobian_check. */
+struct JacobianCheck {
+    elvis_jacobian_sign sign = ELVIS_JACOBIAN_UNDECIDED;
+    std::array<double, 3> xi{};
+    double determinant = 0;
+    double lower = 0;
+};
+
 class RuntimeVolume {
 public:
     /** Opens with a given plugin. `options`: JSON text, or empty. */
@@ -134,6 +143,10 @@ public:
                           std::span<double> jacobians) const;
     void evaluate_field(std::uint32_t field, std::uint32_t time_step, std::uint64_t element, std::span<const double> xi,
                         std::span<double> values, std::span<double> gradients) const;
+
+    bool has_jacobian_checks() const;
+    /** Checked: known signs, witnesses in the shape. Needs has_jacobian_checks(); core/volume/jacobian_check.hpp does not. */
+    elvis_certainty check_jacobians(std::uint64_t first, double tolerance, std::span<JacobianCheck> out) const;
 
 private:
     struct Impl;

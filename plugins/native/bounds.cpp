@@ -1,5 +1,5 @@
 /*
- * Bounds of elements and ranges of fields, from certified ranges of the native spaces.
+ * Bounds of elements, ranges of fields and signs of Jacobians, certified by the native spaces.
  */
 #include "volume.hpp"
 
@@ -96,6 +96,18 @@ elvis_certainty Volume::field_ranges(std::size_t field, std::size_t time_step, s
         }
     });
     return transformed ? ELVIS_ESTIMATED : ELVIS_CERTIFIED;
+}
+
+void Volume::check_jacobians(std::uint64_t first, double tolerance, std::span<native::JacobianCheck> checks) const {
+    for_each_run(first, checks.size(),
+                 [&](std::size_t element_class, std::uint64_t local, std::uint64_t n_run, std::uint64_t offset) {
+                     native::JacobianChecker checker(geometry_space(element_class), {.tolerance = tolerance});
+                     for (std::uint64_t done = 0; done < n_run; done += elements_at_once) {
+                         m_host.check_cancelled();
+                         const std::uint64_t n = std::min(elements_at_once, n_run - done);
+                         checker(read_geometry(element_class, local + done, n), checks.subspan(offset + done, n));
+                     }
+                 });
 }
 
 } // namespace elvis::native_plugin

@@ -196,6 +196,24 @@ public:
         return ELVIS_CERTIFIED;
     }
 
+    elvis_certainty check_jacobians(std::uint64_t first, double tolerance, api::StructArray<elvis_jacobian_check> checks) {
+        check_elements(first, checks.size());
+        if (m_description.dimension != 3)
+            throw api::Error(ELVIS_ERROR_UNSUPPORTED, m_volume.path(), "the Jacobian of a surface has no sign");
+        require(tolerance >= 0, "the tolerance is negative or NaN");
+        std::vector<native::JacobianCheck> own(checks.size());
+        m_volume.check_jacobians(first, tolerance, own);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const native::JacobianCheck& from = own[i];
+            checks.set(i, {sizeof(elvis_jacobian_check),
+                           static_cast<elvis_jacobian_sign>(from.sign),
+                           {from.xi[0], from.xi[1], from.xi[2]},
+                           from.determinant,
+                           from.lower});
+        }
+        return ELVIS_CERTIFIED;
+    }
+
     std::pair<elvis_string, elvis_string> get_note(std::uint32_t note) {
         require(note < m_description.notes.size(), "note out of range");
         return {m_description.notes[note].first.c_str(), m_description.notes[note].second.c_str()};

@@ -9,6 +9,7 @@
 #include "conversion.hpp"
 #include "derivative_weights.hpp"
 
+#include <elvis/native/jacobian.hpp>
 #include <elvis/native/volume_file.hpp>
 #include <elvis/plugin.hpp>
 
@@ -53,6 +54,8 @@ public:
     /** Certified for fields without a transform, else from samples. */
     elvis_certainty field_ranges(std::size_t field, std::size_t time_step, std::uint64_t first, std::uint64_t count,
                                  std::span<double> ranges) const;
+    /** Certified; see elvis_runtime.check_jacobians. */
+    void check_jacobians(std::uint64_t first, double tolerance, std::span<native::JacobianCheck> checks) const;
 
     /**
      * Two numbers (L, H) an element and component, as elvis_runtime.get_field_derivative_bounds: certified, or NaN where the

@@ -64,6 +64,28 @@ private:
 
 } // namespace
 
+TEST_CASE("Elements with a negative Jacobian are listed with a point where it is negative") {
+    const Workplace place;
+    place.write("twisted.json",
+                R"({"generator": 1, "mesh": "twisted-tetrahedron", "elements": 1, "geometry_order": 2, "field": "sphere"})");
+    REQUIRE(place.run("convert twisted.json -o twisted.h5").status == 0);
+    const Outcome info = place.run("info twisted.h5 --json");
+    REQUIRE(info.status == 0);
+    const auto jacobians = nlohmann::json::parse(info.out)["negative_jacobians"];
+    CHECK(jacobians["certainty"] == "certified");
+    CHECK(jacobians["n_elements"] == 1);
+    CHECK(jacobians["n_positive"] == 0);
+    REQUIRE(jacobians["elements"].size() == 1);
+    const auto& found = jacobians["elements"][0];
+    CHECK(found["element"] == 0);
+    CHECK(found["determinant"].get<double>() < 0);
+    CHECK(found["xi"].size() == 3);
+    CHECK(found["x"].size() == 3);
+    const Outcome text = place.run("info twisted.h5");
+    CHECK(text.out.find("negative somewhere in 1 elements") != std::string::npos);
+    CHECK(place.run("info twisted.h5 --jacobian-tolerance -1").status == 2);
+}
+
 TEST_CASE("A volume is converted, described, probed and drawn") {
     const Workplace place;
     const auto report = nlohmann::json::parse(read_file(place.path("report.json")));

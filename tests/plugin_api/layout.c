@@ -124,7 +124,14 @@ OFFSET(elvis_snippet, n_sources, 16);
 OFFSET(elvis_snippet, reserved, 20);
 OFFSET(elvis_snippet, sources, 24);
 
-SIZE(elvis_runtime, 168);
+SIZE(elvis_jacobian_check, 48);
+OFFSET(elvis_jacobian_check, struct_size, 0);
+OFFSET(elvis_jacobian_check, sign, 4);
+OFFSET(elvis_jacobian_check, xi, 8);
+OFFSET(elvis_jacobian_check, determinant, 32);
+OFFSET(elvis_jacobian_check, lower, 40);
+
+SIZE(elvis_runtime, 176);
 OFFSET(elvis_runtime, struct_size, 0);
 OFFSET(elvis_runtime, reserved, 4);
 OFFSET(elvis_runtime, probe, 8);
@@ -147,6 +154,7 @@ OFFSET(elvis_runtime, get_note, 136);
 OFFSET(elvis_runtime, evaluate_mapping, 144);
 OFFSET(elvis_runtime, evaluate_field, 152);
 OFFSET(elvis_runtime, get_field_derivative_bounds, 160);
+OFFSET(elvis_runtime, check_jacobians, 168);
 
 SIZE(elvis_source_info, 48);
 OFFSET(elvis_source_info, struct_size, 0);

@@ -107,6 +107,16 @@ public:
         std::fill(bounds.begin(), bounds.end(), 0.5 * static_cast<double>(bounds.size()));
         return ELVIS_ESTIMATED;
     }
+    elvis_certainty check_jacobians(std::uint64_t first, double tolerance, api::StructArray<elvis_jacobian_check> checks) {
+        for (std::uint64_t i = 0; i < checks.size(); ++i) {
+            elvis_jacobian_check check{};
+            check.sign = ELVIS_JACOBIAN_NEGATIVE;
+            check.determinant = -static_cast<double>(first + i);
+            check.lower = tolerance;
+            checks.set(i, check);
+        }
+        return ELVIS_CERTIFIED;
+    }
 };
 
 class WorldSource : public api::ConverterSource {
@@ -160,6 +170,8 @@ TEST_CASE("optional functions are in the table exactly if the class has them") {
     CHECK(full.get_faces);
     CHECK(full.get_field_ranges);
     CHECK(full.get_field_derivative_bounds);
+    CHECK(full.check_jacobians);
+    CHECK_FALSE(plain.check_jacobians);
     CHECK_FALSE(full.get_note);
     CHECK_FALSE(plain.get_faces);
     CHECK_FALSE(plain.get_element_numbers);
@@ -307,4 +319,18 @@ TEST_CASE("spans have the size that the call implies") {
     CHECK(certainty == ELVIS_ESTIMATED);
     CHECK(derivative_bounds[11] == 6); // three elements, two components, two numbers
     CHECK(derivative_bounds[12] == 0);
+}
+
+TEST_CASE("signs of Jacobians are written into structs of the host's size") {
+    const Open volume(full);
+    std::array<elvis_jacobian_check, 2> checks{};
+    for (elvis_jacobian_check& check : checks)
+        check.struct_size = sizeof check;
+    elvis_certainty certainty = ELVIS_ESTIMATED;
+    CHECK(full.check_jacobians(volume, 4, 2, 0.25, checks.data(), &certainty) == ELVIS_OK);
+    CHECK(certainty == ELVIS_CERTIFIED);
+    CHECK(checks[1].struct_size == sizeof checks[1]);
+    CHECK(checks[1].sign == ELVIS_JACOBIAN_NEGATIVE);
+    CHECK(checks[1].determinant == -5);
+    CHECK(checks[1].lower == 0.25);
 }

@@ -68,6 +68,7 @@ TEST_CASE("an older minor version works, and what it does not know is absent") {
     CHECK(volume.n_elements() == 1);
     CHECK(volume.numbers_are_positions());
     CHECK_FALSE(volume.has_field_ranges());
+    CHECK_FALSE(volume.has_jacobian_checks());
     std::int64_t number = -1;
     volume.element_numbers(0, 1, std::span(&number, 1));
     CHECK(number == 0);

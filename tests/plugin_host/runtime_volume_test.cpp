@@ -148,6 +148,18 @@ TEST_CASE("bounds, ranges, numbers and faces out of range are refused") {
     }
 }
 
+TEST_CASE("signs of Jacobians that cannot be are refused") {
+    JacobianCheck check;
+    CHECK(open("jacobian").check_jacobians(0, 1e-9, std::span(&check, 1)) == ELVIS_CERTIFIED);
+    CHECK(check.sign == ELVIS_JACOBIAN_NEGATIVE);
+    CHECK(check.xi == std::array{0.0, 0.5, 0.0});
+    CHECK(check.determinant == -2);
+    for (const char* name : {"jacobian-sign", "jacobian-point", "jacobian-value", "jacobian-bound"}) {
+        INFO(name);
+        CHECK_THAT(error_of([&] { open(name).check_jacobians(0, 1e-9, std::span(&check, 1)); }), blames("check_jacobians"));
+    }
+}
+
 TEST_CASE("a volume of a plugin that only converts is an error") {
     CHECK_THAT(error_of([] { RuntimeVolume(Plugin::load(fixture("world_source")), "a.cube"); }),
                Contains("org.elvis.test.world-source") && Contains("serves no volumes"));

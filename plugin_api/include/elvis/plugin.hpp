@@ -142,6 +142,7 @@ public:
     //                       double* values, double* gradients);
     //   elvis_certainty get_field_derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
     //                                               std::uint64_t count, std::span<double> bounds);
+    //   elvis_certainty check_jacobians(std::uint64_t first, double tolerance, StructArray<elvis_jacobian_check> checks);
 
 private:
     Host m_host;
@@ -342,6 +343,14 @@ template <class Volume> const elvis_runtime* runtime_table() {
                     v.get_field(field, info);
                     *certainty = v.get_field_derivative_bounds(field, time_step, first, count,
                                                                std::span<double>(bounds, 2 * count * info.n_components));
+                });
+            };
+        }
+        if constexpr (requires { &Volume::check_jacobians; }) {
+            t.check_jacobians = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, double tolerance,
+                                   elvis_jacobian_check* checks, elvis_certainty* certainty) {
+                return guard_on(self<Volume>(volume), [&](Volume& v) {
+                    *certainty = v.check_jacobians(first, tolerance, StructArray<elvis_jacobian_check>(checks, count));
                 });
             };
         }

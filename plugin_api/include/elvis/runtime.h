@@ -13,7 +13,7 @@
  *
  * Threads: `probe` and `open` may be called from any thread, also at the same time for different files. On one volume, the host
  * makes one call at a time, from any thread, except that fill_buffer, get_bounds, get_field_ranges, evaluate_mapping,
- * evaluate_field and get_field_derivative_bounds may run at the same time as each other.
+ * evaluate_field, get_field_derivative_bounds and check_jacobians may run at the same time as each other.
  *
  * A function pointer marked optional may be NULL.
  *
@@ -199,6 +199,31 @@ typedef uint32_t elvis_certainty;
 /** From samples: what is drawn with it is labelled "estimated". */
 #define ELVIS_ESTIMATED 1u
 
+/** What is known of the Jacobian determinant det(dx/dxi) of an element. */
+typedef uint32_t elvis_jacobian_sign;
+/** Greater than zero at every point of the closed reference shape. */
+#define ELVIS_JACOBIAN_POSITIVE 0u
+/** Less than zero at elvis_jacobian_check.xi. */
+#define ELVIS_JACOBIAN_NEGATIVE 1u
+/** Neither is known: the smallest determinant lies closer to zero than tolerance or rounding allow to tell. */
+#define ELVIS_JACOBIAN_UNDECIDED 2u
+
+/**
+ * The determinant is that with respect to reference coordinates xi, in collapsed shapes too: where det(dx/dxi) is continuous at
+ * the collapsed edge or vertex, that is a place like any other. Where it is not (the apex of pyramids whose mapping is
+ * rational) every limit counts, and a witness is a point where the determinant is defined.
+ */
+typedef struct elvis_jacobian_check {
+    uint32_t struct_size;
+    elvis_jacobian_sign sign;
+    /** NEGATIVE: a point of the shape where it is negative. UNDECIDED: where the smallest was seen. POSITIVE: not used. */
+    double xi[3];
+    /** The determinant at xi, rounded. Not used if POSITIVE. */
+    double determinant;
+    /** POSITIVE, UNDECIDED: no determinant in the element is smaller; -infinity if unknown. Not used if NEGATIVE. */
+    double lower;
+} elvis_jacobian_check;
+
 /** The table of the interface. */
 typedef struct elvis_runtime {
     uint32_t struct_size;
@@ -291,6 +316,17 @@ typedef struct elvis_runtime {
      */
     elvis_result (*get_field_derivative_bounds)(elvis_volume* volume, uint32_t field, uint32_t time_step, uint64_t first,
                                                 uint64_t count, double* bounds, elvis_certainty* certainty);
+
+    /**
+     * Optional. Sign of the Jacobian determinant in elements first .. first+count-1, one check each. An element whose smallest
+     * determinant lies within `tolerance` (>= 0) times its largest magnitude of zero may be left undecided; a larger tolerance
+     * may take less time. ELVIS_CERTIFIED if every POSITIVE, NEGATIVE and `lower` is proven, rounding included. Without it, the
+     * host samples evaluate_mapping and says so. Only for volumes of dimension 3.
+     *
+     * The whole question, and not bounds over boxes, so that a plugin may divide its own polynomials, which is faster.
+     */
+    elvis_result (*check_jacobians)(elvis_volume* volume, uint64_t first, uint64_t count, double tolerance,
+                                    elvis_jacobian_check* checks, elvis_certainty* certainty);
 } elvis_runtime;
 
 #endif
