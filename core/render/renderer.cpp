@@ -4,6 +4,7 @@
 #include <core/render/device_time.hpp>
 #include <core/render/face_pass.hpp>
 #include <core/render/layer.hpp>
+#include <core/render/line_pass.hpp>
 #include <core/render/merge_pass.hpp>
 #include <core/render/renderer.hpp>
 #include <core/render/shown_field.hpp>
@@ -61,6 +62,7 @@ struct FieldPasses {
     std::optional<CutPlanePass> cut_planes, cut_planes_with_lines;
     std::map<FaceGeometry, FacePass> faces;
     std::optional<SurfacePass> cut_shapes;
+    std::optional<LinePass> lines_on_faces, lines_on_shapes;
 };
 
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
@@ -106,6 +108,7 @@ struct Renderer::Impl {
     void provide_passes(const FrameRequest& request, const Surface& surface);
     CutPlanePass& cut_plane_pass(bool with_lines);
     FacePass& face_pass(const FaceGeometry& faces);
+    LinePass& line_pass(bool on_faces);
     std::vector<ElementFace> chosen_faces(const FaceGeometry& faces) const;
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
                       std::vector<SurfaceFacts>& facts);
@@ -142,6 +145,16 @@ CutPlanePass& Renderer::Impl::cut_plane_pass(bool with_lines) {
             data.provide_derivative_bounds();
         }
         pass.emplace(device, volume, data, with_lines);
+    }
+    return *pass;
+}
+
+/** Of surfaces other than planes. */
+LinePass& Renderer::Impl::line_pass(bool on_faces) {
+    std::optional<LinePass>& pass = on_faces ? current->lines_on_faces : current->lines_on_shapes;
+    if (!pass) {
+        data.provide_derivative_bounds();
+        pass.emplace(device, volume, data, on_faces);
     }
     return *pass;
 }
@@ -187,6 +200,9 @@ void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& 
         solvers.try_emplace(solver_key(*shape), device, precision, *shape);
     } else {
         face_pass(*face_geometry(surface));
+    }
+    if (surface.has_lines() && !std::holds_alternative<CutPlane>(surface.geometry)) {
+        line_pass(!std::holds_alternative<CutShape>(surface.geometry));
     }
     times.compile_milliseconds += milliseconds_since(start);
 }
@@ -247,13 +263,19 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     const ShownComponent component = fields.component(surface.field);
     // A layer holds one surface; each class of faces counts as one, so that the nearest wins.
     constexpr std::uint32_t first = 1;
+    const LineRequest lines = line_request(surface, offset_of(surface));
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
-        const double offset = offset_of(surface);
-        cut_plane_pass(surface.has_lines()).draw(rays, first, component, line_request(surface, offset), target, counts);
+        cut_plane_pass(surface.has_lines()).draw(rays, first, component, lines, target, counts);
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
         current->cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, target, counts);
+        if (surface.has_lines()) {
+            line_pass(false).draw(rays, component, lines, &current->cut_shapes->bending(), target, counts);
+        }
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
+        if (surface.has_lines()) {
+            line_pass(true).draw(rays, component, lines, nullptr, target, counts);
+        }
     }
 }
 

@@ -160,8 +160,10 @@ void DeviceVolume::select(const FieldSelection& selection) {
     if (is_geometry_changed) {
         for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
             if (m_classes[element_class].elements) {
-                write_elements(m_device, m_volume, element_class, instance(element_class), m_precision,
-                               *m_classes[element_class].elements);
+                m_classes[element_class].curvatures =
+                    write_elements(m_device, m_volume, element_class, instance(element_class), m_precision,
+                                   *m_classes[element_class].elements);
+                m_classes[element_class].curvature_records.reset();
             }
         }
         m_has_elements = true;
@@ -268,6 +270,9 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
             request.buffers.push_back(derivative_bounds(element_class, index));
         }
     }
+    if (with_bounds) {
+        request.buffers.push_back({"core_curvatures", m_classes[element_class].curvature_records.get()});
+    }
     if (m_expression) {
         // For the element's number.
         const auto is_elements = [](const FetchBuffer& buffer) { return buffer.name == "core_elements"; };
@@ -299,6 +304,13 @@ void DeviceVolume::provide_derivative_bounds() {
             }
         }
         of.bounds_time_step = m_time_step;
+    }
+    for (ClassData& data : m_classes) {
+        if (!data.curvatures.empty() && !data.curvature_records) {
+            data.curvature_records =
+                std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, data.curvatures.size(), 1);
+            data.curvature_records->write_reals(0, std::vector<double>(data.curvatures.begin(), data.curvatures.end()));
+        }
     }
 }
 
@@ -335,7 +347,7 @@ std::uint64_t DeviceVolume::geometry_bytes() const {
 std::uint64_t DeviceVolume::hierarchy_bytes() const {
     std::uint64_t sum = 0;
     for (const ClassData& data : m_classes) {
-        for (const auto* records : {&data.nodes, &data.origins, &data.elements}) {
+        for (const auto* records : {&data.nodes, &data.origins, &data.elements, &data.curvature_records}) {
             sum += *records ? (*records)->bytes() : 0;
         }
     }

@@ -119,6 +119,9 @@ private:
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
         std::unique_ptr<RecordBuffer> elements;
+        /** Of each element's mapping (shaders/library/prediction.glsl); on the device once bounds are wanted. */
+        std::vector<float> curvatures;
+        std::unique_ptr<RecordBuffer> curvature_records;
     };
 
     void read_bounds();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace elvis {
 
@@ -10,7 +11,8 @@ namespace {
 constexpr std::uint32_t group_size = 32;
 /** Elements of one dispatch: bounds its time and the memory for its results. */
 constexpr std::uint64_t block = 65536;
-constexpr std::uint32_t words_an_element = element_record_size - 1;
+/** Those of the record but for the number; then the curvature. */
+constexpr std::uint32_t words_an_element = element_record_size;
 
 struct Parameters {
     std::uint32_t first, n_elements;
@@ -18,7 +20,7 @@ struct Parameters {
 
 } // namespace
 
-void write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
+std::vector<float> write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
                     const SnippetInstance& instance, Precision precision, RecordBuffer& records) {
     const ClassInfo& info = volume.classes()[element_class];
     KernelRequest request;
@@ -32,6 +34,7 @@ void write_elements(const Device& device, const RuntimeVolume& volume, std::uint
     const Buffer output(device, std::min(block, info.n_elements) * words_an_element * sizeof(std::uint32_t));
     const std::array<const Buffer*, 1> bindings = {&output};
 
+    std::vector<float> curvatures;
     std::vector<std::int64_t> numbers;
     std::vector<std::uint32_t> words;
     for (std::uint64_t first = 0; first < info.n_elements; first += block) {
@@ -45,10 +48,12 @@ void write_elements(const Device& device, const RuntimeVolume& volume, std::uint
         for (std::size_t element = 0; element < count; ++element) {
             words.push_back(static_cast<std::uint32_t>(numbers[element]));
             const auto from = computed.begin() + static_cast<std::ptrdiff_t>(element * words_an_element);
-            words.insert(words.end(), from, from + words_an_element);
+            words.insert(words.end(), from, from + element_record_size - 1);
+            curvatures.push_back(std::bit_cast<float>(from[words_an_element - 1]));
         }
         records.write_uints(first, words);
     }
+    return curvatures;
 }
 
 } // namespace elvis

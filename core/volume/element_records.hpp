@@ -8,13 +8,18 @@
 #include <core/shader/composer.hpp>
 #include <core/vulkan/buffer.hpp>
 
+#include <vector>
+
 namespace elvis {
 
 /** Number, exponents, six words of the linearized inverse mapping: shaders/library/linearization.glsl. */
 inline constexpr std::uint32_t element_record_size = 8;
 
-/** Writes the records of a class; the linearizations are computed on the device with the class's snippet. */
-void write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
+/**
+ * Writes the records of a class; the linearizations are computed on the device with the class's snippet. Returns the curvature of
+ * each element (shaders/library/prediction.glsl).
+ */
+std::vector<float> write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
                     const SnippetInstance& instance, Precision precision, RecordBuffer& records);
 
 } // namespace elvis

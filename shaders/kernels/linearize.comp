@@ -9,7 +9,7 @@ layout(local_size_x = 32) in;
 #include "library/shape_region.glsl"
 
 layout(std430, set = 0, binding = 0) writeonly buffer core_output {
-    // Seven words an element: exponents, then the packed numbers.
+    // Eight words an element: exponents, the packed numbers, and the curvature as a float.
     uint core_words[];
 };
 
@@ -86,11 +86,12 @@ void main() {
     const elvis_real curvature = core_measured_curvature(element, jacobian, determinant, row0, row1, row2);
     const core_linearization packed =
         core_pack_linearization(vec3(row0), vec3(row1), vec3(row2), vec3(offset), float(curvature));
-    core_words[7u * i] = is_usable ? packed.exponents : 0u;
-    core_words[7u * i + 1u] = packed.words[0];
-    core_words[7u * i + 2u] = packed.words[1];
-    core_words[7u * i + 3u] = packed.words[2];
-    core_words[7u * i + 4u] = packed.words[3];
-    core_words[7u * i + 5u] = packed.words[4];
-    core_words[7u * i + 6u] = packed.words[5];
+    core_words[8u * i] = is_usable ? packed.exponents : 0u;
+    core_words[8u * i + 1u] = packed.words[0];
+    core_words[8u * i + 2u] = packed.words[1];
+    core_words[8u * i + 3u] = packed.words[2];
+    core_words[8u * i + 4u] = packed.words[3];
+    core_words[8u * i + 5u] = packed.words[4];
+    core_words[8u * i + 6u] = packed.words[5];
+    core_words[8u * i + 7u] = floatBitsToUint(is_usable ? float(curvature) : 1e9);
 }

@@ -30,8 +30,10 @@ struct core_cell {
 // Sine of the angle between surface and face below which the face may lie in the surface, if it also lies there within rounding.
 #define CORE_COPLANAR elvis_real(1e-4LF)
 
+#define CORE_NO_FACE -1
+
 // What the faces of the element say about the region of `cell` around xi. `xi_error`: rounding of the corners' coordinates.
-// `own_face`: the face in which the surface lies by definition; negative if it is any surface, which then has this normal.
+// `own_face`: the face in which the surface lies by definition; CORE_NO_FACE if it is any surface, which then has this normal.
 void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, elvis_vec3 plane_normal, elvis_vec3 direction,
                       int own_face) {
     const core_patch region = cell.region;
@@ -69,39 +71,53 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
                       (is_outside0 || is_outside1 || is_outside2 || is_outside3);
 }
 
-// `corners`: relative to `position`, the image of xi. `position_error`: of the corners, beyond the rounding of the mapping.
-core_cell core_cell_at(elvis_vec3 xi, elvis_vec3 position, elvis_mat3 jacobian, elvis_vec3 corner0, elvis_vec3 corner1,
-                       elvis_vec3 corner2, elvis_vec3 corner3, elvis_real position_error, elvis_real curvature,
-                       elvis_vec3 plane_normal, elvis_vec3 direction) {
-    core_cell cell;
+// J^-1 by rows, and what positions lose by rounding as coordinates, as in library/newton.glsl.
+struct core_frame {
+    elvis_vec3 row0, row1, row2;
+    elvis_vec3 xi_error;
+    bool is_sound;
+};
+
+// `position_error`: of the cell's corners, beyond the rounding of the mapping.
+core_frame core_frame_at(elvis_vec3 position, elvis_mat3 jacobian, elvis_real position_error) {
     const elvis_vec3 cofactors0 = cross(jacobian[1], jacobian[2]);
     const elvis_vec3 cofactors1 = cross(jacobian[2], jacobian[0]);
     const elvis_vec3 cofactors2 = cross(jacobian[0], jacobian[1]);
     const elvis_real inverse_determinant = elvis_real(1) / dot(jacobian[0], cofactors0);
-    const elvis_vec3 row0 = inverse_determinant * cofactors0;
-    const elvis_vec3 row1 = inverse_determinant * cofactors1;
-    const elvis_vec3 row2 = inverse_determinant * cofactors2;
-    // As in library/newton.glsl.
+    core_frame frame;
+    frame.row0 = inverse_determinant * cofactors0;
+    frame.row1 = inverse_determinant * cofactors1;
+    frame.row2 = inverse_determinant * cofactors2;
     const elvis_vec3 extent = abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2]) + abs(position);
     const elvis_vec3 error = elvis_real(4) * CORE_ROUNDOFF * extent + position_error;
-    const elvis_vec3 xi_error = elvis_vec3(dot(abs(row0), error), dot(abs(row1), error), dot(abs(row2), error));
-    const elvis_vec3 d0 = elvis_vec3(dot(row0, corner0), dot(row1, corner0), dot(row2, corner0));
-    const elvis_vec3 d1 = elvis_vec3(dot(row0, corner1), dot(row1, corner1), dot(row2, corner1));
-    const elvis_vec3 d2 = elvis_vec3(dot(row0, corner2), dot(row1, corner2), dot(row2, corner2));
-    const elvis_vec3 d3 = elvis_vec3(dot(row0, corner3), dot(row1, corner3), dot(row2, corner3));
+    frame.xi_error = elvis_vec3(dot(abs(frame.row0), error), dot(abs(frame.row1), error), dot(abs(frame.row2), error));
+    frame.is_sound = core_is_finite(inverse_determinant);
+    return frame;
+}
+
+elvis_vec3 core_to_xi(core_frame frame, elvis_vec3 x) {
+    return elvis_vec3(dot(frame.row0, x), dot(frame.row1, x), dot(frame.row2, x));
+}
+
+// `corners`: relative to the image of xi. `own_face`: as in core_judge_faces.
+core_cell core_cell_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvis_vec3 corner1, elvis_vec3 corner2,
+                       elvis_vec3 corner3, elvis_real curvature, elvis_vec3 plane_normal, elvis_vec3 direction, int own_face) {
+    core_cell cell;
+    const elvis_vec3 d0 = core_to_xi(frame, corner0), d1 = core_to_xi(frame, corner1);
+    const elvis_vec3 d2 = core_to_xi(frame, corner2), d3 = core_to_xi(frame, corner3);
     const elvis_vec3 most = max(max(abs(d0), abs(d1)), max(abs(d2), abs(d3)));
     const elvis_real largest_step = max(max(most.x, most.y), most.z);
-    const elvis_real rounding = max(max(xi_error.x, xi_error.y), xi_error.z);
+    const elvis_real rounding = max(max(frame.xi_error.x, frame.xi_error.y), frame.xi_error.z);
     const elvis_real beyond = core_prediction_error(curvature, largest_step) + rounding;
     cell.region = core_patch(d0, d1, d2, d3, beyond, largest_step + beyond);
     cell.middle = xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
     const elvis_vec3 to_middle = abs(cell.middle - xi);
     cell.step = max(max(to_middle.x, to_middle.y), to_middle.z);
-    cell.row0 = row0;
-    cell.row1 = row1;
-    cell.row2 = row2;
-    core_judge_faces(cell, xi, xi_error, plane_normal, direction, -1);
-    const bool is_sound = core_is_finite(inverse_determinant) && core_is_finite(largest_step);
+    cell.row0 = frame.row0;
+    cell.row1 = frame.row1;
+    cell.row2 = frame.row2;
+    core_judge_faces(cell, xi, frame.xi_error, plane_normal, direction, own_face);
+    const bool is_sound = frame.is_sound && core_is_finite(largest_step);
     cell.is_inside = cell.is_inside && is_sound;
     cell.is_outside = cell.is_outside && is_sound;
     cell.is_crossed = cell.is_crossed && is_sound;
