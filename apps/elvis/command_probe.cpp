@@ -2,6 +2,7 @@
 #include "volume_argument.hpp"
 
 #include <core/base/error.hpp>
+#include <core/expression/expression.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/probe.hpp>
 
@@ -24,6 +25,7 @@ struct Arguments {
     std::string plugin;
     std::vector<std::string> points;
     std::string points_file;
+    std::vector<std::string> expressions;
     std::uint32_t time_step = 0;
     std::string evaluation = "auto";
     std::string device;
@@ -100,7 +102,9 @@ ProbeOptions options_of(const Arguments& arguments) {
     return options;
 }
 
-void print_json(const RuntimeVolume& volume, const std::vector<ProbedPoint>& points) {
+using Expressions = std::vector<std::shared_ptr<const Expression>>;
+
+void print_json(const RuntimeVolume& volume, const Expressions& expressions, const std::vector<ProbedPoint>& points) {
     nlohmann::ordered_json answers = nlohmann::ordered_json::array();
     for (const ProbedPoint& point : points) {
         nlohmann::ordered_json answer;
@@ -122,6 +126,16 @@ void print_json(const RuntimeVolume& volume, const std::vector<ProbedPoint>& poi
         answer["also"] = point.also;
         answer["gradients_estimated"] =
             std::ranges::any_of(point.fields, [](const FieldSample& sample) { return sample.gradient_is_estimated; });
+        if (!expressions.empty()) {
+            answer["expressions"] = nlohmann::ordered_json::object();
+            for (std::size_t i = 0; i < point.expressions.size(); ++i) {
+                const ExpressionSample& sample = point.expressions[i];
+                answer["expressions"][expressions[i]->text()] = {{"value", sample.value},
+                                                                 {"gradient", sample.gradient},
+                                                                 {"value_estimated", sample.value_is_estimated},
+                                                                 {"gradient_estimated", sample.gradient_is_estimated}};
+            }
+        }
         answer["newton_failures"] = point.n_failures;
         answers.push_back(std::move(answer));
     }
@@ -130,7 +144,7 @@ void print_json(const RuntimeVolume& volume, const std::vector<ProbedPoint>& poi
     std::printf("%s\n", document.dump(2).c_str());
 }
 
-void print_table(const RuntimeVolume& volume, const std::vector<ProbedPoint>& points) {
+void print_table(const RuntimeVolume& volume, const Expressions& expressions, const std::vector<ProbedPoint>& points) {
     for (const ProbedPoint& point : points) {
         std::printf("x = (%.17g, %.17g, %.17g)\n", point.position[0], point.position[1], point.position[2]);
         if (!point.element) {
@@ -154,6 +168,12 @@ void print_table(const RuntimeVolume& volume, const std::vector<ProbedPoint>& po
                             sample.gradient_is_estimated ? ", estimated" : "");
             }
         }
+        for (std::size_t i = 0; i < point.expressions.size(); ++i) {
+            const ExpressionSample& sample = point.expressions[i];
+            std::printf("  %s = %.17g%s, gradient (%.17g, %.17g, %.17g)%s\n", expressions[i]->text().c_str(), sample.value,
+                        sample.value_is_estimated ? ", estimated" : "", sample.gradient[0], sample.gradient[1],
+                        sample.gradient[2], sample.gradient_is_estimated ? ", estimated" : "");
+        }
     }
 }
 
@@ -161,12 +181,15 @@ void run(const Arguments& arguments) {
     const std::vector<Position> positions = positions_of(arguments);
     const PluginRegistry registry;
     const RuntimeVolume volume = open_volume(registry, arguments.volume, arguments.plugin, {});
+    Expressions expressions;
+    for (const std::string& text : arguments.expressions)
+        expressions.push_back(std::make_shared<const Expression>(text, volume.fields(), volume.dimension()));
     Prober prober(volume, options_of(arguments));
-    const std::vector<ProbedPoint> points = prober.probe(positions, arguments.time_step);
+    const std::vector<ProbedPoint> points = prober.probe(positions, arguments.time_step, expressions);
     if (arguments.json)
-        print_json(volume, points);
+        print_json(volume, expressions, points);
     else
-        print_table(volume, points);
+        print_table(volume, expressions, points);
 
     std::size_t n_unknown = 0;
     for (const ProbedPoint& point : points)
@@ -186,6 +209,10 @@ void add_probe(CLI::App& app) {
     command->add_option("--plugin", arguments->plugin, "Runtime plugin by id; default: the one surest of the file");
     command->add_option("--point", arguments->points, "Point x,y,z (repeatable)")->allow_extra_args(false);
     command->add_option("--points", arguments->points_file, "File with three numbers a line; # starts a comment");
+    command
+        ->add_option("--field", arguments->expressions,
+                     "Expression over the fields, e.g. \"norm(curl(u))\", to evaluate as well (repeatable)")
+        ->allow_extra_args(false);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command
         ->add_option("--evaluate", arguments->evaluation,

@@ -316,7 +316,7 @@ void add_render(CLI::App& app) {
     auto a = std::make_shared<Arguments>();
     command->add_option("input", a->input, "Scene file (JSON) or volume");
     command->add_option("-o,--output", a->output, "Picture to write (PNG)");
-    command->add_option("--field", a->field, "Field: name, or name[component]; a vector alone means its magnitude");
+    command->add_option("--field", a->field, "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
     command->add_option("--cut-plane", a->cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
         ->allow_extra_args(false);
     const CLI::Option* boundary =

@@ -45,6 +45,14 @@ VolumePoint::differences(const std::function<std::vector<double>(const std::arra
     return result;
 }
 
+std::array<double, 3> VolumePoint::differences(const Expression& expression) const {
+    const std::vector<double> by_axis = differences([&](const std::array<double, 3>& xi) {
+        VolumePoint there(m_volume, m_element, xi, m_time_step);
+        return std::vector<double>{evaluate(expression, there)};
+    });
+    return {by_axis[0], by_axis[1], by_axis[2]};
+}
+
 std::array<double, 27> VolumePoint::mapping_hessian() {
     const std::vector<double> by_axis = differences([this](const std::array<double, 3>& xi) {
         std::vector<double> position(3), jacobian(9);

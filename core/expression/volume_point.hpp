@@ -29,6 +29,9 @@ public:
     double order(std::uint32_t field) override;
     double element_number() override;
 
+    /** Gradient by reference coordinates of an expression that has none of its own. */
+    std::array<double, 3> differences(const Expression& expression) const;
+
 private:
     struct Sample {
         std::vector<double> values, gradients;

@@ -1,3 +1,4 @@
+#include <core/expression/volume_point.hpp>
 #include <core/probe/cpu_evaluator.hpp>
 #include <core/probe/newton.hpp>
 
@@ -45,6 +46,27 @@ std::vector<FieldSample> CpuEvaluator::evaluate(std::uint32_t field, std::uint32
         m_volume->evaluate_mapping(point.element, point.xi, position, jacobian);
         to_world_gradients(jacobian, sample.gradients);
         samples.push_back(std::move(sample));
+    }
+    return samples;
+}
+
+std::vector<ExpressionSample> CpuEvaluator::evaluate(const std::shared_ptr<const Expression>& expression,
+                                                     std::uint32_t time_step, std::span<const ReferencePoint> points) {
+    const bool is_exact = expression->gradient().has_value();
+    std::vector<ExpressionSample> samples;
+    samples.reserve(points.size());
+    for (const ReferencePoint& point : points) {
+        VolumePoint here(*m_volume, point.element, point.xi, time_step);
+        const ValueAndGradient found =
+            is_exact ? evaluate_gradient(*expression, here)
+                     : ValueAndGradient{elvis::evaluate(*expression, here), here.differences(*expression)};
+        std::vector<double> gradient(found.gradient.begin(), found.gradient.end());
+        to_world_gradients(here.jacobian(), gradient);
+        // On the CPU plugins give first derivatives alone.
+        samples.push_back({found.value,
+                           {gradient[0], gradient[1], gradient[2]},
+                           expression->needs_second_derivatives(),
+                           !is_exact || expression->gradient_needs_second_derivatives()});
     }
     return samples;
 }

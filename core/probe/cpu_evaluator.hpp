@@ -17,6 +17,8 @@ public:
     std::vector<Inversion> invert(std::span<const InversionQuery> queries) override;
     std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step,
                                       std::span<const ReferencePoint> points) override;
+    std::vector<ExpressionSample> evaluate(const std::shared_ptr<const Expression>& expression, std::uint32_t time_step,
+                                           std::span<const ReferencePoint> points) override;
 
 private:
     elvis_shape shape_of(std::uint64_t element) const;

@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/expression/glsl.hpp>
 #include <core/probe/device_evaluator.hpp>
 #include <core/probe/reference_shape.hpp>
 
@@ -77,7 +78,11 @@ void DeviceEvaluator::run(const std::string& kernel, std::uint32_t element_class
     request.name = "probe class " + std::to_string(element_class);
     request.kernel = kernel;
     request.precision = Precision::float64;
-    request.instances = {m_on_device.instance(element_class)};
+    m_on_device.add_field(request, element_class);
+    if (m_expression != nullptr) {
+        request.text += gradient_glsl(*m_expression, expression_class(*m_volume, element_class));
+        request.with_second_derivatives = true;
+    }
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
     request.push_constant_bytes = static_cast<std::uint32_t>(constants.size());
     const std::array<const Buffer*, 2> bindings{&input, &output};
@@ -155,6 +160,42 @@ std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uin
             }
         }
     });
+    return samples;
+}
+
+std::vector<ExpressionSample> DeviceEvaluator::evaluate(const std::shared_ptr<const Expression>& expression,
+                                                        std::uint32_t time_step, std::span<const ReferencePoint> points) {
+    std::vector<ExpressionSample> samples(points.size());
+    const FieldSelection selection = selection_of(expression, *m_volume, time_step);
+    m_on_device.keep(std::span(&selection, 1));
+    m_on_device.select(selection);
+    m_expression = expression.get();
+    for_each_class(m_volume->classes(), points, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
+        const ClassInfo& info = m_volume->classes()[c];
+        const ExpressionClass about = expression_class(*m_volume, c);
+        for (std::size_t first = 0; first < indices.size(); first += block_size) {
+            const std::size_t count = std::min(block_size, indices.size() - first);
+            std::vector<DevicePoint> inputs(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const ReferencePoint& point = points[indices[first + i]];
+                inputs[i] = {
+                    {point.xi[0], point.xi[1], point.xi[2]}, static_cast<std::uint32_t>(point.element - info.first_element), 0};
+            }
+            const Buffer input(m_device, count * sizeof(DevicePoint));
+            const Buffer output(m_device, 4 * count * sizeof(double));
+            input.write_items(std::span<const DevicePoint>(inputs));
+            run("kernels/probe_expression.comp", c, {}, input, output, count);
+            const auto numbers = output.read_items<double>(4 * count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const double* at = &numbers[4 * i];
+                samples[indices[first + i]] = {at[0],
+                                               {at[1], at[2], at[3]},
+                                               value_is_estimated(*expression, about),
+                                               gradient_is_estimated(*expression, about)};
+            }
+        }
+    });
+    m_expression = nullptr;
     return samples;
 }
 

@@ -22,6 +22,8 @@ public:
     std::vector<Inversion> invert(std::span<const InversionQuery> queries) override;
     std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step,
                                       std::span<const ReferencePoint> points) override;
+    std::vector<ExpressionSample> evaluate(const std::shared_ptr<const Expression>& expression, std::uint32_t time_step,
+                                           std::span<const ReferencePoint> points) override;
 
 private:
     /**
@@ -34,6 +36,8 @@ private:
     Device m_device;
     const RuntimeVolume* m_volume;
     DeviceVolume m_on_device;
+    /** While one is evaluated. */
+    const Expression* m_expression = nullptr;
     /** Rounding of positions in world coordinates. */
     double m_position_error = 0;
 };

@@ -4,8 +4,11 @@
  */
 #pragma once
 
+#include <core/expression/expression.hpp>
+
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -42,6 +45,15 @@ struct FieldSample {
     bool gradient_is_estimated = false;
 };
 
+/** An expression and its gradient in world coordinates. */
+struct ExpressionSample {
+    double value = 0;
+    std::array<double, 3> gradient{};
+    /** Rests on differences of what the plugin gives. */
+    bool value_is_estimated = false;
+    bool gradient_is_estimated = false;
+};
+
 class PointEvaluator {
 public:
     PointEvaluator() = default;
@@ -55,6 +67,10 @@ public:
     /** One sample a point, in the same order. */
     virtual std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step,
                                               std::span<const ReferencePoint> points) = 0;
+
+    /** Likewise. The expression is over the fields of the volume. */
+    virtual std::vector<ExpressionSample> evaluate(const std::shared_ptr<const Expression>& expression, std::uint32_t time_step,
+                                                   std::span<const ReferencePoint> points) = 0;
 };
 
 /**

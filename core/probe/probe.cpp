@@ -51,7 +51,8 @@ Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_vol
     m_hierarchy = Hierarchy(boxes, {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2});
 }
 
-std::vector<ProbedPoint> Prober::probe(std::span<const std::array<double, 3>> positions, std::uint32_t time_step) {
+std::vector<ProbedPoint> Prober::probe(std::span<const std::array<double, 3>> positions, std::uint32_t time_step,
+                                       std::span<const std::shared_ptr<const Expression>> expressions) {
     if (time_step >= m_volume->times().size())
         throw UsageError(m_volume->path(), "there is no time step " + std::to_string(time_step) + "; the volume has " +
                                                std::to_string(m_volume->times().size()));
@@ -100,6 +101,11 @@ std::vector<ProbedPoint> Prober::probe(std::span<const std::array<double, 3>> po
         std::vector<FieldSample> samples = m_evaluator->evaluate(field, time_step, found);
         for (std::size_t i = 0; i < samples.size(); ++i)
             points[found_point[i]].fields.push_back(std::move(samples[i]));
+    }
+    for (const std::shared_ptr<const Expression>& expression : expressions) {
+        const std::vector<ExpressionSample> samples = m_evaluator->evaluate(expression, time_step, found);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            points[found_point[i]].expressions.push_back(samples[i]);
     }
     return points;
 }

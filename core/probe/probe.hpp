@@ -36,6 +36,8 @@ struct ProbedPoint {
     std::array<double, 3> xi{};
     /** One for each field of the volume; empty if no element contains the point. */
     std::vector<FieldSample> fields;
+    /** One for each expression asked for; empty likewise. */
+    std::vector<ExpressionSample> expressions;
     /** Numbers of the other elements that contain the point, ascending: on shared faces, or where elements overlap. */
     std::vector<std::int64_t> also;
     /** Elements for which the inversion failed, so that it is not known whether they contain the point. */
@@ -49,7 +51,8 @@ public:
     explicit Prober(const RuntimeVolume& volume, const ProbeOptions& options = {});
 
     /** One answer a position, in the same order. A position that is not finite lies in no element. */
-    std::vector<ProbedPoint> probe(std::span<const std::array<double, 3>> positions, std::uint32_t time_step);
+    std::vector<ProbedPoint> probe(std::span<const std::array<double, 3>> positions, std::uint32_t time_step,
+                                   std::span<const std::shared_ptr<const Expression>> expressions = {});
 
 private:
     const RuntimeVolume* m_volume;

@@ -106,6 +106,7 @@ std::string header(const KernelRequest& request) {
     }
     text += define("ELVIS_REAL_IS_DOUBLE", request.precision == Precision::float64 ? "1" : "0");
     text += define("ELVIS_N_INSTANCES", std::to_string(request.instances.size()));
+    text += define("ELVIS_WANTS_HESSIANS", request.with_second_derivatives ? "1" : "0");
     for (const auto& [name, value] : request.defines) {
         text += define(name, value);
     }

@@ -4,7 +4,8 @@
  *
  * The text of a kernel, in order:
  *
- *   1. #version, extensions, ELVIS_REAL_IS_DOUBLE, ELVIS_N_INSTANCES, the request's #defines
+ *   1. #version, extensions, ELVIS_REAL_IS_DOUBLE, ELVIS_N_INSTANCES, ELVIS_WANTS_HESSIANS, the request's
+ *      #defines
  *   2. library/types.glsl, library/math.glsl
  *   3. fetch functions for every record buffer of host and instances (core/shader/fetch.hpp), and the host's elvis_fetch_NAME
  *   4. the instances, the first one last; then the request's text
@@ -72,7 +73,7 @@ struct KernelRequest {
     std::string kernel_text;
     /** Stands between the instances and the kernel, with #includes like the kernel's: functions that the kernel calls. */
     std::string text;
-    /** Whether instances get second derivatives by differences where their snippet gives none. */
+    /** Whether elvis_field_hessian and elvis_mapping_hessian are called; without it they need not exist. */
     bool with_second_derivatives = false;
     Precision precision = Precision::float32;
     std::vector<SnippetInstance> instances;

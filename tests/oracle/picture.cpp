@@ -41,8 +41,8 @@ double largest_difference(const Color& a, const Color& b) {
 
 class RowPainter {
 public:
-    RowPainter(const Model& model, const FrameRequest& request, double rounding, Picture& picture)
-        : m_model(model), m_request(request), m_tolerance(rounding * model.diagonal), m_picture(picture),
+    RowPainter(const Model& model, const FrameRequest& request, double rounding, const ValueFunction& value, Picture& picture)
+        : m_model(model), m_request(request), m_value(value), m_tolerance(rounding * model.diagonal), m_picture(picture),
           m_inverter(model.volume, model.enclosures) {}
 
     void paint(std::uint32_t row) {
@@ -81,18 +81,24 @@ private:
         const Volume& volume = m_model.volume;
         m_picture.is_inside[pixel] = 1;
         m_picture.element[pixel] = volume.number(candidates.front().element);
-        m_picture.value[pixel] = value_of(volume, m_request.surfaces[0].field, candidates.front());
+        m_picture.value[pixel] = value_of(candidates.front());
         m_picture.color[pixel] = color_of(m_request.surfaces[0].colors, m_picture.value[pixel]);
         for (std::size_t i = 1; i < candidates.size(); ++i) {
-            const double value = value_of(volume, m_request.surfaces[0].field, candidates[i]);
+            const double value = value_of(candidates[i]);
             const Color color = color_of(m_request.surfaces[0].colors, value);
             if (largest_difference(color, m_picture.color[pixel]) > least_color_difference)
                 alternatives.push_back({pixel, volume.number(candidates[i].element), value, color});
         }
     }
 
+    double value_of(const Candidate& candidate) const {
+        return m_value ? m_value(m_model.volume, candidate.element, candidate.solution.xi)
+                       : oracle::value_of(m_model.volume, m_request.surfaces[0].field, candidate);
+    }
+
     const Model& m_model;
     const FrameRequest& m_request;
+    const ValueFunction& m_value;
     double m_tolerance;
     Picture& m_picture;
     Inverter m_inverter;
@@ -127,7 +133,7 @@ std::vector<Candidate> locate(const Model& model, Inverter& inverter, const Vect
     return candidates;
 }
 
-Picture draw(const Model& model, const FrameRequest& request, double rounding) {
+Picture draw(const Model& model, const FrameRequest& request, double rounding, const ValueFunction& value) {
     Picture picture;
     picture.width = request.width;
     picture.height = request.height;
@@ -144,7 +150,7 @@ Picture draw(const Model& model, const FrameRequest& request, double rounding) {
     constexpr std::uint32_t rows_at_once = 8;
     std::vector<RowPainter> painters;
     for (std::uint32_t i = 0; i < n_threads; ++i)
-        painters.emplace_back(model, request, rounding, picture);
+        painters.emplace_back(model, request, rounding, value, picture);
     {
         std::vector<std::jthread> threads;
         for (std::uint32_t i = 0; i < n_threads; ++i)

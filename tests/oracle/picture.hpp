@@ -10,6 +10,7 @@
 
 #include <core/render/frame.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -71,11 +72,14 @@ struct Picture {
     InversionCounts counts;
 };
 
+/** What is shown at a point of an element, if not the field itself. */
+using ValueFunction = std::function<double(const Volume& volume, std::size_t element, const Vector& xi)>;
+
 /**
  * Draws the cut planes of a request on two threads. The field is that of the model. `rounding`, relative to the volume's
  * diagonal: elements this near are alternatives, if their colour differs by more than 1e-6 from the one drawn.
  */
-Picture draw(const Model& model, const FrameRequest& request, double rounding = 1e-6);
+Picture draw(const Model& model, const FrameRequest& request, double rounding = 1e-6, const ValueFunction& value = {});
 
 /** Whether any element contains x. */
 bool contains(const Model& model, Inverter& inverter, const Vector& x);

@@ -3,6 +3,7 @@
 #include "picture.hpp"
 #include "test_files.hpp"
 
+#include <core/expression/expression.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/probe.hpp>
 
@@ -197,6 +198,44 @@ TEST_CASE("a plugin with nothing but the required snippet functions is probed on
     CHECK(largest.value < 1e-13);
     // Differences of sixth order, see shaders/library/gradient_default.glsl.
     CHECK(largest.gradient < 1e-9);
+}
+
+TEST_CASE("expressions are probed on the CPU and on the device, with their gradients") {
+    const auto polynomial = [](const Vector& x) { return x.x() * x.x() * x.y() + 2 * x.z() * x.z() - x.x() * x.y() * x.z(); };
+    VolumeData data;
+    // Trilinear elements hold quadratic polynomials of x at order 6.
+    data.classes.push_back(
+        make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 6), cube(Shape::hexahedron, 2), polynomial));
+    const TemporaryFile file("expressions.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    std::vector<std::shared_ptr<const Expression>> expressions;
+    for (const char* text : {"d(u, x) * u", "laplacian(u)", "u + x", "d(laplacian(u) * 0 + d(u, z), y)"})
+        expressions.push_back(std::make_shared<const Expression>(text, volume.fields()));
+    const std::array<double, 3> at{0.31, 0.22, 0.77};
+    const auto [x, y, z] = at;
+    const double u = polynomial(Vector(x, y, z));
+    const Vector slope(2 * x * y - y * z, x * x - x * z, 4 * z - x * y);
+    const std::array<double, 4> values{slope.x() * u, 2 * y + 4, u + x, -x};
+    const std::array<Vector, 4> gradients{slope.x() * slope + u * Vector(2 * y, 2 * x - z, -y), Vector(0, 2, 0),
+                                          slope + Vector(1, 0, 0), Vector(-1, 0, 0)};
+    for (const auto evaluation : {ProbeOptions::Evaluation::cpu, ProbeOptions::Evaluation::device}) {
+        ProbeOptions options;
+        options.evaluation = evaluation;
+        const bool on_cpu = evaluation == ProbeOptions::Evaluation::cpu;
+        const std::vector<ProbedPoint> points = Prober(volume, options).probe(std::span(&at, 1), 0, expressions);
+        REQUIRE(points[0].expressions.size() == expressions.size());
+        for (std::size_t i = 0; i < expressions.size(); ++i) {
+            const ExpressionSample& sample = points[0].expressions[i];
+            INFO(expressions[i]->text());
+            CHECK(sample.value == Approx(values[i]).margin(1e-9));
+            // Gradients of second derivatives are differences, of differences on the CPU.
+            for (int axis = 0; axis < 3; ++axis)
+                CHECK(sample.gradient[static_cast<std::size_t>(axis)] == Approx(gradients[i][axis]).margin(1e-7));
+            CHECK(sample.value_is_estimated == (on_cpu && i % 2 == 1));
+            CHECK(sample.gradient_is_estimated == (i % 2 == 1 || (on_cpu && i == 0)));
+        }
+    }
 }
 
 TEST_CASE("a probed point on shared faces reports the lowest element and the others") {

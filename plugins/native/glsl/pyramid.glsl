@@ -201,6 +201,7 @@ void NATIVE_GRADIENT(uint element, uint first_row, elvis_vec3 xi, out NATIVE_TYP
     }
 }
 
+#if ELVIS_WANTS_HESSIANS
 // Second derivatives. With h = B_p B_q t^e J, m_d = (1 + eta_d)/2 and d eta_d / d xi3 = m_d / t:
 //     f11 = P B_p'' B_q, f12 = P B_p' B_q', f22 = P B_p B_q'',            P = t^(e-2) J
 //     f13 = Q B_p' B_q + m1 f11 + m2 f12, f23 likewise,                   Q = t^(e-1) J' + (1 - e)/2 t^(e-2) J
@@ -298,3 +299,4 @@ void NATIVE_HESSIAN(uint element, uint first_row, elvis_vec3 xi, out NATIVE_TYPE
     f23 = q2 + m1 * f12 + m2 * f22;
     f33 = s + elvis_real(2) * (m1 * q1 + m2 * q2) + m1 * m1 * f11 + elvis_real(2) * m1 * m2 * f12 + m2 * m2 * f22;
 }
+#endif

@@ -69,6 +69,7 @@ void NATIVE_GRADIENT(uint element, uint first_row, elvis_vec3 xi, out NATIVE_TYP
     }
 }
 
+#if ELVIS_WANTS_HESSIANS
 void NATIVE_HESSIAN(uint element, uint first_row, elvis_vec3 xi, out NATIVE_TYPE f, out NATIVE_TYPE f1, out NATIVE_TYPE f2,
                     out NATIVE_TYPE f3, out NATIVE_TYPE f11, out NATIVE_TYPE f22, out NATIVE_TYPE f33, out NATIVE_TYPE f23,
                     out NATIVE_TYPE f13, out NATIVE_TYPE f12) {
@@ -118,3 +119,4 @@ void NATIVE_HESSIAN(uint element, uint first_row, elvis_vec3 xi, out NATIVE_TYPE
         f33 += g * all[p] + elvis_real(2) * g3 * al[p] + g33 * a[p];
     }
 }
+#endif

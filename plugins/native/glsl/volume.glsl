@@ -95,6 +95,7 @@ elvis_mat3 elvis_jacobian(uint element, elvis_vec3 xi) {
     return jacobian;
 }
 
+#if ELVIS_WANTS_HESSIANS
 // Six second derivatives as a symmetric matrix, in the order of xi.
 elvis_mat3 native_symmetric(elvis_real d11, elvis_real d22, elvis_real d33, elvis_real d23, elvis_real d13, elvis_real d12) {
 #if ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
@@ -113,6 +114,7 @@ void elvis_mapping_hessian(uint element, elvis_vec3 xi, out elvis_vec3 x, out el
     hessian_y = native_symmetric(x11.y, x22.y, x33.y, x23.y, x13.y, x12.y);
     hessian_z = native_symmetric(x11.z, x22.z, x33.z, x23.z, x13.z, x12.z);
 }
+#endif
 
 #if NATIVE_TRANSFORM == 0
 
@@ -127,7 +129,9 @@ void elvis_field_gradient(uint element, elvis_vec3 xi, uint component, out elvis
     gradient = elvis_vec3(x1, NATIVE_SECOND, NATIVE_THIRD);
 }
 
+#if ELVIS_WANTS_HESSIANS
 #include "field_hessian.glsl"
+#endif
 
 #else
 #include "transform.glsl"
