@@ -31,6 +31,7 @@ struct Parameters {
     std::uint32_t first_component, end_component;
     std::uint32_t is_discontinuous;
     std::uint32_t has_beyond;
+    std::uint32_t wants_normals;
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
@@ -128,7 +129,8 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                               component.first(),
                               component.end(),
                               component.is_discontinuous ? 1u : 0u,
-                              target.beyond ? 1u : 0u};
+                              target.beyond ? 1u : 0u,
+                              target.wants_normals ? 1u : 0u};
         const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts + 1];
         const auto draw_tiles = [&](Draws what) {
             const ComposedKernel& kernel = kernels.provide(m_device, what);

@@ -52,6 +52,8 @@ struct LayerTarget {
     const Layer& layer;
     /** One real a pixel: only what is farther than this depth is wanted. Null: all that is in front of the eye. */
     const Buffer* beyond = nullptr;
+    /** Else the pass may leave the layer's normals as they are. */
+    bool wants_normals = true;
 };
 
 /** The component of the field that is drawn, or -1 for the length of the vector, and how many there are. */

@@ -1,5 +1,6 @@
 #include <core/scene/scene_annotation.hpp>
 
+#include <core/expression/expression.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
 #include <algorithm>
@@ -33,6 +34,9 @@ std::string default_title(const RuntimeVolume& volume, std::uint32_t time_step) 
 } // namespace
 
 std::string field_label(const RuntimeVolume& volume, const FieldChoice& field) {
+    if (field.expression) {
+        return field.expression->text();
+    }
     const FieldInfo& info = volume.fields()[field.field];
     if (info.n_components == 1) {
         return info.name;
@@ -62,8 +66,9 @@ AnnotationRequest make_annotation_request(const SceneAnnotation& annotation, con
         }
         if (bar == fields.size()) {
             fields.push_back(surface.field);
-            result.color_bars.push_back(
-                {surface.colors, field_label(volume, surface.field), volume.fields()[surface.field.field].unit});
+            // The unit of an expression is the user's affair.
+            const std::string unit = surface.field.expression ? std::string{} : volume.fields()[surface.field.field].unit;
+            result.color_bars.push_back({surface.colors, field_label(volume, surface.field), unit});
         }
         const SpecialValues& special = frame.special_values[index];
         result.color_bars[bar].has_below |= special.below;

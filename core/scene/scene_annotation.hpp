@@ -24,7 +24,7 @@ struct SceneAnnotation {
     AnnotationRequest style;
 };
 
-/** As people write it: name, name[component], or |name| for the magnitude of a vector. */
+/** As people write it: name, name[component], |name| for the magnitude of a vector, or the expression. */
 std::string field_label(const RuntimeVolume& volume, const FieldChoice& field);
 
 /**

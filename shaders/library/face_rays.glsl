@@ -82,7 +82,6 @@ core_face_step core_face_newton(core_face_point point, elvis_vec3 shift, core_ra
 struct core_nearest {
     uint face, number, patch_index, key;
     elvis_real u, v, t, slack;
-    elvis_real normal_x, normal_y, normal_z;
     // Where the next pixel of the column meets the face, to first order.
     elvis_real next_u, next_v;
     bool is_on_edge;
@@ -95,7 +94,6 @@ core_nearest core_nothing_yet() {
     nearest.key = 0u;
     nearest.u = nearest.v = nearest.slack = nearest.next_u = nearest.next_v = elvis_real(0);
     nearest.t = elvis_real(3.0e38LF);
-    nearest.normal_x = nearest.normal_y = nearest.normal_z = elvis_real(0);
     nearest.is_on_edge = false;
     nearest.n_candidates = 0u;
     return nearest;
@@ -123,10 +121,6 @@ void core_take_crossing(inout core_nearest nearest, bool is_hit, uint face, uint
     nearest.t = is_better ? s.t : nearest.t;
     nearest.slack = is_better ? s.width : nearest.slack;
     nearest.is_on_edge = is_better ? is_on_edge : nearest.is_on_edge;
-    const elvis_real towards = -sign(s.across);
-    nearest.normal_x = is_better ? towards * s.normal.x : nearest.normal_x;
-    nearest.normal_y = is_better ? towards * s.normal.y : nearest.normal_y;
-    nearest.normal_z = is_better ? towards * s.normal.z : nearest.normal_z;
     nearest.next_u = is_better ? u + dot(s.row_u, motion) : nearest.next_u;
     nearest.next_v = is_better ? v + dot(s.row_v, motion) : nearest.next_v;
 }

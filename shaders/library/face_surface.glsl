@@ -21,6 +21,7 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
     uint core_is_discontinuous;
     uint core_has_beyond;
+    uint core_wants_normals;
 };
 
 #include "library/show.glsl"
@@ -68,11 +69,17 @@ uint core_show(uint pixel, core_ray ray, core_nearest nearest, core_location fou
     point.position = ray.origin + nearest.t * ray.direction;
     point.error = ray.error;
     const uint n_evaluations = core_merge(pixel, point, found, value);
-    for (uint turn = 0u; turn < (n_evaluations > 0u ? 1u : 0u); ++turn) {
-        const elvis_vec3 unit = normalize(elvis_vec3(nearest.normal_x, nearest.normal_y, nearest.normal_z));
+    // At the crossing itself: where Newton's method took its last step from, the normal may be off by that step.
+    for (uint turn = 0u; turn < (n_evaluations > 0u ? core_wants_normals : 0u); ++turn) {
+        const uvec4 place = elvis_fetch4_core_faces(nearest.face, 0u);
+        const core_face_point there = core_face_at(nearest.face, place.x, int(place.y), nearest.u, nearest.v);
+        const elvis_vec3 normal = cross(there.along_u, there.along_v);
+        const elvis_vec3 unit = -sign(dot(normal, ray.direction)) * normalize(normal);
         core_normals[3u * pixel] = unit.x;
         core_normals[3u * pixel + 1u] = unit.y;
         core_normals[3u * pixel + 2u] = unit.z;
+    }
+    for (uint turn = 0u; turn < (n_evaluations > 0u ? 1u : 0u); ++turn) {
 #ifndef CORE_FACE_ORDER
         // The patches' bounds are those of polynomials near the faces.
         core_marks[pixel].flags |= CORE_FLAG_ESTIMATED;

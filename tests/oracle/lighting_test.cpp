@@ -101,6 +101,19 @@ Lighting all_lights() {
     return lighting;
 }
 
+const Sphere ball{{0.45, 0.5, 0.55}, 0.4};
+
+std::optional<Hit> sphere(const Ray& ray) {
+    const LongVector offset = ray.origin - LongVector(0.45L, 0.5L, 0.55L);
+    const long double along = -offset.dot(ray.direction), radius = 0.4L;
+    const long double root = radius * radius - (offset + along * ray.direction).squaredNorm();
+    if (root < 0)
+        return std::nullopt;
+    const LongVector x = ray.origin + (along - std::sqrt(root)) * ray.direction;
+    const Vector normal = ((x - LongVector(0.45L, 0.5L, 0.55L)) / radius).cast<double>();
+    return Hit{x.cast<double>(), normal, field_of(x.cast<double>())};
+}
+
 VolumeData sheet_volume() {
     VolumeData data;
     std::vector<Map> maps;
@@ -179,14 +192,14 @@ void check(const std::string& name, const VolumeData& data, const SurfaceGeometr
                   << hits << " hits, largest error of a channel " << error << ", of a normal " << normal_error << ", "
                   << saturated << " saturated, darkest channel " << lit_least << ", " << disagreements << " disagreements");
         CHECK(outside == 0);
-        CHECK(hits > 2000);
+        CHECK(hits > 1000);
         // The sheet's highlights are cut off at 1.
         CHECK((saturated > 20) == std::holds_alternative<FlatElements>(geometry));
         CHECK(saturated < hits / 2);
         CHECK(disagreements <= 2);
-        // Ten times what was measured: 1.8e-6 and 3.8e-15, of normals 3.2e-6 and 5.5e-15.
-        CHECK(error <= (is_single ? 2e-5 : 4e-14));
-        CHECK(normal_error <= (is_single ? 3e-5 : 5e-14));
+        // Ten times what was measured: 2.3e-6 and 6e-15; four times, of normals near the sphere's edge, 8e-6 and 3e-14.
+        CHECK(error <= (is_single ? 2e-5 : 6e-14));
+        CHECK(normal_error <= (is_single ? 3e-5 : 1.2e-13));
     }
 }
 
@@ -197,6 +210,11 @@ TEST_CASE("a curved surface is lit as the formula says, from both sides") {
         check("sheet from above", sheet_volume(), FlatElements{}, sheet, {0.7, -1.9, 2.3}, is_orthographic);
         check("sheet from below", sheet_volume(), FlatElements{}, sheet, {0.7, 1.2, -2.6}, is_orthographic);
     }
+}
+
+TEST_CASE("a sphere through a volume is lit as the formula says") {
+    for (const bool is_orthographic : {false, true})
+        check("sphere", cube_volume(), CutShape{ball}, sphere, {1.0, 2.2, 0.9}, is_orthographic);
 }
 
 TEST_CASE("a cut plane is lit as the formula says, from both sides") {
