@@ -489,6 +489,41 @@ std::string model_glsl(const Expression& expression, const ExpressionClass& elem
     return text + "bool core_is_model_estimated(uint element) { return " + is_estimated + "; }\n";
 }
 
+namespace {
+
+/**
+ * A condition in GLSL, of the nodes' intervals: that all is continuous there where it has a value, so that derivatives tell how
+ * the value can change.
+ */
+std::string continuity(const Graph& graph, const std::vector<NodeId>& needed) {
+    const auto of = [](NodeId id, const char* end) { return "core_interval_" + name(id) + end; };
+    std::string text = "true";
+    for (const NodeId id : needed) {
+        const Node& node = graph.node(id);
+        const auto [a, b, c] = node.operands;
+        switch (node.operation) {
+        case Operation::sign:
+        case Operation::less:
+        case Operation::less_equal:
+        case Operation::equal:
+            text += " && " + of(id, ".lower == ") + of(id, ".upper");
+            break;
+        case Operation::arctangent2:
+            text += " && (" + of(a, ".lower > elvis_real(0) || ") + of(a, ".upper < elvis_real(0) || ") +
+                    of(b, ".lower > elvis_real(0))");
+            break;
+        case Operation::over_length:
+            text += " && " + of(b, ".lower > elvis_real(0)");
+            break;
+        default:
+            break;
+        }
+    }
+    return text;
+}
+
+} // namespace
+
 std::string implicit_glsl(const Expression& expression) {
     assert(expression.is_implicit());
     const Graph& graph = expression.graph();
@@ -511,13 +546,24 @@ std::string implicit_glsl(const Expression& expression) {
             name(expression.value()) + ";\n}\n";
     text += "void core_implicit(elvis_vec3 x, out elvis_real value, out elvis_vec3 gradient) {\n" +
             real_nodes(graph, graph.needed(roots_with_gradient(expression)), leaf) + gradient_body(expression);
-    text += "core_interval core_implicit_range(core_interval x, core_interval y, core_interval z) {\n";
-    for (const NodeId id : of_value) {
-        const Node& node = graph.node(id);
-        text += "    const core_interval core_interval_" + name(id) + " = ";
-        text +=
-            (n_operands(node.operation) == 0 ? interval_leaf(node) : enclosure_operation(node, "core_interval_", "")) + ";\n";
-    }
+    const auto intervals = [&](const std::vector<NodeId>& needed) {
+        std::string lines;
+        for (const NodeId id : needed) {
+            const Node& node = graph.node(id);
+            lines += "    const core_interval core_interval_" + name(id) + " = ";
+            lines += (n_operands(node.operation) == 0 ? interval_leaf(node) : enclosure_operation(node, "core_interval_", "")) +
+                     ";\n";
+        }
+        return lines;
+    };
+    text += "core_interval core_implicit_range(core_interval x, core_interval y, core_interval z) {\n" + intervals(of_value) +
+            "    return core_interval_" + name(expression.value()) + ";\n}\n";
+    text += "core_interval core_implicit_slopes(core_interval x, core_interval y, core_interval z, out core_interval dx, "
+            "out core_interval dy, out core_interval dz) {\n";
+    const auto& [d0, d1, d2] = expression.gradient().value();
+    text += intervals(graph.needed(roots_with_gradient(expression))) + "    dx = core_interval_" + name(d0) +
+            ";\n    dy = core_interval_" + name(d1) + ";\n    dz = core_interval_" + name(d2) + ";\n    if (!(" +
+            continuity(graph, of_value) + ")) {\n        dx = dy = dz = core_interval_whole();\n    }\n";
     return text + "    return core_interval_" + name(expression.value()) + ";\n}\n";
 }
 

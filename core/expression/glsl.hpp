@@ -13,6 +13,10 @@
  *     elvis_real core_implicit_value(elvis_vec3 x)
  *     void core_implicit(elvis_vec3 x, out elvis_real value, out elvis_vec3 gradient)
  *     core_interval core_implicit_range(core_interval x, core_interval y, core_interval z)   (shaders/library/interval.glsl)
+ *     core_interval core_implicit_slopes(core_interval x, core_interval y, core_interval z,
+ *                                        out core_interval dx, out core_interval dy, out core_interval dz)
+ *
+ * of which the last gives the ranges of value and derivatives; of the latter infinite ones where the value may jump.
  *
  * Every field, its gradient and its second derivatives are read once in each. `element` in an expression reads the host's
  * buffer core_elements. Models of fields rest on core_field_bounds(element, component), of which instance k has

@@ -1,3 +1,4 @@
+#include <core/expression/glsl.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/render/real_array.hpp>
 #include <core/render/surface_solver.hpp>
@@ -25,7 +26,7 @@ SolverKind kind_of(const std::string& solver) {
     if (solver == "round") {
         return {"quadric", {{"CORE_HAS_ENDS", "1"}}};
     }
-    if (solver == "mesh" || solver == "bezier") {
+    if (solver == "mesh" || solver == "bezier" || solver == "implicit") {
         return {solver, {}, 4};
     }
     return {solver, {{"CORE_HAS_ENDS", "0"}}};
@@ -101,6 +102,8 @@ std::string solver_key(const CutShape& shape) {
     key << shape_solver(shape);
     if (const auto* surface = std::get_if<MeshSurface>(&shape)) {
         key << ' ' << static_cast<const void*>(surface->mesh.get());
+    } else if (const auto* function = std::get_if<ImplicitSurface>(&shape)) {
+        key << ' ' << function->expression;
     } else if (const auto* patches = std::get_if<BezierSurface>(&shape)) {
         key << ' ' << static_cast<const void*>(patches->mesh.get());
     }
@@ -124,7 +127,9 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
                                                    {"CORE_TILE_HEIGHT", std::to_string(surface_tile_height) + "u"},
                                                    {"CORE_HIT_ROWS", std::to_string(m_hit_rows) + "u"},
                                                    {"CORE_SHAPE_ROWS", std::to_string(m_n_rows)}});
-    if (const auto* surface = std::get_if<MeshSurface>(&shape)) {
+    if (const auto* function = std::get_if<ImplicitSurface>(&shape)) {
+        request.text = implicit_glsl(Expression::implicit(function->expression));
+    } else if (const auto* surface = std::get_if<MeshSurface>(&shape)) {
         m_mesh = surface->mesh;
         upload(*surface->mesh, shape_middle(shape));
         request.buffers = {{"core_triangles", m_items.get()}, {"core_nodes", m_nodes.get()}};

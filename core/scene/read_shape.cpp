@@ -29,6 +29,7 @@ const std::vector<PlaceKey>& place_keys() {
                                                {"axis", {"torus"}},
                                                {"major_radius", {"torus"}},
                                                {"minor_radius", {"torus"}},
+                                               {"expression", {"implicit"}},
                                                {"file", {"mesh", "bezier"}}};
     return keys;
 }
@@ -50,6 +51,9 @@ CutShape shape_of(const JsonObject& object, const std::string& type, const std::
     }
     if (type == "quadric") {
         return Quadric{fixed<10>(object.numbers("coefficients"))};
+    }
+    if (type == "implicit") {
+        return ImplicitSurface{object.text("expression")};
     }
     if (type == "mesh") {
         return MeshSurface{std::make_shared<const TriangleMesh>(read_triangle_mesh(beside(scene, object.text("file"))))};

@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/expression/expression.hpp>
 #include <core/surface/shape.hpp>
 
 #include <algorithm>
@@ -46,6 +47,13 @@ public:
         positive("minor_radius", torus.minor_radius);
     }
 
+    void operator()(const ImplicitSurface& surface) const {
+        try {
+            Expression::implicit(surface.expression);
+        } catch (const Error& error) {
+            throw Error(m_place, error.what());
+        }
+    }
     /** The file's reader has checked. */
     void operator()(const MeshSurface&) const {}
     void operator()(const BezierSurface&) const {}

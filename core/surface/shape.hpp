@@ -50,6 +50,11 @@ struct Torus {
         1; ///< of the tube, > 0; more than the other one gives a spindle torus, whose inner part is drawn, too
 };
 
+/** Where a function of x, y and z changes its sign: an expression without fields (core/expression/expression.hpp). */
+struct ImplicitSurface {
+    std::string expression;
+};
+
 struct MeshSurface {
     std::shared_ptr<const TriangleMesh> mesh; ///< not null
 };
@@ -58,7 +63,7 @@ struct BezierSurface {
     std::shared_ptr<const PatchMesh> mesh; ///< not null
 };
 
-using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, MeshSurface, BezierSurface>;
+using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, ImplicitSurface, MeshSurface, BezierSurface>;
 
 /** Checks what the comments above ask for; throws Error that names `place` and the number. */
 void check_shape(const CutShape& shape, const std::string& place);

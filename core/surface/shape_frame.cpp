@@ -103,6 +103,7 @@ struct FormOf {
     }
     /** These have rows of their own. */
     Form operator()(const Torus&) const { return {}; }
+    Form operator()(const ImplicitSurface&) const { return {}; }
     Form operator()(const MeshSurface&) const { return {}; }
     Form operator()(const BezierSurface&) const { return {}; }
 };
@@ -190,17 +191,22 @@ std::array<double, 6> join(const std::array<double, 6>& a, const std::array<doub
 } // namespace
 
 std::string shape_solver(const CutShape& shape) {
-    return std::holds_alternative<MeshSurface>(shape)     ? "mesh"
-           : std::holds_alternative<BezierSurface>(shape) ? "bezier"
-           : std::holds_alternative<Torus>(shape)         ? "torus"
-           : has_ends(shape)                              ? "round"
-                                                          : "quadric";
+    return std::holds_alternative<MeshSurface>(shape)       ? "mesh"
+           : std::holds_alternative<BezierSurface>(shape)   ? "bezier"
+           : std::holds_alternative<ImplicitSurface>(shape) ? "implicit"
+           : std::holds_alternative<Torus>(shape)           ? "torus"
+           : has_ends(shape)                                ? "round"
+                                                            : "quadric";
 }
 
 ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
     const std::string solver = shape_solver(shape);
     if (const auto* torus = std::get_if<Torus>(&shape)) {
         return {solver, torus_rows(*torus, convert(reference))};
+    }
+    if (solver == "implicit") {
+        // The reference point is exact in single precision.
+        return {solver, {row(convert(reference), 0)}};
     }
     if (solver == "mesh" || solver == "bezier") {
         return {solver, {row(convert(reference) - convert(shape_middle(shape)), 0)}};
@@ -220,6 +226,9 @@ std::array<double, 6> shape_bounds(const CutShape& shape) {
             return join(box_of(cone.from, cone.from_radius), box_of(cone.to, cone.to_radius));
         }
         std::array<double, 6> operator()(const Quadric&) const {
+            return {-infinity, -infinity, -infinity, infinity, infinity, infinity};
+        }
+        std::array<double, 6> operator()(const ImplicitSurface&) const {
             return {-infinity, -infinity, -infinity, infinity, infinity, infinity};
         }
         std::array<double, 6> operator()(const MeshSurface& surface) const { return surface.mesh->bounds(); }

@@ -15,6 +15,7 @@ struct Case {
     CutShape shape;
     LevelFunction function;
     Camera camera;
+    int n_samples = 300;
 };
 
 LongVector vector(const Vector3& v) { return {v[0], v[1], v[2]}; }
@@ -85,7 +86,7 @@ void check(const std::vector<Case>& cases) {
             const SurfacePicture picture = scene.draw(solver, one.shape, one.camera, size, size);
             const SurfaceComparison found = compare(
                 picture, one.camera, size, size,
-                [&](const Ray& ray, double from, double to) { return crossings(ray, one.function, from, to, 300); },
+                [&](const Ray& ray, double from, double to) { return crossings(ray, one.function, from, to, one.n_samples); },
                 gradient_of(one.function), is_in_two_blocks);
             WARN(one.name << (is_single ? ", float32: " : ", float64: ") << to_text(found));
             CHECK(found.hits > 150);
@@ -122,6 +123,38 @@ TEST_CASE("quadrics are drawn exactly") {
            make("saddle", Quadric{{1, -1, 0, 0, 0, 0, 0, 0, 1, 0.1}}, camera_at({2.9, 2.3, 1.7})),
            make("plane", Quadric{{0, 0, 0, 0, 0, 0, 0.5, 1, 0.3, 0.1}}, camera_at({2.9, 2.3, 1.7})),
            make("elliptic cylinder", Quadric{{1, 2, 0, 1, 0, 0, 0, 0, 0, -0.6}}, camera_at({0.9, 0.3, 2.7}))});
+}
+
+TEST_CASE("surfaces given by expressions are drawn exactly") {
+    const auto implicit = [](const std::string& text, const LevelFunction& function, const Camera& camera,
+                             int n_samples = 300) {
+        return Case{text, ImplicitSurface{text}, function, camera, n_samples};
+    };
+    check({implicit(
+               "x^2 + y^2 + z^2 - 0.81", [](const LongVector& p) { return p.squaredNorm() - static_cast<long double>(0.81); },
+               camera_at({2.9, 2.3, 1.7})),
+           implicit(
+               "sin(5*x)*cos(5*y) + sin(5*y)*cos(5*z) + sin(5*z)*cos(5*x)",
+               [](const LongVector& p) {
+                   const long double x = 5 * p.x(), y = 5 * p.y(), z = 5 * p.z();
+                   return std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) + std::sin(z) * std::cos(x);
+               },
+               camera_at({2.9, 2.3, 1.7})),
+           implicit(
+               "max(abs(x - 0.6), max(abs(y), abs(z))) - 0.25",
+               [](const LongVector& p) {
+                   return std::max(std::abs(p.x() - static_cast<long double>(0.6)),
+                                   std::max(std::abs(p.y()), std::abs(p.z()))) -
+                          0.25L;
+               },
+               camera_at({2.9, 2.3, 1.7}, 20, {0.6, 0, 0})),
+           implicit(
+               "x < 0.5 ? z - 0.2*x : z + 0.5*exp(-y^2) - 0.6",
+               [](const LongVector& p) {
+                   return p.x() < 0.5L ? p.z() - static_cast<long double>(0.2) * p.x()
+                                       : p.z() + 0.5L * std::exp(-p.y() * p.y()) - static_cast<long double>(0.6);
+               },
+               camera_at({2.9, 2.3, 2.7}), 3000)});
 }
 
 TEST_CASE("tori are drawn exactly, thick, thin and spindle") {
