@@ -291,7 +291,7 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     std::uint32_t n_wanted = 1;
     for (std::uint32_t round = 0; n_wanted > 0 && round < max_rounds; ++round) {
         layer->marks.fill(0);
-        draw_geometry(request, surface, {*layer, beyond, request.with_buffers || is_lit(request, surface)}, frame.counts);
+        draw_geometry(request, surface, {*layer, beyond, request.with_buffers || is_lit(request, surface) || surface.has_lines()}, frame.counts);
         color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags,
                         is_lit(request, surface) ? &*request.lighting : nullptr);
         n_wanted =

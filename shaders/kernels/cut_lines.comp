@@ -129,10 +129,14 @@ void main() {
         const core_level_test test = core_test_levels(model, cell.region);
         n_evaluations += is_active ? 1u : 0u;
 
-        // Nearer to the cell everything is known better.
-        const elvis_real cell_radius = cell.region.radius - cell.region.beyond - cell.step;
-        const bool is_far = cell.step > elvis_real(0.25LF) * abs(cell_radius) && cell.step > elvis_real(16) * CORE_ROUNDOFF;
-        const bool is_outside = part.all_hit ? cell.is_outside || (cell.is_behind && hides_behind) : !part.any_hit;
+        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle.
+        const elvis_real cell_radius = abs(cell.region.radius - cell.region.beyond - cell.step);
+        elvis_real near_x = cell.middle.x, near_y = cell.middle.y, near_z = cell.middle.z;
+        core_project(near_x, near_y, near_z);
+        const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
+        const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
+        const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, curvature);
+        const bool is_outside = part.all_hit ? cell.is_outside || is_clear || (cell.is_behind && hides_behind) : !part.any_hit;
         const bool is_inside = part.all_hit && cell.is_inside;
         const bool moves_on = is_active && !is_outside && part.all_hit && is_far && moves < CORE_MAX_MOVES;
         moves = moves_on ? moves + 1u : 0u;

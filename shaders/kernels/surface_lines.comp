@@ -221,8 +221,12 @@ void main() {
         const core_level_test test = core_test_levels(model, cell.region);
         n_evaluations += is_active ? 1u : 0u;
 
-        const elvis_real cell_radius = cell.region.radius - cell.region.beyond - cell.step;
-        const bool is_far = cell.step > elvis_real(0.25LF) * abs(cell_radius) && cell.step > elvis_real(16) * CORE_ROUNDOFF;
+        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle.
+        const elvis_real cell_radius = abs(cell.region.radius - cell.region.beyond - cell.step);
+        elvis_real near_x = cell.middle.x, near_y = cell.middle.y, near_z = cell.middle.z;
+        core_project(near_x, near_y, near_z);
+        const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
+        const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
         const bool moves_on = is_active && !cell.is_outside && is_far && moves < CORE_MAX_MOVES;
         moves = moves_on ? moves + 1u : 0u;
         // The region of an element that has no face here, or whose face is elsewhere, is not on the surface.
@@ -232,7 +236,8 @@ void main() {
         own_distance = abs(dot(own.xyz, cell.middle) + own.w);
         is_on_surface = is_on_surface && own_distance <= elvis_real(2) * core_model_norm1(own.xyz) * (cell.region.beyond + elvis_real(1e-3LF));
 #endif
-        const bool is_out = cell.is_outside || !is_on_surface;
+        const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, elvis_fetch_core_curvatures(safe_element, 0u));
+        const bool is_out = cell.is_outside || is_clear || !is_on_surface;
 
         const bool is_judged = is_active && !moves_on && !is_out;
         const bool finds_contour = is_judged && wants_contour && !is_large && cell.is_inside && test.is_met;

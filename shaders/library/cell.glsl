@@ -20,6 +20,8 @@ struct core_cell {
     bool is_inside, is_outside, is_crossed;
     // The surface lies in a face of the element, which is on the far side.
     bool is_behind;
+    // By how much at least the corners violate a face, as predicted; negative if they violate none together.
+    elvis_real clearance;
     // Length of the predicted step to the middle of the corners, and that point.
     elvis_real step;
     elvis_vec3 middle;
@@ -41,6 +43,7 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
     bool is_outside0 = false, is_outside1 = false, is_outside2 = false, is_outside3 = false;
     cell.is_inside = true;
     cell.is_outside = cell.is_behind = false;
+    cell.clearance = -CORE_UNKNOWN;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
         const elvis_real here = dot(constraint.xyz, xi) + constraint.w;
@@ -58,6 +61,8 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         cell.is_behind = cell.is_behind || (lies_in && own_face < 0 && dot(normal, direction) < elvis_real(0));
         cell.is_inside = cell.is_inside && (lies_in || highest <= elvis_real(0));
         cell.is_outside = cell.is_outside || (!lies_in && lowest > elvis_real(0));
+        const elvis_real least = min(min(g0, g1), min(g2, g3)) - dot(abs(constraint.xyz), xi_error);
+        cell.clearance = lies_in ? cell.clearance : max(cell.clearance, least);
         is_inside0 = is_inside0 && (lies_in || g0 < -slack);
         is_inside1 = is_inside1 && (lies_in || g1 < -slack);
         is_inside2 = is_inside2 && (lies_in || g2 < -slack);
@@ -122,6 +127,13 @@ core_cell core_cell_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvi
     cell.is_outside = cell.is_outside && is_sound;
     cell.is_crossed = cell.is_crossed && is_sound;
     return cell;
+}
+
+// Whether the cell lies outside for another reason than the bound, which says nothing far away from a curved element: the point of the
+// element nearest to the prediction is the one that it was made from but for `move`, and the cell lies beyond a face by far more. That
+// element and surface could meet elsewhere all the same takes an element that folds; of those the curvature is not known.
+bool core_is_clear_of(core_cell cell, elvis_real cell_radius, elvis_real move, elvis_real curvature) {
+    return curvature < elvis_real(1e6LF) && cell.clearance > elvis_real(0.5LF) * cell_radius + elvis_real(8) * move;
 }
 
 struct core_level_test {
