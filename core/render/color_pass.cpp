@@ -97,7 +97,8 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
     for (const auto& color : {contour.color, contour.undecided_color, mesh.color, mesh.undecided_color}) {
         append(numbers, color);
     }
-    numbers.insert(numbers.end(), {surface.opacity, 0, 0, 0});
+    const std::array<double, 3> outside = surface.outside.value_or(std::array<double, 3>{});
+    numbers.insert(numbers.end(), {surface.opacity, outside[0], outside[1], outside[2]});
     for (const std::array<double, 4>& plane : surface.clip) {
         // Relative to the reference point of the rays.
         const std::array<double, 4>& reference = view.rows[6];

@@ -20,6 +20,9 @@ template <class Real> struct Sample {
     std::uint32_t number;
 };
 
+/** Sample::number where the surface lies in no element. */
+inline constexpr std::uint32_t no_number = 0xffffffffu;
+
 /** One core_mark. */
 struct Mark {
     std::uint32_t owner = 0;

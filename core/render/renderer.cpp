@@ -267,7 +267,8 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         cut_plane_pass(surface.has_lines()).draw(rays, first, component, lines, target, counts);
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
-        current->cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, target, counts);
+        current->cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, surface.outside.has_value(),
+                                  target, counts);
         if (surface.has_lines()) {
             line_pass(false).draw(rays, component, lines, &current->cut_shapes->bending(), target, counts);
         }
@@ -345,7 +346,8 @@ void Renderer::Impl::read(const Layer& from, const std::vector<SurfaceFacts>& fa
             const SurfaceFacts& surface = facts[std::min<std::size_t>(mark.surface(), facts.size()) - 1];
             frame.value[pixel] = static_cast<double>(samples[pixel].value) + surface.offset;
             frame.depth[pixel] = static_cast<double>(samples[pixel].depth);
-            frame.element[pixel] = samples[pixel].number;
+            const std::uint32_t number = samples[pixel].number;
+            frame.element[pixel] = number == no_number ? -1 : static_cast<std::int64_t>(number);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 frame.normal[3 * pixel + axis] =
                     surface.normal ? (*surface.normal)[axis] : static_cast<double>(normals[3 * pixel + axis]);

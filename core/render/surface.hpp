@@ -97,6 +97,8 @@ struct Surface {
     std::vector<std::array<double, 4>> clip{};
     /** In [0, 1]. */
     double opacity = 1;
+    /** Of a CutShape: its colour where it lies in no element; without, it is seen through there. */
+    std::optional<std::array<double, 3>> outside{};
     /** Whether the picture's lighting is for this surface, too. */
     bool is_lit = true;
 

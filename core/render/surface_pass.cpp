@@ -1,3 +1,4 @@
+#include <core/render/pixel_kernel.hpp>
 #include <core/render/real_array.hpp>
 #include <core/render/surface_pass.hpp>
 
@@ -26,6 +27,11 @@ struct TilesParameters {
     std::uint32_t tiles_a_row, n_tiles, n_parts;
 };
 
+struct OutsideParameters {
+    std::uint32_t n_pixels, groups_x;
+    std::uint32_t width, surface;
+};
+
 struct PixelsParameters {
     std::uint32_t width, height;
     std::uint32_t first_tile_row;
@@ -39,6 +45,18 @@ std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (numbe
 
 double diagonal_of(const std::array<double, 6>& bounds) {
     return std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
+}
+
+/** Where a shape is looked for if what lies outside of the volume is shown, too. */
+std::array<double, 6> box_of(const CutShape& shape, const std::array<double, 6>& volume) {
+    std::array<double, 6> box = shape_bounds(shape);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double extent = volume[axis + 3] - volume[axis];
+        const bool is_finite = std::isfinite(box[axis]) && std::isfinite(box[axis + 3]);
+        box[axis] = is_finite ? std::min(box[axis], volume[axis]) : volume[axis] - extent;
+        box[axis + 3] = is_finite ? std::max(box[axis + 3], volume[axis + 3]) : volume[axis + 3] + extent;
+    }
+    return box;
 }
 
 void provide(const Device& device, std::optional<Buffer>& buffer, std::uint64_t bytes) {
@@ -91,8 +109,22 @@ void SurfacePass::provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles,
     provide(m_device, m_tiles, n_tiles * tile_stride * sizeof(std::uint32_t));
 }
 
+void SurfacePass::draw_outside(std::uint32_t surface, const LayerTarget& target) {
+    const Layer& layer = target.layer;
+    if (!m_outside) {
+        constexpr BindingType storage = BindingType::storage_buffer;
+        m_outside = std::make_unique<ComposedKernel>(
+            m_device, pixel_kernel("surface_outside", m_precision, {BindingType::uniform_buffer, storage, storage, storage},
+                                   sizeof(OutsideParameters)));
+    }
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const OutsideParameters parameters{n_pixels, pixel_groups_x, layer.width, surface};
+    dispatch_pixels(*m_outside, {&m_frame, &*m_hits, &layer.samples, &layer.marks}, std::as_bytes(std::span(&parameters, 1)),
+                    n_pixels);
+}
+
 void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
-                       const ShownComponent& component, const LayerTarget& target, FrameCounts& counts) {
+                       const ShownComponent& component, bool shows_outside, const LayerTarget& target, FrameCounts& counts) {
     const std::uint32_t width = target.layer.width, height = target.layer.height;
     const std::uint32_t tile_width = surface_tile_width(m_device);
     const std::uint32_t tiles_a_row = divided_up(width, tile_width);
@@ -100,7 +132,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     provide_buffers(std::uint64_t{width} * height, std::uint64_t{tiles_a_row} * tile_rows, solver.n_parts());
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     const double most_error = most_error_along_ray * diagonal_of(m_data.bounds());
-    solver.begin(shape, view, m_data.bounds(), most_error);
+    solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), most_error);
     m_counts.fill(0);
 
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * tile_width * surface_tile_height));
@@ -142,6 +174,10 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                 kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
                                          std::min(rows_a_dispatch, tile_rows - first_row));
             }
+        }
+        if (shows_outside) {
+            draw_outside(surface, target);
+            break;
         }
         const std::uint32_t n_found = m_counts.read_items<std::uint32_t>(1, n_pass_counts)[0];
         if (n_found - n_found_before == n_hits) {

@@ -29,7 +29,7 @@ public:
      * any plane of the picture: only its rays matter.
      */
     void draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
-              const ShownComponent& component, const LayerTarget& target, FrameCounts& counts);
+              const ShownComponent& component, bool shows_outside, const LayerTarget& target, FrameCounts& counts);
 
     /**
      * A number for each pixel that shows the surface drawn last: an upper bound of the surface's normal curvatures there,
@@ -42,6 +42,7 @@ private:
         std::unique_ptr<ComposedKernel> tiles;
         std::unique_ptr<ComposedKernel> pixels;
     };
+    void draw_outside(std::uint32_t surface, const LayerTarget& target);
     void provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t n_parts);
 
     const Device& m_device;
@@ -53,6 +54,7 @@ private:
     Buffer m_counts;
     /** Stands where a buffer is not used. */
     Buffer m_nothing;
+    std::unique_ptr<ComposedKernel> m_outside;
     std::optional<Buffer> m_hits, m_bending, m_boxes, m_tiles;
 };
 

@@ -80,6 +80,7 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
     surface.subdivisions = scene.subdivisions;
     surface.clip = own.clip;
     surface.opacity = own.opacity;
+    surface.outside = own.outside;
     surface.is_lit = own.is_lit;
     return surface;
 }

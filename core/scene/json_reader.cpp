@@ -146,13 +146,6 @@ double JsonObject::checked(const json& value, const json& schema, const std::str
     return number;
 }
 
-bool JsonObject::truth(const char* key) const {
-    if (!raw(key).is_boolean()) {
-        fail(key, "is " + raw(key).dump() + ", where true or false is expected");
-    }
-    return raw(key).get<bool>();
-}
-
 double JsonObject::number(const char* key) const { return checked(raw(key), schema_of(key), key); }
 
 std::uint32_t JsonObject::integer(const char* key) const {

@@ -32,7 +32,6 @@ public:
     std::string word(const char* key) const;
     bool flag(const char* key) const;
     double number(const char* key) const;
-    bool truth(const char* key) const;
     std::uint32_t integer(const char* key) const;
     /** A list of numbers of a length the schema allows, each finite and in its bounds. */
     std::vector<double> numbers(const char* key) const;

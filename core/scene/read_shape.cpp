@@ -14,29 +14,31 @@ struct PlaceKey {
 };
 
 const std::vector<PlaceKey>& place_keys() {
-    static const std::vector<PlaceKey> keys = {{"plane", {"plane"}},
-                                               {"point", {"plane"}},
-                                               {"normal", {"plane"}},
-                                               {"groups", {"boundary"}},
-                                               {"center", {"sphere", "torus"}},
-                                               {"radius", {"sphere", "cylinder"}},
-                                               {"from", {"cylinder", "cone"}},
-                                               {"to", {"cylinder", "cone"}},
-                                               {"from_radius", {"cone"}},
-                                               {"to_radius", {"cone"}},
-                                               {"capped", {"cylinder", "cone"}},
-                                               {"coefficients", {"quadric"}},
-                                               {"axis", {"torus"}},
-                                               {"major_radius", {"torus"}},
-                                               {"minor_radius", {"torus"}},
-                                               {"expression", {"implicit"}},
-                                               {"file", {"mesh", "bezier"}}};
+    static const std::vector<PlaceKey> keys = {
+        {"plane", {"plane"}},
+        {"point", {"plane"}},
+        {"normal", {"plane"}},
+        {"groups", {"boundary"}},
+        {"center", {"sphere", "torus"}},
+        {"radius", {"sphere", "cylinder"}},
+        {"from", {"cylinder", "cone"}},
+        {"to", {"cylinder", "cone"}},
+        {"from_radius", {"cone"}},
+        {"to_radius", {"cone"}},
+        {"capped", {"cylinder", "cone"}},
+        {"coefficients", {"quadric"}},
+        {"axis", {"torus"}},
+        {"major_radius", {"torus"}},
+        {"minor_radius", {"torus"}},
+        {"expression", {"implicit"}},
+        {"file", {"mesh", "bezier"}},
+        {"outside", {"sphere", "cylinder", "cone", "quadric", "torus", "implicit", "mesh", "bezier"}}};
     return keys;
 }
 
 Vector3 vector(const JsonObject& object, const char* key) { return fixed<3>(object.numbers(key)); }
 
-bool is_capped(const JsonObject& object) { return !object.has("capped") || object.truth("capped"); }
+bool is_capped(const JsonObject& object) { return !object.has("capped") || object.flag("capped"); }
 
 CutShape shape_of(const JsonObject& object, const std::string& type, const std::string& scene) {
     if (type == "sphere") {
@@ -79,7 +81,8 @@ void check_place_keys(const JsonObject& object, const std::string& type) {
 CutShape read_shape(const JsonObject& object, const std::string& type, const std::string& scene) {
     for (const PlaceKey& key : place_keys()) {
         const bool is_its_own = std::find(key.types.begin(), key.types.end(), type) != key.types.end();
-        if (is_its_own && !object.has(key.key) && key.key != std::string_view("capped")) {
+        const bool is_optional = key.key == std::string_view("capped") || key.key == std::string_view("outside");
+        if (is_its_own && !object.has(key.key) && !is_optional) {
             object.fail(key.key, "is missing, which a surface of type \"" + type + "\" needs");
         }
     }

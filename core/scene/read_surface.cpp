@@ -108,6 +108,9 @@ SceneSurface read_surface(const JsonObject& object, const std::string& scene) {
     if (object.has("opacity")) {
         surface.opacity = object.number("opacity");
     }
+    if (object.has("outside")) {
+        surface.outside = fixed<3>(object.numbers("outside"));
+    }
     if (object.has("lighting")) {
         surface.is_lit = object.flag("lighting");
     }

@@ -64,6 +64,7 @@ struct SceneSurface {
     std::optional<SceneLineStyle> mesh_lines{};
     std::vector<std::array<double, 4>> clip{};
     double opacity = 1;
+    std::optional<Rgb> outside{};
     bool is_lit = true;
 };
 

@@ -16,7 +16,7 @@ layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 // In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of contours, of undecided ones,
-// of mesh lines and undecided ones; opacity; planes that clip; isovalues.
+// of mesh lines and undecided ones; opacity, and colour outside of elements; planes that clip; isovalues.
 layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
@@ -101,10 +101,11 @@ void main() {
     const uint owner = is_inside ? core_marks[pixel].owner : 0u;
     const bool is_drawn = owner != 0u;
     elvis_real value = elvis_real(0);
-    bool is_clipped = false;
+    bool is_clipped = false, is_outside = false;
     bool is_contour = false, is_contour_undecided = false, is_mesh_line = false, is_mesh_undecided = false;
     for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
         value = core_samples[pixel].value;
+        is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
         // Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own.
         const uint contour = core_flags_near(pixel, core_contour_reach);
         is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
@@ -118,14 +119,14 @@ void main() {
     for (uint turn = 0u; turn < (is_drawn && core_n_clips > 0u ? 1u : 0u); ++turn) {
         is_clipped = core_is_clipped(pixel, core_samples[pixel].depth);
     }
-    const bool is_nan = !core_is_finite(value);
+    const bool is_nan = !core_is_finite(value) && !is_outside;
     for (uint turn = 0u; turn < (is_contour && !is_nan && (core_contour_style & CORE_STYLE_COLOR) == 0u ? 1u : 0u); ++turn) {
         value = core_nearest_isovalue(value);
     }
 
     // How many points are not above the value.
     uint low = 0u;
-    uint high = is_drawn && !is_nan ? core_n_points : 0u;
+    uint high = is_drawn && !is_nan && !is_outside ? core_n_points : 0u;
     while (low < high) {
         const uint middle = (low + high) / 2u;
         const bool is_below = core_rows[middle].x <= value;
@@ -141,6 +142,7 @@ void main() {
     const uint special = is_seen ? (is_nan ? 2u : (is_below ? 0u : 1u)) : 3u;
     const bool is_special = !is_seen || is_nan || is_below || is_above;
     elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+    color = is_seen && is_outside ? elvis_vec4(core_special(8u).yzw, elvis_real(1)) : color;
 #if CORE_IS_LIT
     for (uint turn = 0u; turn < (is_seen ? 1u : 0u); ++turn) {
         elvis_vec3 direction;
@@ -154,7 +156,7 @@ void main() {
 
     // Outside by more than rounding may have done (core/render/frame.hpp).
     const elvis_real beyond = elvis_real(1.0e-4LF) * (core_rows[core_n_points - 1u].x - core_rows[0].x);
-    const bool is_far = value < core_rows[0].x - beyond || value > core_rows[core_n_points - 1u].x + beyond;
+    const bool is_far = !is_outside && (value < core_rows[0].x - beyond || value > core_rows[core_n_points - 1u].x + beyond);
     for (uint turn = 0u; turn < (is_seen && (is_nan || is_far) ? 1u : 0u); ++turn) {
         core_special_values[3u * core_surface + (is_nan ? 2u : (is_below ? 0u : 1u))] = 1u;
     }

@@ -3,6 +3,9 @@
 // A depth behind everything.
 #define CORE_FAR elvis_real(3.0e38LF)
 
+// In place of an element's number: the surface lies in none.
+#define CORE_NO_NUMBER 0xffffffffu
+
 // Of pixels with an owner.
 struct core_sample {
     // Field value, lacking the field's offset.

@@ -30,7 +30,8 @@ void read(const Buffer& samples, const Buffer& normals, const Buffer& bending, c
             continue;
         picture.value[i] = static_cast<double>(read_samples[i].value);
         picture.depth[i] = static_cast<double>(read_samples[i].depth);
-        picture.element[i] = read_samples[i].number;
+        picture.element[i] =
+            read_samples[i].number == no_number ? outside_element : static_cast<std::int64_t>(read_samples[i].number);
         picture.bending[i] = static_cast<double>(read_bending[i]);
         picture.normal[i] = Eigen::Matrix<Real, 3, 1>(read_normals.data() + 3 * i).template cast<double>();
     }
@@ -57,7 +58,7 @@ SurfaceScene::SurfaceScene(const std::string& path, Precision precision)
 }
 
 SurfacePicture SurfaceScene::draw(const SurfaceSolver& solver, const CutShape& shape, const Camera& camera, std::uint32_t width,
-                                  std::uint32_t height, const std::vector<double>& beyond) {
+                                  std::uint32_t height, const std::vector<double>& beyond, bool shows_outside) {
     const std::size_t n = std::size_t{width} * height;
     const Device& device = surface_device();
     const Layer layer(device, m_precision, width, height);
@@ -77,7 +78,7 @@ SurfacePicture SurfaceScene::draw(const SurfaceSolver& solver, const CutShape& s
     picture.flags.assign(n, 0);
     const CutPlaneGeometry view =
         cut_plane_geometry(plane_across(camera, m_data.bounds()), camera, width, height, m_data.centre());
-    m_pass->draw(view, solver, shape, 1, {0, 1, false}, {layer, behind ? &*behind : nullptr}, picture.counts);
+    m_pass->draw(view, solver, shape, 1, {0, 1, false}, shows_outside, {layer, behind ? &*behind : nullptr}, picture.counts);
     const auto read_marks = layer.marks.read_items<Mark>(n);
     if (m_precision == Precision::float64)
         read<double>(layer.samples, layer.normals, m_pass->bending(), read_marks, picture);

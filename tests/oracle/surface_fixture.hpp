@@ -19,6 +19,9 @@ namespace elvis::oracle {
 
 const Device& surface_device();
 
+/** In place of an element where the surface lies in none and that is shown. */
+inline constexpr std::int64_t outside_element = -2;
+
 /** What the passes leave, one entry a pixel; element -1 where nothing is seen. */
 struct SurfacePicture {
     std::vector<double> value, depth, bending;
@@ -35,7 +38,7 @@ public:
 
     /** `beyond`: a depth a pixel, or empty. */
     SurfacePicture draw(const SurfaceSolver& solver, const CutShape& shape, const Camera& camera, std::uint32_t width,
-                        std::uint32_t height, const std::vector<double>& beyond = {});
+                        std::uint32_t height, const std::vector<double>& beyond = {}, bool shows_outside = false);
     const DeviceVolume& data() const { return m_data; }
     Precision precision() const { return m_precision; }
 

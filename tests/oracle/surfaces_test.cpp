@@ -165,4 +165,94 @@ TEST_CASE("tori are drawn exactly, thick, thin and spindle") {
            make("torus around the eye", Torus{{0.5, 0, 0}, {0.3, 0.2, 1}, 0.4, 0.3}, camera_at({0.5, 0.4, 0.0}, 90))});
 }
 
+TEST_CASE("what lies behind a crossing is found by asking beyond it") {
+    // Whether crossing after crossing, each drawn beyond the last, gives all there are in the volume.
+    const TemporaryFile file("beyond.h5");
+    write_volume(file.path(), two_blocks());
+    const Torus torus{{0, 0.1, 0}, {1, 0.2, 0.1}, 0.6, 0.25};
+    const ImplicitSurface gyroid{"sin(5*x)*cos(5*y) + sin(5*y)*cos(5*z) + sin(5*z)*cos(5*x)"};
+    const LevelFunction of_gyroid = [](const LongVector& p) {
+        const long double x = 5 * p.x(), y = 5 * p.y(), z = 5 * p.z();
+        return std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) + std::sin(z) * std::cos(x);
+    };
+    const Camera camera = camera_at({3.2, -1.3, 0.3});
+    constexpr std::uint32_t side = 48;
+    for (const Precision precision : {Precision::float32, Precision::float64})
+        for (const auto& [shape, function] : {std::pair<CutShape, LevelFunction>(torus, level_of(torus)),
+                                              std::pair<CutShape, LevelFunction>(gyroid, of_gyroid)}) {
+            SurfaceScene scene(file.path(), precision);
+            const SurfaceSolver solver(surface_device(), precision, shape);
+            std::vector<std::vector<double>> found(side * side);
+            std::vector<std::uint32_t> flags(side * side, 0);
+            std::vector<double> beyond;
+            for (int round = 0; round < 40; ++round) {
+                const SurfacePicture picture = scene.draw(solver, shape, camera, side, side, beyond);
+                beyond.assign(side * side, 3e38);
+                bool is_done = true;
+                for (std::size_t pixel = 0; pixel < found.size(); ++pixel) {
+                    flags[pixel] |= picture.flags[pixel];
+                    if (picture.element[pixel] >= 0) {
+                        found[pixel].push_back(picture.depth[pixel]);
+                        beyond[pixel] = picture.depth[pixel];
+                        is_done = false;
+                    }
+                }
+                if (is_done)
+                    break;
+            }
+            std::size_t n_found = 0, n_expected = 0, n_wrong = 0, n_undecided = 0;
+            for (std::uint32_t row = 0; row < side; ++row)
+                for (std::uint32_t column = 0; column < side; ++column) {
+                    const std::size_t pixel = std::size_t{row} * side + column;
+                    const Ray ray = pixel_ray(camera, side, side, column, row);
+                    std::size_t expected = 0;
+                    for (const double t : crossings(ray, function, 1, 6, 1500))
+                        expected += is_in_two_blocks((ray.origin + t * ray.direction).cast<double>()) ? 1 : 0;
+                    if ((flags[pixel] & pixel_flag::undecided) != 0) {
+                        ++n_undecided;
+                        continue;
+                    }
+                    n_expected += expected;
+                    n_found += found[pixel].size();
+                    n_wrong += expected != found[pixel].size() ? 1 : 0;
+                }
+            WARN((precision == Precision::float32 ? "float32: " : "float64: ")
+                 << n_found << " crossings found of " << n_expected << ", wrong in " << n_wrong << " pixels, " << n_undecided
+                 << " undecided");
+            CHECK(n_expected > 250);
+            CHECK(n_wrong == 0);
+            CHECK(n_undecided <= (precision == Precision::float32 ? 12 : 2));
+        }
+}
+
+TEST_CASE("a surface outside of the volume is shown if asked for") {
+    const TemporaryFile file("outside.h5");
+    write_volume(file.path(), two_blocks());
+    // Reaches out of the volume, and over the gap in it.
+    const Sphere sphere{{0, 0.2, 0}, 1.2};
+    const Camera camera = camera_at({2.9, 2.3, 1.7}, 55);
+    SurfaceScene scene(file.path(), Precision::float64);
+    const SurfaceSolver solver(surface_device(), Precision::float64, sphere);
+    const SurfacePicture picture = scene.draw(solver, sphere, camera, size, size, {}, true);
+    std::size_t n_inside = 0, n_outside = 0, n_wrong = 0;
+    for (std::uint32_t row = 0; row < size; ++row)
+        for (std::uint32_t column = 0; column < size; ++column) {
+            const std::size_t pixel = std::size_t{row} * size + column;
+            const Ray ray = pixel_ray(camera, size, size, column, row);
+            const std::vector<double> all = crossings(ray, level_of(sphere), 1e-6, 10, 300);
+            const bool is_inside = !all.empty() && is_in_two_blocks((ray.origin + all[0] * ray.direction).cast<double>());
+            const bool is_right = all.empty() ? picture.element[pixel] == -1
+                                  : is_inside ? picture.element[pixel] >= 0
+                                              : picture.element[pixel] == outside_element;
+            const bool is_near = all.empty() || std::abs(picture.depth[pixel] - all[0]) < 1e-9;
+            n_inside += is_inside ? 1 : 0;
+            n_outside += !all.empty() && !is_inside ? 1 : 0;
+            n_wrong += is_right && is_near ? 0 : 1;
+        }
+    WARN(n_inside << " pixels inside, " << n_outside << " outside, " << n_wrong << " wrong");
+    CHECK(n_inside > 300);
+    CHECK(n_outside > 300);
+    CHECK(n_wrong == 0);
+}
+
 } // namespace elvis::oracle
