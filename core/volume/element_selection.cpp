@@ -1,8 +1,13 @@
+#include <core/base/cancel.hpp>
 #include <core/base/error.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/volume/element_faces.hpp>
 #include <core/volume/element_selection.hpp>
+#include <core/volume/jacobian_check.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace elvis {
 
@@ -11,7 +16,7 @@ namespace {
 /** Elements, or faces, asked of the plugin at once. */
 constexpr std::uint64_t block = 65536;
 
-/** Calls `visit` with first and count of blocks of elements that are all still chosen or not; stops as `control` says. */
+/** Calls `visit` with first and count of blocks; stops as `control` says. */
 template <class Visit> void for_blocks(std::uint64_t n, const TaskControl* control, const Visit& visit) {
     for (std::uint64_t first = 0; first < n; first += block) {
         if (control) {
@@ -45,7 +50,8 @@ void keep_classes(const RuntimeVolume& volume, const ElementSelection& selection
             const std::int32_t order = *std::max_element(field.order, field.order + 3);
             is_kept = is_kept && (*selection.orders)[0] <= order && order <= (*selection.orders)[1];
         }
-        for (std::uint64_t element = info.first_element; !is_kept && element < info.first_element + info.n_elements; ++element) {
+        for (std::uint64_t element = info.first_element; !is_kept && element < info.first_element + info.n_elements;
+             ++element) {
             chosen[element] = false;
         }
     }
@@ -92,61 +98,21 @@ void keep_box(const RuntimeVolume& volume, const ElementSelection& selection, st
         volume.bounds(first, count, bounds);
         for (std::uint64_t i = 0; i < count; ++i) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const bool is_outside = bounds[6 * i + 3 + axis] < (*selection.box)[axis] ||
-                                        bounds[6 * i + axis] > (*selection.box)[3 + axis];
+                const bool is_outside =
+                    bounds[6 * i + 3 + axis] < (*selection.box)[axis] || bounds[6 * i + axis] > (*selection.box)[3 + axis];
                 chosen[first + i] = chosen[first + i] && !is_outside;
             }
         }
     });
 }
 
-/** Points at which determinants are sampled: a lattice of the cube, moved into the shape. */
-std::vector<double> sample_points(elvis_shape shape) {
-    constexpr int n = 5;
-    std::vector<double> points;
-    for (int k = 0; k < n * n * n; ++k) {
-        const auto at = [](int i) { return -1 + 2.0 * i / (n - 1); };
-        double x = at(k % n), y = at(k / n % n);
-        const double z = at(k / n / n);
-        if (shape == ELVIS_SHAPE_PRISM || shape == ELVIS_SHAPE_PYRAMID) {
-            x = 0.5 * (1 + x) * (1 - z) - 1;
-        }
-        if (shape == ELVIS_SHAPE_PYRAMID || shape == ELVIS_SHAPE_TETRAHEDRON) {
-            y = 0.5 * (1 + y) * (1 - z) - 1;
-        }
-        if (shape == ELVIS_SHAPE_TETRAHEDRON) {
-            x = 0.5 * (1 + x) * (-y - z) - 1;
-        }
-        points.insert(points.end(), {x, y, z});
-    }
-    return points;
-}
-
 void keep_negative(const RuntimeVolume& volume, std::vector<bool>& chosen, const TaskControl* control) {
-    if (!volume.has_evaluation() || volume.dimension() == 2) {
+    if (!can_check_jacobians(volume)) {
         throw Error(volume.path(), "has no Jacobian determinants to choose elements by");
     }
-    std::vector<double> jacobians;
-    for (const ClassInfo& info : volume.classes()) {
-        const std::vector<double> points = sample_points(info.shape);
-        jacobians.resize(3 * points.size());
-        for (std::uint64_t element = info.first_element; element < info.first_element + info.n_elements; ++element) {
-            if (control && element % 1024 == 0) {
-                control->check();
-            }
-            if (!chosen[element]) {
-                continue;
-            }
-            volume.evaluate_mapping(element, points, {}, jacobians);
-            bool is_negative = false;
-            for (std::size_t k = 0; k < jacobians.size(); k += 9) {
-                const double* j = &jacobians[k];
-                const double determinant = j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) +
-                                           j[2] * (j[3] * j[7] - j[4] * j[6]);
-                is_negative = is_negative || determinant < 0;
-            }
-            chosen[element] = is_negative;
-        }
+    const JacobianReport report = check_jacobians(volume, default_jacobian_tolerance, control);
+    for (std::uint64_t element = 0; element < chosen.size(); ++element) {
+        chosen[element] = chosen[element] && report.signs[element] == ELVIS_JACOBIAN_NEGATIVE;
     }
 }
 
@@ -205,7 +171,8 @@ std::vector<ElementFace> faces_of_elements(const RuntimeVolume& volume, const El
             // Both sides have the same points; where the field does not jump, one is enough.
             const bool are_both = is_inner && selection.is_two_sided;
             if (is_own && is_wanted) {
-                result.push_back({static_cast<std::uint64_t>(face.element), static_cast<std::uint32_t>(face.local_face), are_both});
+                result.push_back(
+                    {static_cast<std::uint64_t>(face.element), static_cast<std::uint32_t>(face.local_face), are_both});
             }
             if (is_other && is_wanted && (!is_own || are_both)) {
                 result.push_back({static_cast<std::uint64_t>(face.neighbour),

@@ -4,10 +4,6 @@
  */
 #pragma once
 
-#include <core/base/cancel.hpp>
-#include <core/plugin_host/runtime_volume.hpp>
-#include <core/volume/element_faces.hpp>
-
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -15,6 +11,10 @@
 #include <vector>
 
 namespace elvis {
+
+class RuntimeVolume;
+struct TaskControl;
+struct ElementFace;
 
 /** Elements for which all conditions hold that are given; all elements if none is. */
 struct ElementSelection {
@@ -24,10 +24,11 @@ struct ElementSelection {
 
     /** First and last of each range of element numbers. */
     std::vector<std::array<std::uint64_t, 2>> numbers{};
-    std::vector<elvis_shape> shapes{};
+    /** ELVIS_SHAPE_... */
+    std::vector<std::uint32_t> shapes{};
     /** Least and largest order of `field`: of an element, the largest over its directions. */
     std::optional<std::array<std::int32_t, 2>> orders{};
-    /** The Jacobian determinant is negative somewhere, as far as samples tell. */
+    /** The Jacobian determinant is negative somewhere for sure (core/volume/jacobian_check.hpp). */
     bool has_negative_jacobian = false;
     /** The range of `field` in the element meets this one; whatever certainty the plugin's ranges have. */
     std::optional<std::array<double, 2>> value_range{};
