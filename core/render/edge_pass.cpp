@@ -225,7 +225,7 @@ void draw_edge(const View& view, const EdgeSet& edges, const EdgeSet::Edge& edge
 }
 
 template <class Real>
-void write(const View& view, const Canvas& canvas, double width, std::uint32_t surface, const Layer& layer,
+void write(const View& view, const Canvas& canvas, double width, double value, std::uint32_t surface, const Layer& layer,
            Precision precision) {
     std::vector<Sample<Real>> samples(layer.n_pixels());
     std::vector<Mark> marks(layer.n_pixels());
@@ -239,7 +239,8 @@ void write(const View& view, const Canvas& canvas, double width, std::uint32_t s
             view.direction(static_cast<std::uint32_t>(i % layer.width), static_cast<std::uint32_t>(i / layer.width));
         const double length = std::sqrt(dot(d, d));
         const double tolerance = EdgePass::depth_tolerance * std::max(1.0, width) * view.pixel_size(pixel.z);
-        samples[i] = {Real{0}, static_cast<Real>(length * std::max(pixel.z - tolerance, 0.5 * pixel.z)), pixel.number};
+        samples[i] = {static_cast<Real>(value), static_cast<Real>(length * std::max(pixel.z - tolerance, 0.5 * pixel.z)),
+                      pixel.number};
         marks[i] = {surface << 5u, pixel.flags};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             normals[3 * i + axis] = -d[axis] / length;
@@ -252,7 +253,7 @@ void write(const View& view, const Canvas& canvas, double width, std::uint32_t s
 
 } // namespace
 
-void EdgePass::draw(const EdgeSet& edges, const Camera& camera, double width, std::uint32_t surface,
+void EdgePass::draw(const EdgeSet& edges, const Camera& camera, double width, double value, std::uint32_t surface,
                     const LayerTarget& target) const {
     const Layer& layer = target.layer;
     const View view(camera, layer.width, layer.height);
@@ -263,9 +264,9 @@ void EdgePass::draw(const EdgeSet& edges, const Camera& camera, double width, st
         draw_edge(view, edges, edge, slope, canvas);
     }
     if (m_precision == Precision::float64) {
-        write<double>(view, canvas, width, surface, layer, m_precision);
+        write<double>(view, canvas, width, value, surface, layer, m_precision);
     } else {
-        write<float>(view, canvas, width, surface, layer, m_precision);
+        write<float>(view, canvas, width, value, surface, layer, m_precision);
     }
 }
 

@@ -26,11 +26,12 @@ public:
     explicit EdgePass(Precision precision) : m_precision(precision) {}
 
     /**
-     * Value 0, the number of an element at the edge, a depth in the edge less the tolerance, a normal towards the viewer.
+     * The given value, the number of an element at the edge, a depth in the edge less the tolerance, a normal towards the viewer.
      * Flags: mesh_line where the pixel's closed square meets an edge, mesh_line_undecided where that is within the chords'
      * error. `width`: see WireFrame.
      */
-    void draw(const EdgeSet& edges, const Camera& camera, double width, std::uint32_t surface, const LayerTarget& target) const;
+    void draw(const EdgeSet& edges, const Camera& camera, double width, double value, std::uint32_t surface,
+              const LayerTarget& target) const;
 
 private:
     Precision m_precision;

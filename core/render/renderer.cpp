@@ -231,7 +231,8 @@ void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& 
     } else {
         face_pass(*face_geometry(surface));
     }
-    if (surface.has_lines() && !std::holds_alternative<CutPlane>(surface.geometry)) {
+    if (surface.has_lines() && !std::holds_alternative<CutPlane>(surface.geometry) &&
+        !std::holds_alternative<WireFrame>(surface.geometry)) {
         line_pass(!std::holds_alternative<CutShape>(surface.geometry));
     }
     times.compile_milliseconds += milliseconds_since(start);
@@ -305,7 +306,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
         if (!edge_pass) {
             edge_pass.emplace(precision);
         }
-        edge_pass->draw(edge_set(wires->faces), request.camera, wires->width, first, target);
+        edge_pass->draw(edge_set(wires->faces), request.camera, wires->width, -offset_of(surface), first, target);
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
         if (surface.has_lines()) {

@@ -5,7 +5,9 @@
 
 #include <core/base/error.hpp>
 #include <core/render/renderer.hpp>
+#include <core/volume/element_faces.hpp>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -28,6 +30,7 @@ FrameRequest request_for(const SurfaceGeometry& geometry, const Vector3& eye, st
     Surface surface;
     surface.geometry = geometry;
     surface.colors.points = {{0, {0, 0, 0}}};
+    surface.colors.below = surface.colors.above = {0, 0, 0, 1};
     request.surfaces = {surface};
     return request;
 }
@@ -182,6 +185,7 @@ TEST_CASE("edges behind a surface are hidden, those in it are not") {
     Surface wires = request.surfaces[0];
     wires.geometry = WireFrame{};
     wires.colors.points = {{0, {1, 0, 0}}};
+    wires.colors.below = wires.colors.above = {1, 0, 0, 1};
     Renderer renderer(device(), volume, Precision::float32);
     const Frame faces = renderer.render(request);
     request.surfaces.push_back(wires);
