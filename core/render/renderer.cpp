@@ -2,6 +2,7 @@
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/cut_plane_pass.hpp>
 #include <core/render/device_time.hpp>
+#include <core/render/edge_pass.hpp>
 #include <core/render/face_pass.hpp>
 #include <core/render/layer.hpp>
 #include <core/render/line_pass.hpp>
@@ -44,7 +45,7 @@ struct SurfaceFacts {
 };
 
 /** The geometries that are sets of faces. */
-using FaceGeometry = std::variant<BoundaryFaces, FlatElements>;
+using FaceGeometry = std::variant<BoundaryFaces, FlatElements, ElementFaces>;
 
 std::optional<FaceGeometry> face_geometry(const Surface& surface) {
     return std::visit(
@@ -83,7 +84,9 @@ struct Renderer::Impl {
     ShownFields fields;
     /** Of the geometry that has this version. */
     std::map<FaceGeometry, FaceSet> face_sets;
+    std::map<FaceGeometry, EdgeSet> edge_sets;
     std::uint64_t faces_version = 0;
+    std::optional<EdgePass> edge_pass;
     /** By what they show: ShownFields::key. Those of the last frame, and of its time step. */
     std::map<std::string, FieldPasses> passes;
     /** Of the selected field. */
@@ -107,8 +110,10 @@ struct Renderer::Impl {
     void check(const FrameRequest& request) const;
     void provide_passes(const FrameRequest& request, const Surface& surface);
     CutPlanePass& cut_plane_pass(bool with_lines);
+    void follow_geometry();
     FacePass& face_pass(const FaceGeometry& faces);
     LinePass& line_pass(bool on_faces);
+    const EdgeSet& edge_set(const FaceGeometry& faces);
     std::vector<ElementFace> chosen_faces(const FaceGeometry& faces) const;
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
                       std::vector<SurfaceFacts>& facts);
@@ -131,7 +136,12 @@ void Renderer::Impl::check(const FrameRequest& request) const {
         throw Error("picture", "has nothing to show");
     }
     for (const Surface& surface : request.surfaces) {
-        if (is_flat() != std::holds_alternative<FlatElements>(surface.geometry)) {
+        const auto* wires = std::get_if<WireFrame>(&surface.geometry);
+        const bool fits_both = std::holds_alternative<ElementFaces>(surface.geometry) ||
+                               (wires && std::holds_alternative<ElementFaces>(wires->faces));
+        const bool is_for_flat = std::holds_alternative<FlatElements>(surface.geometry) ||
+                                 (wires && std::holds_alternative<FlatElements>(wires->faces));
+        if (!fits_both && is_flat() != is_for_flat) {
             throw Error(volume.path(), is_flat() ? "is two-dimensional: it is drawn as a surface, without planes or boundary"
                                                  : "is no surface: planes through it or its boundary can be drawn");
         }
@@ -159,14 +169,29 @@ LinePass& Renderer::Impl::line_pass(bool on_faces) {
     return *pass;
 }
 
-FacePass& Renderer::Impl::face_pass(const FaceGeometry& faces) {
+/** Drops what belongs to another shape of the elements. */
+void Renderer::Impl::follow_geometry() {
     if (data.geometry_version() != faces_version) {
         for (auto& [key, of_field] : passes) {
             of_field.faces.clear();
         }
         face_sets.clear();
+        edge_sets.clear();
         faces_version = data.geometry_version();
     }
+}
+
+const EdgeSet& Renderer::Impl::edge_set(const FaceGeometry& faces) {
+    follow_geometry();
+    auto found = edge_sets.find(faces);
+    if (found == edge_sets.end()) {
+        found = edge_sets.try_emplace(faces, device, volume, data, chosen_faces(faces), control).first;
+    }
+    return found->second;
+}
+
+FacePass& Renderer::Impl::face_pass(const FaceGeometry& faces) {
+    follow_geometry();
     auto found = current->faces.find(faces);
     if (found == current->faces.end()) {
         auto set = face_sets.find(faces);
@@ -181,6 +206,9 @@ FacePass& Renderer::Impl::face_pass(const FaceGeometry& faces) {
 std::vector<ElementFace> Renderer::Impl::chosen_faces(const FaceGeometry& faces) const {
     if (const auto* boundary = std::get_if<BoundaryFaces>(&faces)) {
         return boundary_faces(volume, boundary->groups, control);
+    }
+    if (const auto* elements = std::get_if<ElementFaces>(&faces)) {
+        return faces_of_elements(volume, elements->selection, control);
     }
     return surface_elements(volume);
 }
@@ -198,10 +226,13 @@ void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& 
             current->cut_shapes.emplace(device, volume, data);
         }
         solvers.try_emplace(solver_key(*shape), device, precision, *shape);
+    } else if (const auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
+        edge_set(wires->faces);
     } else {
         face_pass(*face_geometry(surface));
     }
-    if (surface.has_lines() && !std::holds_alternative<CutPlane>(surface.geometry)) {
+    if (surface.has_lines() && !std::holds_alternative<CutPlane>(surface.geometry) &&
+        !std::holds_alternative<WireFrame>(surface.geometry)) {
         line_pass(!std::holds_alternative<CutShape>(surface.geometry));
     }
     times.compile_milliseconds += milliseconds_since(start);
@@ -272,6 +303,11 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
         if (surface.has_lines()) {
             line_pass(false).draw(rays, component, lines, &current->cut_shapes->bending(), target, counts);
         }
+    } else if (const auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
+        if (!edge_pass) {
+            edge_pass.emplace(precision);
+        }
+        edge_pass->draw(edge_set(wires->faces), request.camera, wires->width, -offset_of(surface), first, target);
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
         if (surface.has_lines()) {
@@ -297,8 +333,8 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
                         is_lit(request, surface) ? &*request.lighting : nullptr);
         n_wanted =
             is_alone ? 0 : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane, surface.is_see_through());
-        // A plane is met once.
-        n_wanted = is_plane ? 0 : n_wanted;
+        // A plane is met once, and what edges hide of others is nothing.
+        n_wanted = is_plane || std::holds_alternative<WireFrame>(surface.geometry) ? 0 : n_wanted;
         beyond = &merge_pass.beyond();
     }
     frame.counts.work_limit_pixels += n_wanted;

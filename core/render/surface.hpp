@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/surface/shape.hpp>
+#include <core/volume/element_selection.hpp>
 
 #include <array>
 #include <compare>
@@ -62,7 +63,21 @@ struct FlatElements {
     auto operator<=>(const FlatElements&) const = default;
 };
 
-using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements, CutShape>;
+/** Faces of chosen elements. */
+struct ElementFaces {
+    ElementSelection selection{};
+
+    auto operator<=>(const ElementFaces&) const = default;
+};
+
+/** Edges of faces, as lines on the picture. They have no field: their colour is the map's for the value 0. */
+struct WireFrame {
+    std::variant<BoundaryFaces, FlatElements, ElementFaces> faces{};
+    /** In pixels. 1: the pixels whose closed square meets an edge; else those with their centre within half of it. */
+    double width = 1;
+};
+
+using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements, ElementFaces, WireFrame, CutShape>;
 
 /** How lines on a surface are drawn. */
 struct LineStyle {

@@ -62,10 +62,32 @@ std::optional<MeshLines> mesh_lines_of(const std::optional<SceneLineStyle>& scen
     return lines;
 }
 
+/** Conditions on values and orders are about the field drawn. */
+void complete(ElementSelection& selection, const FieldChoice& field, const Scene& scene, const RuntimeVolume& volume) {
+    if (field.expression && (selection.value_range || selection.orders)) {
+        throw Error(scene.volume, "elements can be chosen by the values and order of a field, not of an expression");
+    }
+    selection.field = field.field;
+    selection.component = field.component;
+    selection.time_step = selection.value_range ? scene.time_step : 0;
+    selection.is_two_sided = field.expression || volume.fields()[field.field].continuity != ELVIS_CONTINUITY_CONTINUOUS;
+}
+
 Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
     Surface surface;
     surface.geometry = own.geometry;
     surface.field = choose_field(volume, own.field ? own.field : scene.field);
+    if (auto* elements = std::get_if<ElementFaces>(&surface.geometry)) {
+        complete(elements->selection, surface.field, scene, volume);
+    }
+    if (auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
+        if (auto* elements = std::get_if<ElementFaces>(&wires->faces)) {
+            complete(elements->selection, surface.field, scene, volume);
+        }
+        if (volume.dimension() == 2 && std::holds_alternative<BoundaryFaces>(wires->faces)) {
+            wires->faces = FlatElements{};
+        }
+    }
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
     std::array<double, 2> range{};
     if (map.range) {
@@ -75,8 +97,10 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
         range = {of_field.lower, of_field.upper};
     }
     surface.colors = make_color_table(map, range);
-    surface.contours = contours_of(own.contours ? own.contours : scene.contours, range);
-    surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
+    if (!std::holds_alternative<WireFrame>(surface.geometry)) {
+        surface.contours = contours_of(own.contours ? own.contours : scene.contours, range);
+        surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
+    }
     surface.subdivisions = scene.subdivisions;
     surface.clip = own.clip;
     surface.opacity = own.opacity;

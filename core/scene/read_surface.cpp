@@ -85,6 +85,16 @@ SceneSurface read_surface(const JsonObject& object, const std::string& scene) {
         surface.geometry = read_plane(object);
     } else if (type == "boundary") {
         surface.geometry = read_boundary(object);
+    } else if (type == "elements") {
+        surface.geometry = ElementFaces{read_selection(object)};
+    } else if (type == "wireframe") {
+        surface.geometry = read_wireframe(object);
+        const Rgb color = object.has("color") ? fixed<3>(object.numbers("color")) : Rgb{0, 0, 0};
+        surface.color_map.emplace();
+        surface.color_map->points = {{0, color}};
+        surface.color_map->below = surface.color_map->above = surface.color_map->nan = color;
+        surface.color_map->range = {0.0, 1.0};
+        surface.is_lit = false;
     } else {
         surface.geometry = read_shape(object, type, scene);
     }

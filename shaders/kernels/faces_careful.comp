@@ -8,7 +8,8 @@
 //
 // for g across one of the tangents or towards the square's middle. The linear part, seen along the ray, changes by the share
 // L = 2 |rows| . q within the square; below one half there is one crossing at most. A square whose remainder is below the rounding of
-// positions, and for which neither is known, is touched within rounding: the pixel is flagged, and the patch not taken as met there.
+// positions, and for which neither is known, is touched within rounding: the pixel is flagged as undecided, and the patch not taken as
+// met there.
 
 layout(local_size_x = 32) in;
 
@@ -42,7 +43,7 @@ void main() {
     core_nearest nearest = core_nothing_yet();
     uint stack[CORE_STACK_SIZE];
     uint squares[CORE_SQUARES];
-    uint stack_size = 0u, n_squares = 0u, entry = 0u, work = 0u, steps = 0u, n_steps = 0u, n_failures = 0u;
+    uint stack_size = 0u, n_squares = 0u, entry = 0u, work = 0u, steps = 0u, n_steps = 0u;
     // The patch, and the square of it that is looked at: level, column, row.
     uint patch_index = CORE_NO_FACE, face = 0u, square_word = 0u, square = 0u;
     bool is_polishing = false;
@@ -129,8 +130,6 @@ void main() {
         const bool is_single = l < elvis_real(0.5LF);
         const elvis_real largest_q = max(max(q.x, q.y), q.z), largest_noise = max(max(noise.x, noise.y), noise.z);
         const bool is_rounding = largest_q <= elvis_real(0.25LF) * largest_noise || level == CORE_MAX_LEVEL;
-        const bool is_touching = is_square && !is_excluded && !is_single && is_rounding;
-        touched_t = is_touching ? min(touched_t, t_middle - t_reach) : touched_t;
 
         // Newton's method, from the middle of the square.
         const bool begins = is_square && !is_excluded && is_single;
@@ -148,7 +147,8 @@ void main() {
         const bool has_missed = s.is_regular && max(outside, above) > elvis_real(2) * (left + elvis_real(2) * s.error);
         // A crossing beyond the square's edge keeps it from either; it is farther beyond that of a part.
         const bool has_stalled = is_polishing && !has_converged && !has_missed && steps == CORE_STEPS;
-        n_failures += has_stalled && is_rounding ? 1u : 0u;
+        const bool is_touching = is_rounding && (has_stalled || (is_square && !is_excluded && !is_single));
+        touched_t = is_touching ? min(touched_t, t_middle - t_reach) : touched_t;
         const bool splits = (has_stalled || (is_square && !is_excluded && !is_single)) && !is_rounding;
         const bool is_hit = is_polishing && has_converged && max(outside, above) <= elvis_real(2) * s.error && s.t > ray.least_t + ray.widths_behind * s.width;
         const elvis_real excess = core_face_excess(new_u, new_v, square_word);
@@ -169,12 +169,11 @@ void main() {
     }
 
     core_location found = core_location_of(nearest, n_steps);
-    found.n_failures = n_failures;
     found.is_cut_short = n_squares > 0u || is_polishing || stack_size > 0u || entry < n_entries || core_has_driver_given_up(core_surface >> 31);
     const bool has_found = found.element != CORE_NO_ELEMENT;
     const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
     uint n_evaluations = 0u;
-    for (uint turn = 0u; turn < (is_pixel && (has_found || n_failures > 0u || found.is_cut_short) ? 1u : 0u); ++turn) {
+    for (uint turn = 0u; turn < (is_pixel && (has_found || found.is_cut_short) ? 1u : 0u); ++turn) {
         n_evaluations = core_show(pixel, ray, nearest, found, value);
     }
     for (uint turn = 0u; turn < (is_pixel && touched_t <= nearest.t + nearest.slack ? 1u : 0u); ++turn) {
@@ -182,10 +181,8 @@ void main() {
     }
     const uint all_evaluations = subgroupAdd(n_evaluations);
     const uint all_steps = subgroupAdd(n_steps);
-    const uint all_failures = subgroupAdd(n_failures);
     if (subgroupElect()) {
         atomicAdd(core_counts[0], all_evaluations);
         atomicAdd(core_counts[1], all_steps);
-        atomicAdd(core_counts[2], all_failures);
     }
 }
