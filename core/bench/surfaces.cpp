@@ -4,8 +4,10 @@
 #include <core/bench/plot.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
 
 namespace elvis {
 
@@ -20,6 +22,26 @@ Contours ten_contours() {
         contours.values.push_back(-1.35 + 0.3 * i);
     }
     return contours;
+}
+
+/** Nine bicubic patches across the volume, wavy in the third direction. */
+CutShape wavy_patches() {
+    constexpr std::size_t n_patches_a_side = 3;
+    auto mesh = std::make_shared<PatchMesh>();
+    for (std::size_t patch = 0; patch < n_patches_a_side * n_patches_a_side; ++patch) {
+        BezierPatch bezier;
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = 0; j < 4; ++j) {
+                const auto coordinate = [](std::size_t of_patch, std::size_t of_point) {
+                    return -1 + 2 * static_cast<double>(3 * of_patch + of_point) / (3 * n_patches_a_side);
+                };
+                const double x = coordinate(patch % n_patches_a_side, i), y = coordinate(patch / n_patches_a_side, j);
+                bezier.points[4 * i + j] = {x, y, 0.4 * std::sin(2.5 * x) * std::cos(2 * y)};
+            }
+        }
+        mesh->patches.push_back(bezier);
+    }
+    return BezierSurface{mesh};
 }
 
 /** The kinds of surface that are compared; all seen from the same eye, all across the volume. */
@@ -39,6 +61,7 @@ std::vector<std::pair<std::string, FrameRequest>> kinds(std::uint32_t size) {
             {"plane, mesh lines", mesh_lines},
             {"cylinder", with(CutShape(Cylinder{{0, 0, -0.9}, {0, 0, 0.9}, 0.8, true}))},
             {"torus", with(CutShape(Torus{{0, 0, 0}, {0, 0, 1}, 0.6, 0.3}))},
+            {"Bezier patches", with(wavy_patches())},
             {"boundary", waves_boundary(size)}};
 }
 

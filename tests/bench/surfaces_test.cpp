@@ -41,7 +41,7 @@ TEST_CASE("the suite of surfaces measures what it says and writes it down") {
         }
     }
     CHECK(series == std::set<std::string>{"subdivisions", "size", "order", "elements"});
-    CHECK(surfaces.size() == 6);
+    CHECK(surfaces.size() == 7);
 
     const std::filesystem::path output = folder.path() / "plots";
     write_surfaces(output, rows);
