@@ -105,6 +105,7 @@ nlohmann::ordered_json run_surfaces(const Arguments& arguments, const Device& de
                         {"order", row.order},
                         {"size", row.size},
                         {"subdivisions", row.subdivisions},
+                        {"precision", row.precision == Precision::float64 ? "float64" : "float32"},
                         {"milliseconds", row.milliseconds},
                         {"wall_milliseconds", row.wall_milliseconds},
                         {"units", row.units},
@@ -116,12 +117,13 @@ nlohmann::ordered_json run_surfaces(const Arguments& arguments, const Device& de
                         {"hierarchy_bytes", row.memory.hierarchy_bytes},
                         {"device_bytes", row.device_bytes}});
         if (!arguments.json) {
-            std::printf("by %-12s %-18s %6llu elements p%-2u %4u^2 limit %u  %8.1f ms %9.3g U  %6.1f MB  %7llu contour pixels, "
-                        "%llu undecided\n",
-                        row.series.c_str(), row.surface.c_str(), static_cast<unsigned long long>(row.n_elements), row.order,
-                        row.size, row.subdivisions, row.milliseconds, row.units, 1e-6 * static_cast<double>(row.device_bytes),
-                        static_cast<unsigned long long>(row.contour_pixels),
-                        static_cast<unsigned long long>(row.undecided_pixels));
+            std::printf(
+                "by %-12s %-18s %6llu elements p%-2u %4u^2 limit %u %s  %8.1f ms %9.3g U  %6.1f MB  %7llu contour pixels, "
+                "%llu undecided\n",
+                row.series.c_str(), row.surface.c_str(), static_cast<unsigned long long>(row.n_elements), row.order, row.size,
+                row.subdivisions, row.precision == Precision::float64 ? "float64" : "float32", row.milliseconds, row.units,
+                1e-6 * static_cast<double>(row.device_bytes), static_cast<unsigned long long>(row.contour_pixels),
+                static_cast<unsigned long long>(row.undecided_pixels));
             std::fflush(stdout);
         }
     };

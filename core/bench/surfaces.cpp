@@ -72,17 +72,12 @@ public:
         : m_device(device), m_registry(registry), m_folder(folder), m_options(options), m_unit(unit_nanoseconds),
           m_report(report) {}
 
+    /** In double precision for one order, too: what single precision leaves undecided at every limit is its rounding. */
     void vary_subdivisions() {
         for (const std::uint32_t order : m_options.contour_orders) {
-            const RuntimeVolume volume = waves_volume(m_registry, m_folder, m_options.elements_a_side, order);
-            Renderer renderer(m_device, volume, Precision::float32);
-            FrameRequest request = waves_cut_plane(m_options.size);
-            request.surfaces[0].contours = ten_contours();
-            for (std::uint32_t subdivisions = 0; subdivisions <= m_options.most_subdivisions; ++subdivisions) {
-                request.surfaces[0].subdivisions = subdivisions;
-                measure("subdivisions", "plane, 10 contours", renderer, volume, order, request);
-            }
+            vary_subdivisions(order, Precision::float32);
         }
+        vary_subdivisions(m_options.contour_orders.back(), Precision::float64);
     }
 
     void vary_size() {
@@ -107,6 +102,17 @@ public:
     std::vector<SurfacesRow> rows;
 
 private:
+    void vary_subdivisions(std::uint32_t order, Precision precision) {
+        const RuntimeVolume volume = waves_volume(m_registry, m_folder, m_options.elements_a_side, order);
+        Renderer renderer(m_device, volume, precision);
+        FrameRequest request = waves_cut_plane(m_options.size);
+        request.surfaces[0].contours = ten_contours();
+        for (std::uint32_t subdivisions = 0; subdivisions <= m_options.most_subdivisions; ++subdivisions) {
+            request.surfaces[0].subdivisions = subdivisions;
+            measure("subdivisions", "plane, 10 contours", renderer, volume, order, request, precision);
+        }
+    }
+
     /** Each with a renderer of its own, so that memory is what the one kind takes. */
     void draw_kinds(const std::string& series, const RuntimeVolume& volume, std::uint32_t order, std::uint32_t size) {
         for (const auto& [name, request] : kinds(size)) {
@@ -116,8 +122,9 @@ private:
     }
 
     void measure(const std::string& series, const std::string& surface, Renderer& renderer, const RuntimeVolume& volume,
-                 std::uint32_t order, const FrameRequest& request) {
+                 std::uint32_t order, const FrameRequest& request, Precision precision = Precision::float32) {
         SurfacesRow row;
+        row.precision = precision;
         row.series = series;
         row.surface = surface;
         row.n_elements = volume.n_elements();
@@ -151,13 +158,15 @@ private:
 
 void write_csv(const std::filesystem::path& path, const std::vector<SurfacesRow>& rows) {
     std::ofstream file(path);
-    file << "series,surface,elements,order,size,subdivisions,milliseconds,wall_milliseconds,units,hit_pixels,contour_pixels,"
+    file << "series,surface,elements,order,size,subdivisions,precision,milliseconds,wall_milliseconds,units,hit_pixels,contour_"
+            "pixels,"
             "undecided_contour_pixels,field_bytes,geometry_bytes,hierarchy_bytes,device_bytes\n";
     for (const SurfacesRow& row : rows) {
         file << row.series << ",\"" << row.surface << "\"," << row.n_elements << ',' << row.order << ',' << row.size << ','
-             << row.subdivisions << ',' << row.milliseconds << ',' << row.wall_milliseconds << ',' << row.units << ','
-             << row.hit_pixels << ',' << row.contour_pixels << ',' << row.undecided_pixels << ',' << row.memory.field_bytes
-             << ',' << row.memory.geometry_bytes << ',' << row.memory.hierarchy_bytes << ',' << row.device_bytes << '\n';
+             << row.subdivisions << ',' << (row.precision == Precision::float64 ? "float64" : "float32") << ','
+             << row.milliseconds << ',' << row.wall_milliseconds << ',' << row.units << ',' << row.hit_pixels << ','
+             << row.contour_pixels << ',' << row.undecided_pixels << ',' << row.memory.field_bytes << ','
+             << row.memory.geometry_bytes << ',' << row.memory.hierarchy_bytes << ',' << row.device_bytes << '\n';
     }
     file.close();
     if (!file) {
@@ -240,7 +249,8 @@ void write_surfaces(const std::filesystem::path& folder, const std::vector<Surfa
     SeriesByName undecided, subdivision_time;
     for (const SurfacesRow& row : rows) {
         if (row.series == "subdivisions") {
-            const std::string name = "order " + std::to_string(row.order);
+            const std::string name =
+                "order " + std::to_string(row.order) + (row.precision == Precision::float64 ? ", float64" : "");
             undecided.add(name, row.subdivisions, static_cast<double>(row.undecided_pixels));
             subdivision_time.add(name, row.subdivisions, row.units);
         }

@@ -39,6 +39,7 @@ struct SurfacesRow {
     std::uint32_t order = 0;
     std::uint32_t size = 0;
     std::uint32_t subdivisions = 0;
+    Precision precision = Precision::float32;
     /** Least of the runs; see bench.hpp. */
     double milliseconds = 0;
     double wall_milliseconds = 0;
