@@ -2,6 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/bench/bench.hpp>
+#include <core/bench/surfaces.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +20,10 @@ struct Arguments {
     std::vector<std::uint32_t> elements{16, 32};
     std::vector<std::uint32_t> orders{3, 6, 8};
     std::vector<std::uint32_t> sizes{512, 1024};
+    /** Which of these the user has named, for the suite that has other defaults. */
+    bool names_elements = false, names_orders = false, names_sizes = false;
     std::uint64_t n_jacobians = 1000000;
+    std::string output;
     bool json = false;
 };
 
@@ -78,6 +82,58 @@ nlohmann::ordered_json run_jacobian(const Arguments& arguments) {
     return list;
 }
 
+nlohmann::ordered_json run_surfaces(const Arguments& arguments, const Device& device, const PluginRegistry& registry,
+                                    const BenchFolder& folder, double unit) {
+    SurfacesOptions options;
+    if (arguments.names_elements) {
+        options.elements = arguments.elements;
+        options.elements_a_side = arguments.elements.front();
+    }
+    if (arguments.names_orders) {
+        options.orders = options.contour_orders = arguments.orders;
+        options.order = arguments.orders.front();
+    }
+    if (arguments.names_sizes) {
+        options.sizes = arguments.sizes;
+        options.size = arguments.sizes.front();
+    }
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    const auto report = [&](const SurfacesRow& row) {
+        list.push_back({{"series", row.series},
+                        {"surface", row.surface},
+                        {"n_elements", row.n_elements},
+                        {"order", row.order},
+                        {"size", row.size},
+                        {"subdivisions", row.subdivisions},
+                        {"precision", row.precision == Precision::float64 ? "float64" : "float32"},
+                        {"milliseconds", row.milliseconds},
+                        {"wall_milliseconds", row.wall_milliseconds},
+                        {"units", row.units},
+                        {"hit_pixels", row.hit_pixels},
+                        {"contour_pixels", row.contour_pixels},
+                        {"undecided_contour_pixels", row.undecided_pixels},
+                        {"field_bytes", row.memory.field_bytes},
+                        {"geometry_bytes", row.memory.geometry_bytes},
+                        {"hierarchy_bytes", row.memory.hierarchy_bytes},
+                        {"device_bytes", row.device_bytes}});
+        if (!arguments.json) {
+            std::printf(
+                "by %-12s %-18s %6llu elements p%-2u %4u^2 limit %u %s  %8.1f ms %9.3g U  %6.1f MB  %7llu contour pixels, "
+                "%llu undecided\n",
+                row.series.c_str(), row.surface.c_str(), static_cast<unsigned long long>(row.n_elements), row.order, row.size,
+                row.subdivisions, row.precision == Precision::float64 ? "float64" : "float32", row.milliseconds, row.units,
+                1e-6 * static_cast<double>(row.device_bytes), static_cast<unsigned long long>(row.contour_pixels),
+                static_cast<unsigned long long>(row.undecided_pixels));
+            std::fflush(stdout);
+        }
+    };
+    const std::vector<SurfacesRow> rows = bench_surfaces(device, registry, folder, options, unit, report);
+    if (!arguments.output.empty()) {
+        write_surfaces(arguments.output, rows);
+    }
+    return list;
+}
+
 void run(const Arguments& arguments) {
     nlohmann::ordered_json root;
     const bool all = arguments.suite == "all";
@@ -96,7 +152,8 @@ void run(const Arguments& arguments) {
     if (all || arguments.suite == "jacobian") {
         root["jacobian"] = run_jacobian(arguments);
     }
-    if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary") {
+    if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary" ||
+        arguments.suite == "surfaces") {
         const PluginRegistry registry;
         const BenchFolder folder(arguments.data);
         const Device device(arguments.device);
@@ -125,6 +182,10 @@ void run(const Arguments& arguments) {
         };
         measure(BenchView::cut_plane, "cut-plane", "cut_plane");
         measure(BenchView::boundary, "boundary", "boundary");
+        // Minutes, and no part of "all".
+        if (arguments.suite == "surfaces") {
+            root["surfaces"] = run_surfaces(arguments, device, registry, folder, unit);
+        }
     }
     if (arguments.json) {
         std::printf("%s\n", root.dump(2).c_str());
@@ -136,8 +197,8 @@ void run(const Arguments& arguments) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure speed and memory on scenes that anyone can repeat");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("suite", arguments->suite, "unit, cut-plane, boundary, hierarchy, jacobian or all")
-        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "jacobian", "all"}))
+    command->add_option("suite", arguments->suite, "unit, cut-plane, boundary, hierarchy, jacobian, all of these, or surfaces")
+        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "jacobian", "surfaces", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
@@ -146,7 +207,13 @@ void add_bench(CLI::App& app) {
     command->add_option("--sizes", arguments->sizes, "Sides of the picture in pixels")->delimiter(',');
     command->add_option("--jacobians", arguments->n_jacobians, "Elements of the suite jacobian")->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->callback([arguments] { run(*arguments); });
+    command->add_option("--output", arguments->output, "Folder for the CSV file and the plots of the suite surfaces");
+    command->callback([arguments, command] {
+        arguments->names_elements = command->count("--elements") > 0;
+        arguments->names_orders = command->count("--orders") > 0;
+        arguments->names_sizes = command->count("--sizes") > 0;
+        run(*arguments);
+    });
 }
 
 } // namespace elvis::commands

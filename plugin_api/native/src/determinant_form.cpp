@@ -64,4 +64,19 @@ DeterminantForm::DeterminantForm(const std::array<DerivativeForms::Column, 3>& c
     m_gamma = n_roundings * unit / (1 - n_roundings * unit) * (1 + 100 * unit);
 }
 
+double permanent(const std::array<double, 9>& m) {
+    return m[0] * (m[4] * m[8] + m[5] * m[7]) + m[1] * (m[3] * m[8] + m[5] * m[6]) + m[2] * (m[3] * m[7] + m[4] * m[6]);
+}
+
+double determinant_error(const std::array<double, 9>& magnitudes, const std::array<double, 9>& errors, double gamma) {
+    double bound = gamma * permanent(magnitudes);
+    for (std::size_t j = 0; j < 9; j += 3) {
+        std::array<double, 9> part = magnitudes;
+        for (std::size_t i = j; i < j + 3; ++i)
+            part[i] = errors[i];
+        bound += permanent(part);
+    }
+    return bound * (1 + 50 * std::numeric_limits<double>::epsilon());
+}
+
 } // namespace elvis::native

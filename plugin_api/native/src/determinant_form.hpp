@@ -52,6 +52,17 @@ private:
     double m_gamma = 0;
 };
 
+/** The determinant of the magnitudes with plus signs throughout; of a matrix by columns or by rows. */
+double permanent(const std::array<double, 9>& m);
+
+/**
+ * Bound of |det (A + dA) - fl(det A)| from magnitudes |A| + |dA| and errors |dA|, entry 3 j + i being component i of column j;
+ * gamma as in Higham for the roundings of a product of three. |prod (a + da) - prod a| <= prod (|a| + |da|) - prod |a|, which
+ * is summed over the six products without cancellation. With the largest magnitudes of the coefficients of forms, it bounds the
+ * errors of the product's coefficients.
+ */
+double determinant_error(const std::array<double, 9>& magnitudes, const std::array<double, 9>& errors, double gamma);
+
 template <std::size_t lanes>
 [[gnu::always_inline]] inline void DeterminantForm::evaluate(const std::array<const double*, 9>& columns, double* workspace,
                                                              double* result) const {

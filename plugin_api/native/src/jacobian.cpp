@@ -54,32 +54,12 @@ ELVIS_NATIVE_CLONES void evaluate_determinant(const DeterminantForm& form, const
     form.evaluate<lanes>(columns, workspace, result);
 }
 
-double permanent(const std::array<double, 9>& m) {
-    return m[0] * (m[4] * m[8] + m[5] * m[7]) + m[1] * (m[3] * m[8] + m[5] * m[6]) + m[2] * (m[3] * m[7] + m[4] * m[6]);
-}
-
 /** Of a matrix by columns or by rows. */
 double determinant(const std::array<double, 9>& m) {
     return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 /** Five roundings a term, and some for the bound. */
 constexpr double determinant_gamma = 8 * unit;
-
-/**
- * Bound of |det (A + dA) - fl(det A)| from magnitudes |A| + |dA| and errors |dA|, entry 3 j + i being component i of column j;
- * gamma as in Higham for the roundings of a product of three. |prod (a + da) - prod a| <= prod (|a| + |da|) - prod |a|, which
- * is summed over the six products without cancellation.
- */
-double determinant_error(const std::array<double, 9>& magnitudes, const std::array<double, 9>& errors, double gamma) {
-    double bound = gamma * permanent(magnitudes);
-    for (std::size_t j = 0; j < 9; j += 3) {
-        std::array<double, 9> part = magnitudes;
-        for (std::size_t i = j; i < j + 3; ++i)
-            part[i] = errors[i];
-        bound += permanent(part);
-    }
-    return bound * (1 + 100 * unit);
-}
 
 /** Modes that add up to 1 where each has the coefficient 1. */
 std::vector<std::size_t> modes_of_one(const Space& space) {
