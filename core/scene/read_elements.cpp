@@ -75,7 +75,7 @@ ElementSelection read_selection(const JsonObject& object) {
         const auto orders = read_interval(object, "orders");
         selection.orders = {static_cast<std::int32_t>(orders[0]), static_cast<std::int32_t>(orders[1])};
     }
-    selection.has_negative_jacobian = object.has("negative_jacobian") && object.truth("negative_jacobian");
+    selection.has_negative_jacobian = object.has("negative_jacobian") && object.flag("negative_jacobian");
     if (object.has("value_range")) {
         selection.value_range = read_interval(object, "value_range");
     }
