@@ -43,7 +43,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 // Turns of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
 #define CORE_WORK_LIMIT 2000u
 // Times the mapping is linearized anew nearer to a cell before the cell is judged.
-#define CORE_MAX_MOVES 4u
+#define CORE_MAX_MOVES 8u
 
 void main() {
     const uint i = core_first + gl_GlobalInvocationID.x;
@@ -183,10 +183,15 @@ void main() {
             const elvis_vec3 left = origin + next.position;
             const elvis_vec3 step = elvis_vec3(dot(cell.row0, left), dot(cell.row1, left), dot(cell.row2, left));
             const bool is_usable = next.is_hit && core_is_finite(step.x + step.y + step.z);
-            x += is_usable ? clamp(step.x, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            y += is_usable ? clamp(step.y, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            z += is_usable ? clamp(step.z, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            core_project(x, y, z);
+            elvis_real next_x = x + (is_usable ? clamp(step.x, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            elvis_real next_y = y + (is_usable ? clamp(step.y, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            elvis_real next_z = z + (is_usable ? clamp(step.z, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            core_project(next_x, next_y, next_z);
+            // Whole steps may go to and fro between points of a strongly curved element.
+            const elvis_real share = moves > CORE_MAX_MOVES / 2u ? elvis_real(0.5LF) : elvis_real(1);
+            x += share * (next_x - x);
+            y += share * (next_y - y);
+            z += share * (next_z - z);
         }
     }
     const bool is_cut_short = (goes_on && work >= CORE_WORK_LIMIT) || core_has_driver_given_up(core_width >> 31);

@@ -15,6 +15,7 @@ layout(local_size_x = 32) in;
 #include "library/samples.glsl"
 #include "library/tangent_square.glsl"
 #include "library/hierarchy.glsl"
+#include "library/linearization.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
@@ -43,7 +44,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #define CORE_NO_ELEMENT 0xffffffffu
 // Turns of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
-#define CORE_MAX_MOVES 4u
+#define CORE_MAX_MOVES 8u
 // How far neighbours may lie from the tangent plane of a smooth surface, relative to their distance.
 #define CORE_SMOOTH elvis_real(0.1LF)
 // Constraints of faces that may be the surface's own: how far they may be from zero, and the cosine of the least angle.
@@ -179,11 +180,18 @@ void main() {
                 stack[stack_size + 1u] = node.child;
                 stack_size += 2u;
             }
-            const elvis_vec3 start = CORE_CENTROID;
-            x = start.x;
-            y = start.y;
-            z = start.z;
-            level = across = down = moves = 0u;
+            for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
+                const core_linearization linearization = core_fetch_linearization(element);
+                const elvis_vec3 target = core_reference.xyz - elvis_origin(element) + tangent.point;
+                const elvis_vec3 start = linearization.exponents != 0u
+                                             ? elvis_vec3(core_linear_inverse(linearization, vec3(target)))
+                                             : CORE_CENTROID;
+                x = start.x;
+                y = start.y;
+                z = start.z;
+                core_project(x, y, z);
+                level = across = down = moves = 0u;
+            }
         }
 
         const bool is_active = element != CORE_NO_ELEMENT;
@@ -229,13 +237,6 @@ void main() {
         const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
         const bool moves_on = is_active && !cell.is_outside && is_far && moves < CORE_MAX_MOVES;
         moves = moves_on ? moves + 1u : 0u;
-        // The region of an element that has no face here, or whose face is elsewhere, is not on the surface.
-        elvis_real own_distance = elvis_real(0);
-#if CORE_ON_FACES && ELVIS_SHAPE != ELVIS_SHAPE_QUADRILATERAL && ELVIS_SHAPE != ELVIS_SHAPE_TRIANGLE
-        const elvis_vec4 own = core_face_constraint(max(own_face, 0));
-        own_distance = abs(dot(own.xyz, cell.middle) + own.w);
-        is_on_surface = is_on_surface && own_distance <= elvis_real(2) * core_model_norm1(own.xyz) * (cell.region.beyond + elvis_real(1e-3LF));
-#endif
         const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, elvis_fetch_core_curvatures(safe_element, 0u));
         const bool is_out = cell.is_outside || is_clear || !is_on_surface;
 
@@ -279,10 +280,15 @@ void main() {
                 row - elvis_real(0.5LF) + (elvis_real(down) + elvis_real(0.5LF)) * next_size, t);
             const elvis_vec3 step = core_to_xi(frame, origin + next);
             const bool is_finite = core_is_finite(step.x + step.y + step.z);
-            x += is_finite ? clamp(step.x, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            y += is_finite ? clamp(step.y, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            z += is_finite ? clamp(step.z, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            core_project(x, y, z);
+            elvis_real next_x = x + (is_finite ? clamp(step.x, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            elvis_real next_y = y + (is_finite ? clamp(step.y, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            elvis_real next_z = z + (is_finite ? clamp(step.z, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            core_project(next_x, next_y, next_z);
+            // Whole steps may go to and fro between points of a strongly curved element.
+            const elvis_real share = moves > CORE_MAX_MOVES / 2u ? elvis_real(0.5LF) : elvis_real(1);
+            x += share * (next_x - x);
+            y += share * (next_y - y);
+            z += share * (next_z - z);
         }
     }
     const bool is_cut_short =

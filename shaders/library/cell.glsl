@@ -20,7 +20,7 @@ struct core_cell {
     bool is_inside, is_outside, is_crossed;
     // The surface lies in a face of the element, which is on the far side.
     bool is_behind;
-    // By how much at least the corners violate a face, as predicted; negative if they violate none together.
+    // By how much at least the corners violate a face together, or leave the surface's own one, as predicted; negative if they do not.
     elvis_real clearance;
     // Length of the predicted step to the middle of the corners, and that point.
     elvis_real step;
@@ -61,8 +61,11 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         cell.is_behind = cell.is_behind || (lies_in && own_face < 0 && dot(normal, direction) < elvis_real(0));
         cell.is_inside = cell.is_inside && (lies_in || highest <= elvis_real(0));
         cell.is_outside = cell.is_outside || (!lies_in && lowest > elvis_real(0));
-        const elvis_real least = min(min(g0, g1), min(g2, g3)) - dot(abs(constraint.xyz), xi_error);
-        cell.clearance = lies_in ? cell.clearance : max(cell.clearance, least);
+        const elvis_real rounding = dot(abs(constraint.xyz), xi_error);
+        const elvis_real above = min(min(g0, g1), min(g2, g3)) - rounding, below = -max(max(g0, g1), max(g2, g3)) - rounding;
+        // A surface that is the element's own face runs neither beyond nor before it.
+        const elvis_real clearance = lies_in ? (own_face >= 0 ? max(above, below) : -CORE_UNKNOWN) : above;
+        cell.clearance = max(cell.clearance, clearance);
         is_inside0 = is_inside0 && (lies_in || g0 < -slack);
         is_inside1 = is_inside1 && (lies_in || g1 < -slack);
         is_inside2 = is_inside2 && (lies_in || g2 < -slack);
