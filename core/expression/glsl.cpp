@@ -524,6 +524,84 @@ std::string continuity(const Graph& graph, const std::vector<NodeId>& needed) {
 
 } // namespace
 
+namespace {
+
+/** First-order error of an operation from those of its operands, beyond its own rounding: sum of |derivative| times error. */
+std::string error_operation(const Node& node, const std::string& v) {
+    const std::string a = name(node.operands[0]), b = name(node.operands[1]), c = name(node.operands[2]);
+    const std::string ea = "core_error_" + a, eb = "core_error_" + b, ec = "core_error_" + c;
+    switch (node.operation) {
+    case Operation::negate:
+    case Operation::absolute:
+    case Operation::sine:
+    case Operation::cosine:
+        return ea;
+    case Operation::whole_power:
+    case Operation::power_to:
+        return "abs(" + literal(node.number) + " * " + v + " / " + a + ") * " + ea;
+    case Operation::square_root:
+        return ea + " / (elvis_real(2) * " + v + ")";
+    case Operation::tangent:
+        return "(elvis_real(1) + " + v + " * " + v + ") * " + ea;
+    case Operation::arcsine:
+    case Operation::arccosine:
+        return ea + " / sqrt(elvis_real(1) - " + a + " * " + a + ")";
+    case Operation::arctangent:
+        return ea + " / (elvis_real(1) + " + a + " * " + a + ")";
+    case Operation::exponential:
+        return v + " * " + ea;
+    case Operation::logarithm:
+        return ea + " / abs(" + a + ")";
+    case Operation::add:
+    case Operation::subtract:
+        return ea + " + " + eb;
+    case Operation::multiply:
+        return "abs(" + a + ") * " + eb + " + abs(" + b + ") * " + ea;
+    case Operation::divide:
+        return "(" + ea + " + abs(" + v + ") * " + eb + ") / abs(" + b + ")";
+    case Operation::power:
+        return "abs(" + b + " * " + v + " / " + a + ") * " + ea + " + abs(" + v + " * elvis_log(abs(" + a + "))) * " + eb;
+    case Operation::minimum:
+    case Operation::maximum:
+        return "max(" + ea + ", " + eb + ")";
+    case Operation::arctangent2:
+        return "(abs(" + b + ") * " + ea + " + abs(" + a + ") * " + eb + ") / (" + a + " * " + a + " + " + b + " * " + b + ")";
+    case Operation::over_length:
+        return "(" + ea + " + " + eb + ") / abs(" + b + ")";
+    case Operation::length:
+        return "sqrt(" + ea + " * " + ea + " + " + eb + " * " + eb + " + " + ec + " * " + ec + ")";
+    case Operation::select:
+        return a + " != elvis_real(0) ? " + eb + " : " + ec;
+    default:
+        // Signs and comparisons: constant but for jumps.
+        return "elvis_real(0)";
+    }
+}
+
+} // namespace
+
+std::string error_glsl(const Expression& expression, const ExpressionClass& element_class) {
+    const Graph& graph = expression.graph();
+    const std::vector<NodeId> needed = graph.needed({expression.value()});
+    const LeafWriter leaves(expression, element_class, needed);
+    std::string text = std::string(real_includes) + "#include \"library/precision.glsl\"\n" + commented(expression) +
+                       "elvis_real core_shown_error(uint element, elvis_vec3 xi) {\n" + leaves.declarations();
+    text += real_nodes(graph, needed, [&](const Node& node) { return leaves.leaf(node); });
+    for (const NodeId id : needed) {
+        const Node& node = graph.node(id);
+        // In units of roundoff: what evaluations of fields and their derivatives show, doubled; what operations lose.
+        const bool is_derivative = node.operation == Operation::gradient || node.operation == Operation::hessian;
+        const char* const own = node.operation == Operation::constant ? "1"
+                                : is_derivative                       ? "64"
+                                : n_operands(node.operation) == 0     ? "16"
+                                                                      : "2";
+        text += "    const elvis_real core_error_" + name(id) + " = elvis_real(" + own + ") * CORE_ROUNDOFF * abs(" + name(id) +
+                ")";
+        text += n_operands(node.operation) == 0 ? ";\n" : " + (" + error_operation(node, name(id)) + ");\n";
+    }
+    return text + "    return core_error_" + name(expression.value()) + ";\n}\n";
+}
+
 std::string implicit_glsl(const Expression& expression) {
     assert(expression.is_implicit());
     const Graph& graph = expression.graph();

@@ -50,6 +50,8 @@ std::string value_glsl(const Expression& expression, const ExpressionClass& elem
 std::string gradient_glsl(const Expression& expression, const ExpressionClass& element_class);
 /** value_glsl() comes first; has gradient_glsl() in it where it needs it. */
 std::string model_glsl(const Expression& expression, const ExpressionClass& element_class);
+/** elvis_real core_shown_error(uint element, elvis_vec3 xi): about what the value loses by rounding, to first order. */
+std::string error_glsl(const Expression& expression, const ExpressionClass& element_class);
 std::string implicit_glsl(const Expression& expression);
 
 /** Whether the value, or gradient_glsl's gradient, rests on differences because the plugin does not give what it needs. */

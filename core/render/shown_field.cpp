@@ -8,6 +8,9 @@ namespace elvis {
 
 namespace {
 
+/** Rounding of a float32 field value, relative to the largest: what evaluations of orders up to 10 show (5e-7), doubled. */
+constexpr double float32_value_error = 1e-6;
+
 FieldRange magnitude_range(const std::vector<FieldRange>& components) {
     double lower = 0, upper = 0;
     for (const FieldRange& range : components) {
@@ -107,6 +110,19 @@ FieldRange ShownFields::range(const FieldChoice& field, std::uint32_t time_step,
     }
     if (certainty) {
         *certainty = ELVIS_ESTIMATED;
+    }
+    return found->second;
+}
+
+double ShownFields::float32_error(const FieldChoice& field, std::uint32_t time_step, double offset) {
+    if (!field.expression) {
+        const FieldRange of_field = range(field, time_step);
+        return float32_value_error * std::max(std::abs(of_field.lower - offset), std::abs(of_field.upper - offset));
+    }
+    const auto [found, is_new] = m_errors.try_emplace({field.expression->text(), time_step});
+    if (is_new) {
+        m_data.select(selection(field, time_step));
+        found->second = rounding_of_expression(m_device, m_volume, m_data, *field.expression);
     }
     return found->second;
 }

@@ -32,6 +32,12 @@ public:
     /** Over the volume. Expressions are sampled on the device, which then has another selection. */
     FieldRange range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
 
+    /**
+     * Error of a value in single precision, lacking its offset on the device, about: relative to the largest for a field,
+     * sampled for an expression, which then is selected.
+     */
+    double float32_error(const FieldChoice& field, std::uint32_t time_step, double offset);
+
 private:
     using Ranges = std::pair<std::vector<FieldRange>, elvis_certainty>;
     const Ranges& of_components(std::uint32_t field, std::uint32_t time_step);
@@ -41,6 +47,7 @@ private:
     DeviceVolume& m_data;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Ranges> m_of_components;
     std::map<std::pair<std::string, std::uint32_t>, FieldRange> m_of_expressions;
+    std::map<std::pair<std::string, std::uint32_t>, double> m_errors;
 };
 
 } // namespace elvis

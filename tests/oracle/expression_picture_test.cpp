@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace elvis::oracle {
@@ -118,6 +119,25 @@ TEST_CASE("surfaces of one picture show different fields and expressions") {
     }
     CHECK(n_first > 100);
     CHECK(n_second > 100);
+}
+
+TEST_CASE("an expression that loses its digits in single precision is flagged") {
+    VolumeData data = mixed_volume(2, 3, wavy);
+    const TemporaryFile file("digits.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    const Model model(std::move(data));
+    FrameRequest request = view_of(model, CutPlane{{1, 0, 0, -0.4}}, 40, 40, -1, 1);
+    const auto n_flagged = [&](const char* text, Precision precision) {
+        request.surfaces[0].field.expression = std::make_shared<const Expression>(text, volume.fields());
+        const Frame frame = Renderer(device(), volume, precision).render(request);
+        return std::count_if(frame.flags.begin(), frame.flags.end(),
+                             [](std::uint32_t flags) { return (flags & pixel_flag::range_too_fine) != 0; });
+    };
+    // 1e5 has an ulp of 0.008 in single precision, where colours change over 2.
+    CHECK(n_flagged("(u * x + 100000) - (100000 + y)", Precision::float32) > 100);
+    CHECK(n_flagged("(u * x + 100000) - (100000 + y)", Precision::float64) == 0);
+    CHECK(n_flagged("(u * x + 10) - (10 + y)", Precision::float32) == 0);
 }
 
 } // namespace elvis::oracle
