@@ -41,6 +41,8 @@ struct ExpressionClass {
     std::uint32_t capabilities = 0;
     /** Largest order of each field of the volume; -1: not polynomial. */
     std::vector<std::int32_t> orders;
+    /** What each component of each field slot lacks on the device; empty: nothing. */
+    std::vector<std::vector<double>> offsets{};
 };
 
 /** All about one class of a volume. */

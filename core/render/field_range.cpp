@@ -109,7 +109,7 @@ double rounding_of_expression(const Device& device, const RuntimeVolume& volume,
         request.precision = data.precision();
         request.buffers = data.host_buffers(index);
         data.add_field(request, index);
-        request.text = error_glsl(expression, expression_class(volume, index));
+        request.text = error_glsl(expression, data.about_class(index));
         request.bindings = {{0, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(ErrorParameters);
         const std::uint32_t stride = (n_elements + most_elements - 1) / most_elements;

@@ -23,7 +23,10 @@ public:
 
     /** What kernels of the field are made of; equal for fields that share kernels. */
     static std::string key(const FieldChoice& field);
-    /** Plain components lack the middle of their range, so that small variations of large values keep their digits. */
+    /**
+     * Fields lack the middle of their range, so that small variations of large values keep their digits; those of magnitudes
+     * are whole.
+     */
     FieldSelection selection(const FieldChoice& field, std::uint32_t time_step);
     /** What the field lacks on the device, while it is selected there. */
     double offset(const FieldChoice& field) const;
@@ -40,6 +43,7 @@ public:
 
 private:
     using Ranges = std::pair<std::vector<FieldRange>, elvis_certainty>;
+    std::vector<double> middles(std::uint32_t field, std::uint32_t time_step);
     const Ranges& of_components(std::uint32_t field, std::uint32_t time_step);
 
     const Device& m_device;
