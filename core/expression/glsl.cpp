@@ -1,10 +1,13 @@
 #include <core/expression/glsl.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace elvis {
@@ -113,6 +116,13 @@ public:
         }
     }
 
+    /** What the device's value of a field lacks. */
+    double offset(const Node& node) const {
+        return node.operation == Operation::field && !m_class.offsets.empty()
+                   ? m_class.offsets[slot(node.field)][node.component]
+                   : 0.0;
+    }
+
     static bool is_of_field(Operation operation) {
         return operation == Operation::field || operation == Operation::slope || operation == Operation::gradient ||
                operation == Operation::bend || operation == Operation::hessian;
@@ -217,8 +227,11 @@ private:
     bool m_needs_inverse = false;
 };
 
-std::string real_operation(const Node& node) {
-    const std::string a = name(node.operands[0]), b = name(node.operands[1]), c = name(node.operands[2]);
+/** Names of the operands of a node. */
+using Operands = std::array<std::string, 3>;
+
+std::string real_operation(const Node& node, const Operands& operands) {
+    const auto& [a, b, c] = operands;
     const auto truth = [](const std::string& condition) { return condition + " ? elvis_real(1) : elvis_real(0)"; };
     switch (node.operation) {
     case Operation::negate:
@@ -286,8 +299,9 @@ std::string real_operation(const Node& node) {
 }
 
 /** The same for types whose functions are PREFIX_add(a, b) and so on; `last` ends every list of arguments. */
-std::string enclosure_operation(const Node& node, const std::string& prefix, const std::string& last) {
-    const auto operand = [&](std::size_t i) { return prefix + name(node.operands[i]); };
+std::string enclosure_operation(const Node& node, const Operands& operands, const std::string& prefix,
+                                const std::string& last) {
+    const auto operand = [&](std::size_t i) { return operands[i]; };
     const auto of = [&](const char* function, std::initializer_list<std::string> more) {
         std::string text = prefix + function + "(" + operand(0);
         for (const std::string& one : more) {
@@ -367,14 +381,107 @@ std::string commented(const Expression& expression) {
     return "// " + text + "\n";
 }
 
-std::string real_nodes(const Graph& graph, const std::vector<NodeId>& needed, const auto& leaf) {
-    std::string text;
-    for (const NodeId id : needed) {
-        const Node& node = graph.node(id);
-        text += "    const elvis_real " + name(id) + " = ";
-        text += (n_operands(node.operation) == 0 ? leaf(node) : real_operation(node)) + ";\n";
+/**
+ * Writes the nodes of a graph as numbers, models or intervals, one variable each.
+ *
+ * Fields may lack an offset on the device, so that small variations of large values keep their digits. It stays out of sums,
+ * differences and multiples, and so do constants that are added: p - 101325 is what the device holds of p, plus what is left of
+ * both constants in double precision. Where an operation needs the whole of an operand, the constant is put in.
+ */
+class NodeWriter {
+public:
+    struct Dialect {
+        std::string type, prefix;
+        std::function<std::string(const Node&)> leaf;
+        std::function<std::string(const Node&, const Operands&)> operation;
+        /** A variable plus a constant. */
+        std::function<std::string(const std::string&, double)> shifted;
+        /** What a leaf lacks. */
+        std::function<double(const Node&)> offset;
+    };
+
+    NodeWriter(const Graph& graph, const std::vector<NodeId>& needed, Dialect dialect)
+        : m_graph(graph), m_dialect(std::move(dialect)) {
+        for (const NodeId id : needed) {
+            write(id);
+        }
     }
-    return text;
+
+    const std::string& text() const { return m_text; }
+
+    /** Name of a variable with the whole value of a node. */
+    std::string whole(NodeId id) {
+        if (m_lacking[id] == 0) {
+            return base(id);
+        }
+        const std::string variable = m_dialect.prefix + "core_whole" + std::to_string(id);
+        if (m_shifted.insert(id).second) {
+            declare(variable, m_dialect.shifted(base(id), m_lacking[id]));
+        }
+        return variable;
+    }
+
+private:
+    std::string base(NodeId id) const { return m_dialect.prefix + name(id); }
+    void declare(const std::string& variable, const std::string& value) {
+        m_text += "    const " + m_dialect.type + " " + variable + " = " + value + ";\n";
+    }
+    const Node& node(NodeId id) const { return m_graph.node(id); }
+    bool is_constant(NodeId id) const { return node(id).operation == Operation::constant; }
+
+    void write(NodeId id) {
+        const Node& of = node(id);
+        const auto [a, b, c] = of.operands;
+        double lacking = 0;
+        const bool is_sum = of.operation == Operation::add || of.operation == Operation::subtract;
+        const double sign = of.operation == Operation::subtract ? -1 : 1;
+        if (n_operands(of.operation) == 0) {
+            lacking = m_dialect.offset(of);
+            declare(base(id), m_dialect.leaf(of));
+        } else if (is_sum && is_constant(b) && std::isfinite(node(b).number)) {
+            lacking = m_lacking[a] + sign * node(b).number;
+            declare(base(id), base(a));
+        } else if (is_sum && is_constant(a) && std::isfinite(node(a).number)) {
+            Node negation = of;
+            negation.operation = Operation::negate;
+            lacking = node(a).number + sign * m_lacking[b];
+            declare(base(id), sign > 0 ? base(b) : m_dialect.operation(negation, {base(b), {}, {}}));
+        } else if (is_sum) {
+            lacking = m_lacking[a] + sign * m_lacking[b];
+            declare(base(id), m_dialect.operation(of, {base(a), base(b), {}}));
+        } else if (of.operation == Operation::negate) {
+            lacking = -m_lacking[a];
+            declare(base(id), m_dialect.operation(of, {base(a), {}, {}}));
+        } else if (of.operation == Operation::multiply && (is_constant(a) || is_constant(b))) {
+            lacking = is_constant(a) ? node(a).number * m_lacking[b] : node(b).number * m_lacking[a];
+            declare(base(id), m_dialect.operation(of, {base(a), base(b), {}}));
+        } else if (of.operation == Operation::divide && is_constant(b)) {
+            lacking = m_lacking[a] / node(b).number;
+            declare(base(id), m_dialect.operation(of, {base(a), base(b), {}}));
+        } else {
+            const std::size_t n = n_operands(of.operation);
+            const Operands operands{whole(a), n > 1 ? whole(b) : std::string(), n > 2 ? whole(c) : std::string()};
+            declare(base(id), m_dialect.operation(of, operands));
+        }
+        m_lacking[id] = lacking;
+    }
+
+    const Graph& m_graph;
+    Dialect m_dialect;
+    std::string m_text;
+    /** By node: what its variable lacks. */
+    std::map<NodeId, double> m_lacking;
+    std::set<NodeId> m_shifted;
+};
+
+NodeWriter::Dialect real_dialect(const std::function<std::string(const Node&)>& leaf,
+                                 const std::function<double(const Node&)>& offset) {
+    return {"elvis_real",
+            "",
+            leaf,
+            real_operation,
+            [](const std::string& variable, double constant) { return variable + " + " + literal(constant); },
+            offset};
 }
 
 const char* const real_includes = "#include \"library/expression.glsl\"\n";
@@ -384,10 +491,21 @@ std::vector<NodeId> roots_with_gradient(const Expression& expression) {
     return {expression.value(), d0, d1, d2};
 }
 
-std::string gradient_body(const Expression& expression) {
+/** Nodes and results of a function that gives value and gradient. */
+std::string gradient_body(const Expression& expression, const NodeWriter::Dialect& dialect) {
     const auto& [d0, d1, d2] = expression.gradient().value();
-    return "    value = " + name(expression.value()) + ";\n    gradient = elvis_vec3(" + name(d0) + ", " + name(d1) + ", " +
-           name(d2) + ");\n}\n";
+    NodeWriter nodes(expression.graph(), expression.graph().needed(roots_with_gradient(expression)), dialect);
+    const Operands whole{nodes.whole(d0), nodes.whole(d1), nodes.whole(d2)};
+    const std::string value = nodes.whole(expression.value());
+    return nodes.text() + "    value = " + value + ";\n    gradient = elvis_vec3(" + whole[0] + ", " + whole[1] + ", " +
+           whole[2] + ");\n}\n";
+}
+
+/** Nodes and result of a function that gives the value. */
+std::string value_body(const Expression& expression, const NodeWriter::Dialect& dialect) {
+    NodeWriter nodes(expression.graph(), expression.graph().needed({expression.value()}), dialect);
+    const std::string value = nodes.whole(expression.value());
+    return nodes.text() + "    return " + value + ";\n}\n";
 }
 
 } // namespace
@@ -404,14 +522,22 @@ ExpressionClass expression_class(const RuntimeVolume& volume, std::uint32_t elem
     return result;
 }
 
+namespace {
+
+NodeWriter::Dialect dialect_of(const LeafWriter& leaves) {
+    return real_dialect([&leaves](const Node& node) { return leaves.leaf(node); },
+                        [&leaves](const Node& node) { return leaves.offset(node); });
+}
+
+} // namespace
+
 std::string value_glsl(const Expression& expression, const ExpressionClass& element_class) {
     const std::vector<NodeId> needed = expression.graph().needed({expression.value()});
     const LeafWriter leaves(expression, element_class, needed);
     return std::string("#define CORE_SHOWN_BY_EXPRESSION 1\n#define CORE_VALUE_FLAGS ") +
            (value_is_estimated(expression, element_class) ? "CORE_FLAG_ESTIMATED\n" : "0u\n") + real_includes +
            commented(expression) + "elvis_real core_shown_value(uint element, elvis_vec3 xi) {\n" + leaves.declarations() +
-           real_nodes(expression.graph(), needed, [&](const Node& node) { return leaves.leaf(node); }) + "    return " +
-           name(expression.value()) + ";\n}\n";
+           value_body(expression, dialect_of(leaves));
 }
 
 std::string gradient_glsl(const Expression& expression, const ExpressionClass& element_class) {
@@ -422,8 +548,7 @@ std::string gradient_glsl(const Expression& expression, const ExpressionClass& e
     const LeafWriter leaves(expression, element_class, needed);
     return real_includes + commented(expression) +
            "void core_shown_gradient(uint element, elvis_vec3 xi, out elvis_real value, out elvis_vec3 gradient) {\n" +
-           leaves.declarations() + real_nodes(expression.graph(), needed, [&](const Node& node) { return leaves.leaf(node); }) +
-           gradient_body(expression);
+           leaves.declarations() + gradient_body(expression, dialect_of(leaves));
 }
 
 namespace {
@@ -476,16 +601,23 @@ std::string model_glsl(const Expression& expression, const ExpressionClass& elem
                        leaves.declarations();
     std::string is_estimated = "false";
     for (const NodeId id : needed) {
-        const Node& node = expression.graph().node(id);
-        text += "    const core_model core_model_" + name(id) + " = ";
-        text += (n_operands(node.operation) == 0 ? leaf(node) : enclosure_operation(node, "core_model_", ", cell")) + ";\n";
-        if (node.operation == Operation::field) {
-            is_estimated += " || " + row(node) + ".w > elvis_real(0)";
+        if (expression.graph().node(id).operation == Operation::field) {
+            is_estimated += " || " + row(expression.graph().node(id)) + ".w > elvis_real(0)";
         }
     }
+    NodeWriter models(expression.graph(), needed,
+                      {"core_model", "core_model_", leaf,
+                       [](const Node& node, const Operands& operands) {
+                           return enclosure_operation(node, operands, "core_model_", ", cell");
+                       },
+                       [](const std::string& variable, double constant) {
+                           return call("core_model_add", {variable, call("core_model_constant", {literal(constant)}), "cell"});
+                       },
+                       [&](const Node& node) { return leaves.offset(node); }});
     // What is drawn is the value itself, not the model's, which is 0 where nothing is known.
-    text += real_nodes(expression.graph(), needed, [&](const Node& node) { return leaves.leaf(node); });
-    text += "    value = " + name(expression.value()) + ";\n    return core_model_" + name(expression.value()) + ";\n}\n";
+    NodeWriter values(expression.graph(), needed, dialect_of(leaves));
+    const std::string model = models.whole(expression.value()), value = values.whole(expression.value());
+    text += models.text() + values.text() + "    value = " + value + ";\n    return " + model + ";\n}\n";
     return text + "bool core_is_model_estimated(uint element) { return " + is_estimated + "; }\n";
 }
 
@@ -524,6 +656,102 @@ std::string continuity(const Graph& graph, const std::vector<NodeId>& needed) {
 
 } // namespace
 
+namespace {
+
+/** First-order error of an operation from those of its operands, beyond its own rounding: sum of |derivative| times error. */
+std::string error_operation(const Node& node, const std::string& v, const Operands& operands, const Operands& errors) {
+    const auto& [a, b, c] = operands;
+    const auto& [ea, eb, ec] = errors;
+    switch (node.operation) {
+    case Operation::negate:
+    case Operation::absolute:
+    case Operation::sine:
+    case Operation::cosine:
+        return ea;
+    case Operation::whole_power:
+    case Operation::power_to:
+        return "abs(" + literal(node.number) + " * " + v + " / " + a + ") * " + ea;
+    case Operation::square_root:
+        return ea + " / (elvis_real(2) * " + v + ")";
+    case Operation::tangent:
+        return "(elvis_real(1) + " + v + " * " + v + ") * " + ea;
+    case Operation::arcsine:
+    case Operation::arccosine:
+        return ea + " / sqrt(elvis_real(1) - " + a + " * " + a + ")";
+    case Operation::arctangent:
+        return ea + " / (elvis_real(1) + " + a + " * " + a + ")";
+    case Operation::exponential:
+        return v + " * " + ea;
+    case Operation::logarithm:
+        return ea + " / abs(" + a + ")";
+    case Operation::add:
+    case Operation::subtract:
+        return ea + " + " + eb;
+    case Operation::multiply:
+        return "abs(" + a + ") * " + eb + " + abs(" + b + ") * " + ea;
+    case Operation::divide:
+        return "(" + ea + " + abs(" + v + ") * " + eb + ") / abs(" + b + ")";
+    case Operation::power:
+        return "abs(" + b + " * " + v + " / " + a + ") * " + ea + " + abs(" + v + " * elvis_log(abs(" + a + "))) * " + eb;
+    case Operation::minimum:
+    case Operation::maximum:
+        return "max(" + ea + ", " + eb + ")";
+    case Operation::arctangent2:
+        return "(abs(" + b + ") * " + ea + " + abs(" + a + ") * " + eb + ") / (" + a + " * " + a + " + " + b + " * " + b + ")";
+    case Operation::over_length:
+        return "(" + ea + " + " + eb + ") / abs(" + b + ")";
+    case Operation::length:
+        return "sqrt(" + ea + " * " + ea + " + " + eb + " * " + eb + " + " + ec + " * " + ec + ")";
+    case Operation::select:
+        return a + " != elvis_real(0) ? " + eb + " : " + ec;
+    default:
+        // Signs and comparisons: constant but for jumps.
+        return "elvis_real(0)";
+    }
+}
+
+} // namespace
+
+std::string error_glsl(const Expression& expression, const ExpressionClass& element_class) {
+    const Graph& graph = expression.graph();
+    const std::vector<NodeId> needed = graph.needed({expression.value()});
+    const LeafWriter leaves(expression, element_class, needed);
+    std::string text = std::string(real_includes) + "#include \"library/precision.glsl\"\n" + commented(expression) +
+                       "elvis_real core_shown_error(uint element, elvis_vec3 xi) {\n" + leaves.declarations();
+    NodeWriter nodes(graph, needed, dialect_of(leaves));
+    std::string errors;
+    for (const NodeId id : needed) {
+        const Node& node = graph.node(id);
+        // In units of roundoff: what evaluations of fields and their derivatives show, doubled; what operations lose.
+        const bool is_derivative = node.operation == Operation::gradient || node.operation == Operation::hessian;
+        const std::string own = node.operation == Operation::constant ? "1"
+                                : is_derivative                       ? "64"
+                                : n_operands(node.operation) == 0     ? "16"
+                                                                      : "2";
+        // Of what is computed: constants that were left out lose nothing.
+        errors += "    const elvis_real core_error_" + name(id) + " = elvis_real(" + own + ") * CORE_ROUNDOFF * abs(" +
+                  name(id) + ")";
+        const bool is_sum = node.operation == Operation::add || node.operation == Operation::subtract;
+        Operands operands, operand_errors;
+        for (std::size_t i = 0; i < n_operands(node.operation); ++i) {
+            const NodeId operand = node.operands[i];
+            const bool is_left_out = is_sum && graph.node(operand).operation == Operation::constant;
+            operands[i] = nodes.whole(operand);
+            operand_errors[i] = is_left_out ? "elvis_real(0)" : "core_error_" + name(operand);
+            // A constant that is put in rounds.
+            if (!is_sum && operands[i] != name(operand)) {
+                operand_errors[i] = "(" + operand_errors[i] + " + CORE_ROUNDOFF * abs(" + operands[i] + "))";
+            }
+        }
+        errors += n_operands(node.operation) == 0
+                      ? ";\n"
+                      : " + (" + error_operation(node, nodes.whole(id), operands, operand_errors) + ");\n";
+    }
+    const std::string value = nodes.whole(expression.value());
+    text += nodes.text() + errors;
+    return text + "    return core_error_" + name(expression.value()) + " + CORE_ROUNDOFF * abs(" + value + ");\n}\n";
+}
+
 std::string implicit_glsl(const Expression& expression) {
     assert(expression.is_implicit());
     const Graph& graph = expression.graph();
@@ -542,17 +770,22 @@ std::string implicit_glsl(const Expression& expression) {
     std::string text = std::string(real_includes) +
                        "#include \"library/interval.glsl\"\n#include \"library/interval_choice.glsl\"\n" +
                        commented(expression);
-    text += "elvis_real core_implicit_value(elvis_vec3 x) {\n" + real_nodes(graph, of_value, leaf) + "    return " +
-            name(expression.value()) + ";\n}\n";
+    const NodeWriter::Dialect reals = real_dialect(leaf, [](const Node&) { return 0.0; });
+    text += "elvis_real core_implicit_value(elvis_vec3 x) {\n" + value_body(expression, reals);
     text += "void core_implicit(elvis_vec3 x, out elvis_real value, out elvis_vec3 gradient) {\n" +
-            real_nodes(graph, graph.needed(roots_with_gradient(expression)), leaf) + gradient_body(expression);
+            gradient_body(expression, reals);
     const auto intervals = [&](const std::vector<NodeId>& needed) {
         std::string lines;
         for (const NodeId id : needed) {
             const Node& node = graph.node(id);
             lines += "    const core_interval core_interval_" + name(id) + " = ";
-            lines += (n_operands(node.operation) == 0 ? interval_leaf(node) : enclosure_operation(node, "core_interval_", "")) +
-                     ";\n";
+            Operands operands;
+            for (std::size_t i = 0; i < n_operands(node.operation); ++i) {
+                operands[i] = "core_interval_" + name(node.operands[i]);
+            }
+            lines += n_operands(node.operation) == 0 ? interval_leaf(node)
+                                                     : enclosure_operation(node, operands, "core_interval_", "");
+            lines += ";\n";
         }
         return lines;
     };

@@ -41,6 +41,8 @@ struct ExpressionClass {
     std::uint32_t capabilities = 0;
     /** Largest order of each field of the volume; -1: not polynomial. */
     std::vector<std::int32_t> orders;
+    /** What each component of each field slot lacks on the device; empty: nothing. */
+    std::vector<std::vector<double>> offsets{};
 };
 
 /** All about one class of a volume. */
@@ -50,6 +52,8 @@ std::string value_glsl(const Expression& expression, const ExpressionClass& elem
 std::string gradient_glsl(const Expression& expression, const ExpressionClass& element_class);
 /** value_glsl() comes first; has gradient_glsl() in it where it needs it. */
 std::string model_glsl(const Expression& expression, const ExpressionClass& element_class);
+/** elvis_real core_shown_error(uint element, elvis_vec3 xi): about what the value loses by rounding, to first order. */
+std::string error_glsl(const Expression& expression, const ExpressionClass& element_class);
 std::string implicit_glsl(const Expression& expression);
 
 /** Whether the value, or gradient_glsl's gradient, rests on differences because the plugin does not give what it needs. */

@@ -342,7 +342,8 @@ private:
                 fail(place, "a number has no components");
             }
             if (index >= n) {
-                fail(place, "there is no component " + std::to_string(index) + " of " + std::to_string(n));
+                fail(place, "there is no component " + std::to_string(index) + "; components are counted from 0 to " +
+                                std::to_string(n - 1));
             }
             if (value.rank == 2) {
                 const auto row = value.entries.begin() + 3 * static_cast<std::ptrdiff_t>(index);
@@ -427,12 +428,16 @@ private:
             value.rank = value.entries.size() == 1 ? 0 : 1;
             return value;
         }
-        std::vector<std::string> names;
+        fail(place, "there is no field '" + word + "'" + field_list());
+    }
+
+    /** For messages. */
+    std::string field_list() const {
+        std::string list;
         for (const FieldInfo& info : m_scope.fields) {
-            names.push_back(info.name);
+            list += (list.empty() ? "; the fields are '" : "', '") + info.name;
         }
-        fail(place, "there is no field '" + word + "'" +
-                        (names.empty() ? std::string() : "; the nearest is '" + nearest_word(word, names) + "'"));
+        return list.empty() ? list : list + "'";
     }
 
     Value built_in(const std::string& word, std::size_t place) {
@@ -458,8 +463,10 @@ private:
             known.insert(known.end(), element_names.begin(), element_names.end());
         }
         const bool is_function = contains(functions(), word);
-        fail(place, is_function ? "'" + word + "' is a function: it wants its arguments in parentheses"
-                                : "'" + word + "' is unknown; the nearest name is '" + nearest_word(word, known) + "'");
+        if (is_function) {
+            fail(place, "'" + word + "' is a function: it wants its arguments in parentheses");
+        }
+        fail(place, "'" + word + "' is unknown; the nearest name is '" + nearest_word(word, known) + "'" + field_list());
     }
 
     NodeId jacobian(const std::string& word, std::size_t place) {

@@ -1,4 +1,6 @@
+#include <core/expression/glsl.hpp>
 #include <core/render/field_range.hpp>
+#include <core/render/real_array.hpp>
 
 #include <algorithm>
 #include <array>
@@ -86,6 +88,41 @@ std::vector<FieldRange> ranges_from_samples(const Device& device, const RuntimeV
         }
     }
     return total;
+}
+
+double rounding_of_expression(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                              const Expression& expression) {
+    // Enough to meet what is large, and no more than a picture costs.
+    constexpr std::uint32_t most_elements = 2048;
+    struct ErrorParameters {
+        std::uint32_t n_sampled, stride;
+    };
+    double largest = 0;
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        const auto n_elements = static_cast<std::uint32_t>(volume.classes()[index].n_elements);
+        if (n_elements == 0) {
+            continue;
+        }
+        KernelRequest request;
+        request.name = "expression_error of element class " + std::to_string(index);
+        request.kernel = "kernels/expression_error.comp";
+        request.precision = data.precision();
+        request.buffers = data.host_buffers(index);
+        data.add_field(request, index);
+        request.text = error_glsl(expression, data.about_class(index));
+        request.bindings = {{0, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(ErrorParameters);
+        const std::uint32_t stride = (n_elements + most_elements - 1) / most_elements;
+        const ErrorParameters parameters{(n_elements + stride - 1) / stride, stride};
+        const Buffer output(device, parameters.n_sampled * real_bytes(data.precision()));
+        const std::array<const Buffer*, 1> bindings = {&output};
+        ComposedKernel(device, request)
+            .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (parameters.n_sampled + group_size - 1) / group_size);
+        for (const double error : read_reals(output, data.precision(), parameters.n_sampled)) {
+            largest = std::max(largest, error);
+        }
+    }
+    return largest;
 }
 
 } // namespace elvis

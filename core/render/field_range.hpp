@@ -16,10 +16,14 @@ std::vector<FieldRange> ranges_from_plugin(const RuntimeVolume& volume, std::uin
                                            elvis_certainty& certainty);
 
 /**
- * The same from samples on the device, for the field that `data` has selected without offset, or the expression, which is one number: seven points along each collapsed
- * direction of every element, faces included. An estimate.
+ * The same from samples on the device, for the field that `data` has selected without offset, or the expression, which is one
+ * number: seven points along each collapsed direction of every element, faces included. An estimate.
  */
 std::vector<FieldRange> ranges_from_samples(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                                             std::uint32_t n_components);
+
+/** About what rounding costs the selected expression in the precision of `data`: the largest of samples. */
+double rounding_of_expression(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                              const Expression& expression);
 
 } // namespace elvis

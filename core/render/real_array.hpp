@@ -23,4 +23,13 @@ inline void write_reals(const Buffer& buffer, Precision precision, std::span<con
     buffer.write_items(std::span<const float>(rounded));
 }
 
+/** The first numbers of a buffer. */
+inline std::vector<double> read_reals(const Buffer& buffer, Precision precision, std::size_t count) {
+    if (precision == Precision::float64) {
+        return buffer.read_items<double>(count);
+    }
+    const std::vector<float> numbers = buffer.read_items<float>(count);
+    return {numbers.begin(), numbers.end()};
+}
+
 } // namespace elvis

@@ -30,8 +30,6 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/** Rounding of a float32 field value, relative to the largest: what evaluations of orders up to 10 show (5e-7), doubled. */
-constexpr double float32_value_error = 1e-6;
 /** What a colour channel may be off. */
 constexpr double channel_tolerance = 1e-3;
 
@@ -264,13 +262,9 @@ std::uint32_t Renderer::Impl::flags_of_range(const Surface& surface, std::uint32
     if (precision == Precision::float64 || surface.colors.points.size() < 2) {
         return 0;
     }
-    // An expression would have to be sampled over the volume: what the colours are for stands for it.
-    const FieldRange range = surface.field.expression
-                                 ? FieldRange{surface.colors.points.front().value, surface.colors.points.back().value}
-                                 : fields.range(surface.field, time_step);
-    const double largest = std::max(std::abs(range.lower - offset), std::abs(range.upper - offset));
     const double extent = surface.colors.points.back().value - surface.colors.points.front().value;
-    return float32_value_error * largest > channel_tolerance * extent ? pixel_flag::range_too_fine : 0;
+    const double error = fields.float32_error(surface.field, time_step, offset);
+    return error > channel_tolerance * extent ? pixel_flag::range_too_fine : 0;
 }
 
 /** The rays of the picture, anchored at the surface if it is a plane, else at the middle of the volume. */

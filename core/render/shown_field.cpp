@@ -8,6 +8,9 @@ namespace elvis {
 
 namespace {
 
+/** Rounding of a float32 field value, relative to the largest: what evaluations of orders up to 10 show (5e-7), doubled. */
+constexpr double float32_value_error = 1e-6;
+
 FieldRange magnitude_range(const std::vector<FieldRange>& components) {
     double lower = 0, upper = 0;
     for (const FieldRange& range : components) {
@@ -52,15 +55,24 @@ std::string ShownFields::key(const FieldChoice& field) {
 
 FieldSelection ShownFields::selection(const FieldChoice& field, std::uint32_t time_step) {
     if (field.expression) {
-        return selection_of(field.expression, m_volume, time_step);
+        FieldSelection selection = selection_of(field.expression, m_volume, time_step);
+        for (FieldSlot& slot : selection.slots) {
+            slot.offset = middles(slot.field, time_step);
+        }
+        return selection;
     }
-    const std::vector<FieldRange>& components = of_components(field.field, time_step).first;
-    std::vector<double> offset(components.size(), 0.0);
-    for (std::size_t i = 0; i < offset.size() && field.component >= 0; ++i) {
-        const double middle = 0.5 * (components[i].lower + components[i].upper);
-        offset[i] = std::isfinite(middle) ? middle : 0.0;
+    // A magnitude needs the values themselves.
+    const std::vector<double> whole(m_volume.fields()[field.field].n_components, 0.0);
+    return {{{field.field, field.component < 0 ? whole : middles(field.field, time_step)}}, time_step, nullptr};
+}
+
+std::vector<double> ShownFields::middles(std::uint32_t field, std::uint32_t time_step) {
+    std::vector<double> result;
+    for (const FieldRange& range : of_components(field, time_step).first) {
+        const double middle = 0.5 * (range.lower + range.upper);
+        result.push_back(std::isfinite(middle) ? middle : 0.0);
     }
-    return {{{field.field, offset}}, time_step, nullptr};
+    return result;
 }
 
 double ShownFields::offset(const FieldChoice& field) const {
@@ -107,6 +119,19 @@ FieldRange ShownFields::range(const FieldChoice& field, std::uint32_t time_step,
     }
     if (certainty) {
         *certainty = ELVIS_ESTIMATED;
+    }
+    return found->second;
+}
+
+double ShownFields::float32_error(const FieldChoice& field, std::uint32_t time_step, double offset) {
+    if (!field.expression) {
+        const FieldRange of_field = range(field, time_step);
+        return float32_value_error * std::max(std::abs(of_field.lower - offset), std::abs(of_field.upper - offset));
+    }
+    const auto [found, is_new] = m_errors.try_emplace({field.expression->text(), time_step});
+    if (is_new) {
+        m_data.select(selection(field, time_step));
+        found->second = rounding_of_expression(m_device, m_volume, m_data, *field.expression);
     }
     return found->second;
 }

@@ -23,7 +23,10 @@ public:
 
     /** What kernels of the field are made of; equal for fields that share kernels. */
     static std::string key(const FieldChoice& field);
-    /** Plain components lack the middle of their range, so that small variations of large values keep their digits. */
+    /**
+     * Fields lack the middle of their range, so that small variations of large values keep their digits; those of magnitudes
+     * are whole.
+     */
     FieldSelection selection(const FieldChoice& field, std::uint32_t time_step);
     /** What the field lacks on the device, while it is selected there. */
     double offset(const FieldChoice& field) const;
@@ -32,8 +35,15 @@ public:
     /** Over the volume. Expressions are sampled on the device, which then has another selection. */
     FieldRange range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
 
+    /**
+     * Error of a value in single precision, lacking its offset on the device, about: relative to the largest for a field,
+     * sampled for an expression, which then is selected.
+     */
+    double float32_error(const FieldChoice& field, std::uint32_t time_step, double offset);
+
 private:
     using Ranges = std::pair<std::vector<FieldRange>, elvis_certainty>;
+    std::vector<double> middles(std::uint32_t field, std::uint32_t time_step);
     const Ranges& of_components(std::uint32_t field, std::uint32_t time_step);
 
     const Device& m_device;
@@ -41,6 +51,7 @@ private:
     DeviceVolume& m_data;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Ranges> m_of_components;
     std::map<std::pair<std::string, std::uint32_t>, FieldRange> m_of_expressions;
+    std::map<std::pair<std::string, std::uint32_t>, double> m_errors;
 };
 
 } // namespace elvis

@@ -160,9 +160,8 @@ void DeviceVolume::select(const FieldSelection& selection) {
     if (is_geometry_changed) {
         for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
             if (m_classes[element_class].elements) {
-                m_classes[element_class].curvatures =
-                    write_elements(m_device, m_volume, element_class, instance(element_class), m_precision,
-                                   *m_classes[element_class].elements);
+                m_classes[element_class].curvatures = write_elements(m_device, m_volume, element_class, instance(element_class),
+                                                                     m_precision, *m_classes[element_class].elements);
                 m_classes[element_class].curvature_records.reset();
             }
         }
@@ -262,6 +261,14 @@ SnippetInstance DeviceVolume::instance(std::uint32_t element_class, std::size_t 
     return instance;
 }
 
+ExpressionClass DeviceVolume::about_class(std::uint32_t element_class) const {
+    ExpressionClass about = expression_class(m_volume, element_class);
+    for (const Slot* of : m_selected) {
+        about.offsets.push_back(of->offset);
+    }
+    return about;
+}
+
 void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class, bool with_bounds) const {
     request.instances.clear();
     for (std::size_t index = 0; index < m_selected.size(); ++index) {
@@ -279,7 +286,7 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
         if (std::none_of(request.buffers.begin(), request.buffers.end(), is_elements)) {
             request.buffers.push_back({"core_elements", m_classes[element_class].elements.get()});
         }
-        const ExpressionClass info = expression_class(m_volume, element_class);
+        const ExpressionClass info = about_class(element_class);
         request.text = value_glsl(*m_expression, info);
         if (with_bounds) {
             request.text += model_glsl(*m_expression, info);

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
-#include <core/expression/expression.hpp>
+#include <core/expression/glsl.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/shader/composer.hpp>
@@ -28,13 +28,13 @@ struct FieldSlot {
 
 /** What is to be shown: one field, or an expression over several. */
 struct FieldSelection {
-    /** At least one. Of an expression, its fields in their order, without offset; any field if it has none. */
+    /** At least one. Of an expression, its fields in their order; any field if it has none. */
     std::vector<FieldSlot> slots;
     std::uint32_t time_step = 0;
     std::shared_ptr<const Expression> expression;
 };
 
-/** What an expression takes. */
+/** What an expression takes, with fields as they are. */
 FieldSelection selection_of(const std::shared_ptr<const Expression>& expression, const RuntimeVolume& volume,
                             std::uint32_t time_step);
 
@@ -69,6 +69,8 @@ public:
 
     /** The class's snippet with field `index` of the selected ones; valid as long as the field is kept. */
     SnippetInstance instance(std::uint32_t element_class, std::size_t index = 0) const;
+    /** What text of the selected expression is to be written for. */
+    ExpressionClass about_class(std::uint32_t element_class) const;
     /**
      * What a kernel needs to show what is selected: instances, with bounds of derivatives if they are wanted (see below), and
      * for an expression its functions (core/expression/glsl.hpp), of which core_shown_model comes with the bounds.

@@ -105,6 +105,19 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     CHECK(std::abs(points[0]["gradients"]["sphere"][0][1].get<double>() + 0.4) < 1e-10);
     CHECK(points[1]["element"].is_null());
 
+    const Outcome derived = place.run("probe ball.h5 --point 0.1,-0.2,0.3 --field 'laplacian(sphere) + x' --json");
+    REQUIRE(derived.status == 0);
+    const auto found = nlohmann::json::parse(derived.out)["points"][0]["expressions"]["laplacian(sphere) + x"];
+    CHECK(std::abs(found["value"].get<double>() - 6.1) < 1e-9);
+    CHECK(std::abs(found["gradient"][0].get<double>() - 1) < 1e-7);
+
+    const Outcome contours =
+        place.run("render ball.h5 --field 'velocity + 0 * sphere' --cut-plane 0,0,1,0.1 --contours 0.2,0.4 "
+                  "--size 64x64 --validation -o ball.png --stats stats.json");
+    INFO(contours.err);
+    REQUIRE(contours.status == 0);
+    CHECK(nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["contour_pixels"].get<int>() > 20);
+
     for (const std::string precision : {"float32", "float64"}) {
         const Outcome render = place.run("render ball.h5 --field sphere --cut-plane 0,0,1,0 --size 64x64 --precision " +
                                          precision + " --validation -o ball.png --buffers ball.buffers.h5 --stats stats.json");
@@ -237,8 +250,11 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
         {"render missing.h5 -o x.png", 1, "missing.h5"},
         {"render not_a_volume.h5 -o x.png", 1, "not_a_volume.h5"},
         {"render ball.json -o x.png", 1, "elvis convert"},
-        {"render ball.h5 --field temperature -o x.png", 1, "'temperature' is unknown"},
-        {"render ball.h5 --field 'sphere[3]' -o x.png", 1, "component 3"},
+        {"render ball.h5 --field temperature -o x.png", 1, "sphere"},
+        {"render ball.h5 --field 'sphere[3]' -o x.png", 1, "components"},
+        {"render ball.h5 --field 'norm(curl(velocty))' -o x.png", 1,
+         "column 11: 'velocty' is unknown; the nearest name is 'velocity'"},
+        {"probe ball.h5 --point 0,0,0 --field 'sphere +'", 1, "column 9: the text ends where a value is expected"},
         {"render unknown_key.json -o x.png", 1, "color_map"},
         {"render annotation_key.json -o x.png", 1, "'image.annotation.titel' is unknown; the nearest known key is 'title'"},
         {"render annotation_word.json -o x.png", 1, "'image.annotation' is \"all\"; allowed are"},

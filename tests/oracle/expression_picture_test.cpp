@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace elvis::oracle {
@@ -118,6 +119,48 @@ TEST_CASE("surfaces of one picture show different fields and expressions") {
     }
     CHECK(n_first > 100);
     CHECK(n_second > 100);
+}
+
+TEST_CASE("an expression that loses its digits in single precision is flagged") {
+    VolumeData data = mixed_volume(2, 3, wavy);
+    const TemporaryFile file("digits.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    const Model model(std::move(data));
+    FrameRequest request = view_of(model, CutPlane{{1, 0, 0, -0.4}}, 40, 40, -1, 1);
+    const auto n_flagged = [&](const char* text, Precision precision) {
+        request.surfaces[0].field.expression = std::make_shared<const Expression>(text, volume.fields());
+        const Frame frame = Renderer(device(), volume, precision).render(request);
+        return std::count_if(frame.flags.begin(), frame.flags.end(),
+                             [](std::uint32_t flags) { return (flags & pixel_flag::range_too_fine) != 0; });
+    };
+    // 1e5 has an ulp of 0.008 in single precision, where colours change over 2.
+    CHECK(n_flagged("(u * x + 100000) - (100000 + y)", Precision::float32) > 100);
+    CHECK(n_flagged("(u * x + 100000) - (100000 + y)", Precision::float64) == 0);
+    CHECK(n_flagged("(u * x + 10) - (10 + y)", Precision::float32) == 0);
+}
+
+TEST_CASE("a small variation of a large field keeps its digits in an expression") {
+    const auto large = [](const Vector& x) { return 101325 + wavy(x); };
+    VolumeData data = mixed_volume(2, 4, large);
+    const TemporaryFile file("large.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    const Model model(std::move(data));
+    const FrameRequest plain = view_of(model, CutPlane{{1, 0.7, 0.5, -1.1}}, 80, 80, -2, 2);
+    const auto value = [](const Volume& of, std::size_t element, const Vector& xi) {
+        return 2 * (of.field(element, xi)[0] - 101325) / 3 + 0.1;
+    };
+    const Picture exact = draw(model, plain, 1e-6, value);
+    FrameRequest request = plain;
+    request.surfaces[0].field.expression = std::make_shared<const Expression>("2 * (u - 101325) / 3 + 0.1", volume.fields());
+    Renderer renderer(device(), volume, Precision::float32);
+    const Frame frame = renderer.render(request);
+    const Comparison comparison = compare(model, exact, frame);
+    WARN(to_text(comparison));
+    CHECK(comparison.max_channel_error <= 1e-5);
+    CHECK(std::none_of(frame.flags.begin(), frame.flags.end(),
+                       [](std::uint32_t flags) { return (flags & pixel_flag::range_too_fine) != 0; }));
 }
 
 } // namespace elvis::oracle
