@@ -66,6 +66,9 @@ struct FieldPasses {
 
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
 
+/** Solvers kept for later frames: some hold large meshes. */
+constexpr std::size_t most_solvers = 32;
+
 /** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
 constexpr std::uint32_t max_rounds = 64;
 
@@ -223,7 +226,11 @@ void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& 
         if (!current->cut_shapes) {
             current->cut_shapes.emplace(device, volume, data);
         }
-        solvers.try_emplace(solver_key(*shape), device, precision, *shape);
+        const std::string key = solver_key(*shape);
+        if (solvers.size() >= most_solvers && !solvers.contains(key)) {
+            solvers.clear();
+        }
+        solvers.try_emplace(key, device, precision, *shape);
     } else if (const auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
         edge_set(wires->faces);
     } else {

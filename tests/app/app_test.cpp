@@ -219,6 +219,57 @@ TEST_CASE("Surfaces are lit only if that is asked for, and each by itself") {
     CHECK(own != plain);
 }
 
+TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with one") {
+    const Workplace place;
+    place.write("plate.obj", "v -1 -1 0.1\nv 1 -1 0.1\nv 1 1 0.1\nv -1 1 0.1\nf 1 2 3 4\n");
+    std::string patch = "1\n3 3\n";
+    for (int i = 0; i < 16; ++i) {
+        patch += std::to_string(i / 4 - 1.5) + " " + std::to_string(i % 4 - 1.5) + " 0.1\n";
+    }
+    place.write("plate.bpt", patch);
+    const auto draw = [&](const std::string& surface) {
+        place.write("scene.json",
+                    R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"size": [60, 60]}, "surfaces": [)" + surface +
+                        "]}");
+        return place.run("render scene.json -o out.png --stats stats.json");
+    };
+    const auto hits = [&](const std::string& surface) {
+        const Outcome outcome = draw(surface);
+        INFO(surface << ": " << outcome.err);
+        REQUIRE(outcome.status == 0);
+        return nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["hit_pixels"].get<int>();
+    };
+    CHECK(hits(R"({"type": "sphere", "center": [0, 0, 0], "radius": 0.5})") > 100);
+    CHECK(hits(R"({"type": "cylinder", "from": [0, 0, -0.5], "to": [0, 0, 0.5], "radius": 0.4, "capped": false})") > 100);
+    CHECK(hits(R"({"type": "cone", "from": [0, 0, -0.5], "to": [0, 0, 0.5], "from_radius": 0.5, "to_radius": 0})") > 100);
+    CHECK(hits(R"({"type": "torus", "center": [0, 0, 0], "axis": [0, 1, 1], "major_radius": 0.5, "minor_radius": 0.2})") > 100);
+    // The same plane in five ways.
+    const int plate = hits(R"({"type": "plane", "plane": [0, 0, 1, -0.1]})");
+    CHECK(plate > 100);
+    for (const char* surface : {R"({"type": "quadric", "coefficients": [0, 0, 0, 0, 0, 0, 0, 0, 1, -0.1]})",
+                                R"({"type": "implicit", "expression": "z - 0.1"})", R"({"type": "mesh", "file": "plate.obj"})",
+                                R"({"type": "bezier", "file": "plate.bpt"})"}) {
+        // The view follows a plane, not these.
+        CHECK(hits(std::string(surface) + R"(, {"type": "sphere", "center": [0, 0, -9], "radius": 0.1})") > 100);
+    }
+    // All the rest of the picture that the surface reaches is outside.
+    CHECK(hits(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1.4, "outside": [1, 0, 0]})") > 500);
+
+    const auto fault = [&](const std::string& surface) {
+        const Outcome outcome = draw(surface);
+        CHECK(outcome.status == 1);
+        return outcome.err;
+    };
+    using Catch::Matchers::Contains;
+    CHECK_THAT(fault(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1, "axis": [0, 0, 1]})"),
+               Contains("scene.json") && Contains("'surfaces[0].axis' means nothing for a surface of type \"sphere\""));
+    CHECK_THAT(fault(R"({"type": "sphere", "center": [0, 0, 0]})"), Contains("'surfaces[0].radius' is missing"));
+    CHECK_THAT(fault(R"({"type": "cylinder", "from": [0, 0, 0], "to": [0, 0, 0], "radius": 1})"), Contains("the same point"));
+    CHECK_THAT(fault(R"x({"type": "implicit", "expression": "x + sine(y)"})x"), Contains("surfaces[0]") && Contains("sine"));
+    CHECK_THAT(fault(R"({"type": "mesh", "file": "nothing.stl"})"), Contains("nothing.stl") && Contains("cannot be read"));
+    CHECK_THAT(fault(R"({"type": "plane", "plane": [0, 0, 1, 0], "outside": [1, 0, 0]})"), Contains("outside"));
+}
+
 TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
     const Workplace place;
     place.write("unknown_key.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "colour_map": {"name": "viridis"}})");

@@ -99,6 +99,7 @@ void check(const std::vector<Case>& cases) {
             CHECK(picture.counts.newton_failures == 0);
         }
     }
+    CHECK(surface_device().validation_messages().empty());
 }
 
 } // namespace
