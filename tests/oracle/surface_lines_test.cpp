@@ -1,0 +1,201 @@
+// Lines on curved surfaces and on faces against dense samples of each pixel's square.
+#include "meshes.hpp"
+#include "ray.hpp"
+#include "test_files.hpp"
+
+#include <core/render/renderer.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace elvis::oracle {
+namespace {
+
+using native::Shape;
+
+const Device& device() {
+    static const Device the_device;
+    return the_device;
+}
+
+constexpr std::uint32_t size = 120;
+
+FrameRequest view() {
+    FrameRequest request;
+    request.width = request.height = size;
+    request.camera.eye = {2.1, 1.7, 1.4};
+    request.camera.look_at = {0.5, 0.5, 0.5};
+    request.camera.up = {0, 0, 1};
+    request.camera.field_of_view = 40;
+    return request;
+}
+
+VolumeData cube_volume(int n) {
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 1), cube(Shape::hexahedron, n),
+                                      [](const Vector& x) { return x.z() + 0.3 * x.x(); }));
+    return data;
+}
+
+struct Counts {
+    std::size_t marked = 0, undecided = 0, hit = 0;
+    /** Not marked where samples in the square tell a line; marked where samples of a square a fiftieth larger tell none. */
+    std::size_t missed = 0, invented = 0;
+};
+
+// `see`: what a ray sees, nothing where it misses; a line runs between samples that see different things, or values of both signs.
+Counts compare_lines(const FrameRequest& request, const Frame& frame, std::uint32_t yes, std::uint32_t open,
+                     const std::function<std::optional<double>(const Ray&)>& see, bool by_sign) {
+    Counts counts;
+    const auto tells = [&](std::uint32_t column, std::uint32_t row, long double width) {
+        constexpr int n = 12;
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= n; ++i) {
+                const auto seen = see(pixel_ray(request.camera, size, size, column + width * (i / double(n) - 0.5L),
+                                                row + width * (j / double(n) - 0.5L)));
+                if (seen) {
+                    least = std::min(least, *seen);
+                    most = std::max(most, *seen);
+                }
+            }
+        return by_sign ? least < 0 && most > 0 : least < most;
+    };
+    for (std::uint32_t row = 0; row < size; ++row)
+        for (std::uint32_t column = 0; column < size; ++column) {
+            const std::size_t pixel = std::size_t{row} * size + column;
+            if (frame.element[pixel] < 0)
+                continue;
+            const bool is_marked = (frame.flags[pixel] & yes) != 0, is_open = (frame.flags[pixel] & open) != 0;
+            counts.hit += 1;
+            counts.marked += is_marked ? 1 : 0;
+            counts.undecided += is_open ? 1 : 0;
+            counts.missed += !is_marked && !is_open && tells(column, row, 0.999L) ? 1 : 0;
+            counts.invented += is_marked && !tells(column, row, 1.02L) ? 1 : 0;
+        }
+    return counts;
+}
+
+void report(const char* name, const Counts& counts) {
+    WARN(name << ": " << counts.marked << " of " << counts.hit << " pixels marked, " << counts.undecided << " undecided, "
+              << counts.missed << " missed, " << counts.invented << " invented");
+    CHECK(counts.missed == 0);
+    CHECK(counts.invented == 0);
+    CHECK(counts.marked > 60);
+}
+
+// Distance to the first crossing with a sphere, on the outside of which the eye is.
+std::optional<LongVector> sphere_point(const Ray& ray, const LongVector& centre, long double radius) {
+    const LongVector to = centre - ray.origin;
+    const long double along = to.dot(ray.direction), square = radius * radius - (to.squaredNorm() - along * along);
+    if (square < 0)
+        return std::nullopt;
+    return ray.origin + (along - std::sqrt(square)) * ray.direction;
+}
+
+// The point of the unit cube that a ray meets first.
+std::optional<LongVector> cube_point(const Ray& ray) {
+    long double enter = 0, leave = std::numeric_limits<long double>::infinity();
+    for (Eigen::Index d = 0; d < 3; ++d) {
+        const long double a = -ray.origin[d] / ray.direction[d], b = (1 - ray.origin[d]) / ray.direction[d];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    if (enter > leave)
+        return std::nullopt;
+    return ray.origin + enter * ray.direction;
+}
+
+} // namespace
+
+TEST_CASE("lines on a sphere are those of its points, or marked undecided") {
+    const TemporaryFile file("sphere_lines.h5");
+    write_volume(file.path(), cube_volume(4));
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request = view();
+    Surface surface;
+    surface.geometry = CutShape{Sphere{{0.5, 0.5, 0.5}, 0.4}};
+    surface.colors.points = {{0, {0, 0, 0}}, {2, {1, 1, 1}}};
+    surface.contours = Contours{{0.7}, {}};
+    surface.mesh_lines.emplace();
+    request.surfaces = {surface};
+    const LongVector centre(0.5L, 0.5L, 0.5L);
+    for (const Precision precision : {Precision::float64, Precision::float32}) {
+        Renderer renderer(device(), volume, precision);
+        const Frame frame = renderer.render(request);
+        const Counts contours = compare_lines(
+            request, frame, pixel_flag::contour, pixel_flag::contour_undecided,
+            [&](const Ray& ray) -> std::optional<double> {
+                const auto x = sphere_point(ray, centre, 0.4L);
+                return x ? std::optional(static_cast<double>(x->z() + 0.3L * x->x() - 0.7L)) : std::nullopt;
+            },
+            true);
+        report("contours on a sphere", contours);
+        // Where the surface is seen edge on.
+        CHECK(contours.undecided <= contours.hit / 10);
+        const Counts lines = compare_lines(
+            request, frame, pixel_flag::mesh_line, pixel_flag::mesh_line_undecided,
+            [&](const Ray& ray) -> std::optional<double> {
+                const auto x = sphere_point(ray, centre, 0.4L);
+                return x ? std::optional(static_cast<double>(std::floor(4 * x->x()) + 10 * std::floor(4 * x->y()) +
+                                                             100 * std::floor(4 * x->z())))
+                         : std::nullopt;
+            },
+            false);
+        report("mesh lines on a sphere", lines);
+        CHECK(lines.undecided <= lines.hit / 8);
+    }
+}
+
+TEST_CASE("lines on the boundary of a box are those of its faces, or marked undecided") {
+    const TemporaryFile file("box_lines.h5");
+    generate(R"({"generator": 1, "mesh": "box", "shape": "hexahedron", "box": [[0, 0, 0], [1, 1, 1]], "elements": [4, 4, 4],
+                 "order": 2, "field": "sphere"})",
+             file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request = view();
+    Surface surface;
+    surface.geometry = BoundaryFaces{};
+    surface.colors.points = {{0, {0, 0, 0}}, {2, {1, 1, 1}}};
+    surface.contours = Contours{{1.7}, {}};
+    surface.mesh_lines.emplace();
+    request.surfaces = {surface};
+    for (const Precision precision : {Precision::float64, Precision::float32}) {
+        Renderer renderer(device(), volume, precision);
+        const Frame frame = renderer.render(request);
+        const Counts contours = compare_lines(
+            request, frame, pixel_flag::contour, pixel_flag::contour_undecided,
+            [&](const Ray& ray) -> std::optional<double> {
+                const auto x = cube_point(ray);
+                return x ? std::optional(static_cast<double>(x->squaredNorm() - 1.7L)) : std::nullopt;
+            },
+            true);
+        report("contours on a box", contours);
+        // Where the surface is seen edge on.
+        CHECK(contours.undecided <= contours.hit / 10);
+        const Counts lines = compare_lines(
+            request, frame, pixel_flag::mesh_line, pixel_flag::mesh_line_undecided,
+            [&](const Ray& ray) -> std::optional<double> {
+                const auto x = cube_point(ray);
+                // Beyond the silhouette, which is made of edges.
+                if (!x)
+                    return -1;
+                // The face, and the element on it.
+                double place = 0;
+                for (Eigen::Index d = 0; d < 3; ++d) {
+                    const bool is_on = std::abs((*x)[d]) < 1e-12L || std::abs((*x)[d] - 1) < 1e-12L;
+                    place = 10 * place + (is_on ? 7 : static_cast<double>(std::floor(4 * (*x)[d])));
+                }
+                return place;
+            },
+            false);
+        report("mesh lines on a box", lines);
+        CHECK(lines.undecided <= lines.hit / 8);
+    }
+}
+
+} // namespace elvis::oracle
