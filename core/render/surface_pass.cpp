@@ -180,10 +180,13 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
             break;
         }
         const std::uint32_t n_found = m_counts.read_items<std::uint32_t>(1, n_pass_counts)[0];
-        if (n_found - n_found_before == n_hits) {
+        const std::uint32_t n_open = n_hits - (n_found - n_found_before);
+        if (n_open == 0) {
             break;
         }
         n_found_before = n_found;
+        // Rays that meet more crossings outside of elements than are followed.
+        counts.work_limit_pixels += round + 1 == most_rounds ? n_open : 0;
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
     counts.field_evaluations += found[0];
