@@ -18,7 +18,8 @@ void main() {
     const core_face frame = core_face_frame(int(place.y));
     const uint point = index % core_n_points + (frame.is_triangle ? core_n_points : 0u);
     const elvis_real half_one = elvis_real(0.5LF);
-    const elvis_real a = (core_points[2u * point] + elvis_real(1)) * half_one, b = (core_points[2u * point + 1u] + elvis_real(1)) * half_one;
+    const elvis_real a = (core_points[2u * point] + elvis_real(1)) * half_one;
+    const elvis_real b = (core_points[2u * point + 1u] + elvis_real(1)) * half_one;
     const elvis_vec3 x = elvis_mapping(place.x, frame.corner + a * frame.a + b * frame.b);
     core_positions[3u * index] = x.x;
     core_positions[3u * index + 1u] = x.y;

@@ -28,14 +28,16 @@ struct core_beam {
 bool core_is_beyond(core_node node, vec3 normal, vec3 point) {
     const vec3 farthest = mix(node.lower, node.upper, greaterThan(normal, vec3(0)));
     const vec3 sizes = max(abs(node.lower), abs(node.upper)) + abs(point);
-    return dot(normal, farthest - point) < -16.0 * CORE_FLOAT_ROUNDOFF * dot(abs(normal), vec3(max(max(sizes.x, sizes.y), sizes.z)));
+    const float rounding = 16.0 * CORE_FLOAT_ROUNDOFF * max(max(sizes.x, sizes.y), sizes.z);
+    return dot(normal, farthest - point) < -rounding * dot(abs(normal), vec3(1));
 }
 
 // Least t in the box, a little less; above every t if the beam does not meet it in front of the eye.
 float core_beam_entry(core_node node, core_beam beam) {
     const vec3 middle = 0.5 * (node.lower + node.upper), half_size = 0.5 * (node.upper - node.lower);
     const float t = dot(beam.axis, middle) - beam.axis_offset, reach = dot(abs(beam.axis), half_size);
-    const float slack = 16.0 * CORE_FLOAT_ROUNDOFF * (dot(abs(beam.axis), abs(middle) + half_size) + abs(beam.axis_offset) + abs(t));
+    const float size = dot(abs(beam.axis), abs(middle) + half_size) + abs(beam.axis_offset) + abs(t);
+    const float slack = 16.0 * CORE_FLOAT_ROUNDOFF * size;
     const bool is_outside = t + reach + slack < beam.eye_t || core_is_beyond(node, beam.left, beam.at_left) ||
                             core_is_beyond(node, beam.right, beam.at_right) || core_is_beyond(node, beam.top, beam.at_top) ||
                             core_is_beyond(node, beam.bottom, beam.at_bottom);

@@ -1,14 +1,14 @@
 // Faces of the elements of one class, or two-dimensional elements, seen along the rays of a picture: the nearest crossing, and the
 // field there.
 //
-// A face is a map of (u, v), both from -1 to 1, with u + v <= 0 in a triangle. A ray o + t d meets it where x(u, v) = o + t d. Patches of
-// it come with a linear model and bounds of the rest (library/face_patch.glsl), which tell most patches that a ray misses before
-// anything is evaluated, give Newton's method its start, and say where no ray like this one crosses a patch twice. Pixels that meet a
-// patch for which that is not certain, near silhouettes, are left to kernels/faces_careful.comp.
+// A face is a map of (u, v), both from -1 to 1, with u + v <= 0 in a triangle. A ray o + t d meets it where x(u, v) = o + t d.
+// Patches of it come with a linear model and bounds of the rest (library/face_patch.glsl), which tell most patches that a ray
+// misses before anything is evaluated, give Newton's method its start, and say where no ray like this one crosses a patch twice.
+// Pixels that meet a patch for which that is not certain, near silhouettes, are left to kernels/faces_careful.comp.
 //
-// A work group is a tile of pixels, an invocation one of its columns; its list (kernels/face_tiles.comp) is in the order of depth, so
-// that the search ends at the first patch behind the crossing found. The next pixel of a column starts where this one's crossing moves to.
-// Tiles whose lists hold inner nodes of the hierarchy are drawn by a second version (CORE_DESCENDS).
+// A work group is a tile of pixels, an invocation one of its columns; its list (kernels/face_tiles.comp) is in the order of
+// depth, so that the search ends at the first patch behind the crossing found. The next pixel of a column starts where this one's
+// crossing moves to. Tiles whose lists hold inner nodes of the hierarchy are drawn by a second version (CORE_DESCENDS).
 //
 // One evaluation of a face a turn, whatever patch a lane is at, so that lanes do not wait for each other.
 
@@ -84,7 +84,8 @@ void main() {
                 is_tracking = false;
                 // Without a guard, which would cost more than it saves: few turns come without a patch.
                 const uint tried = is_tried ? word : 0u;
-                const core_patch_meeting meeting = core_meet_patch(tried, ray.box_origin, vec3(ray.direction), ray.far, float(ray.least_t),
+                const core_patch_meeting meeting = core_meet_patch(tried, ray.box_origin, vec3(ray.direction), ray.far,
+                        float(ray.least_t),
                                                                    float(nearest.t + nearest.slack));
                 const bool is_met = is_tried && meeting.is_met;
                 is_careful = is_careful || (is_met && !meeting.is_single);
@@ -110,7 +111,8 @@ void main() {
                     // The nearer one first.
                     const bool is_one_nearer = one_t <= other_t;
                     const uint n_met = (one_t <= most ? 1u : 0u) + (other_t <= most ? 1u : 0u);
-                    stack[stack_size] = n_met == 2u ? (is_one_nearer ? other_word : one_word) : one_t <= most ? one_word : other_word;
+                    stack[stack_size] = n_met == 2u ? (is_one_nearer ? other_word : one_word) 
+                                                      : (one_t <= most ? one_word : other_word);
                     stack[stack_size + 1u] = is_one_nearer ? one_word : other_word;
                     stack_size += n_met;
                 }
@@ -141,7 +143,8 @@ void main() {
             n_steps += is_active ? 1u : 0u;
             const bool has_failed = is_active && !has_converged && !has_missed && steps == CORE_STEPS;
             is_careful = is_careful || has_failed;
-            const bool is_hit = is_active && has_converged && outside <= elvis_real(2) * s.error && s.t > ray.least_t + ray.widths_behind * s.width;
+            const bool is_hit = is_active && has_converged && outside <= elvis_real(2) * s.error &&
+                    s.t > ray.least_t + ray.widths_behind * s.width;
             const elvis_real excess = core_face_excess(new_u, new_v, square_word);
             const elvis_vec3 motion = along.base_row.xyz + s.t * along.direction_row.xyz;
             core_take_crossing(nearest, is_hit, face, place.z, patch_index, core_partner_key(square_word, s.across), new_u, new_v,

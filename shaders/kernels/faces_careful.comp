@@ -1,15 +1,16 @@
 // Pixels that kernels/faces.comp left: their rays may cross a patch twice, or touch it.
 //
-// A patch is divided into squares until each is missed for certain, or crossed at most once for certain, which Newton's method then
-// decides. In a square the face is its tangent plane at the middle and a remainder of at most q = Q h^2 in each coordinate (h: half its
-// side; Q: bound of half the second derivatives over the patch). A direction g across the ray shows that the ray misses the square if
+// A patch is divided into squares until each is missed for certain, or crossed at most once for certain, which Newton's method
+// then decides. In a square the face is its tangent plane at the middle and a remainder of at most q = Q h^2 in each coordinate
+// (h: half its side; Q: bound of half the second derivatives over the patch). A direction g across the ray shows that the ray
+// misses the square if
 //
 //     |g . (x - o)| > |g . x_a| + |g . x_b| + |g| . q,
 //
-// for g across one of the tangents or towards the square's middle. The linear part, seen along the ray, changes by the share
-// L = 2 |rows| . q within the square; below one half there is one crossing at most. A square whose remainder is below the rounding of
-// positions, and for which neither is known, is touched within rounding: the pixel is flagged as undecided, and the patch not taken as
-// met there.
+// for g across one of the tangents or towards the square's middle. The linear part, seen along the ray, changes by the share L =
+// 2 |rows| . q within the square; below one half there is one crossing at most. A square whose remainder is below the rounding of
+// positions, and for which neither is known, is touched within rounding: the pixel is flagged as undecided, and the patch not
+// taken as met there.
 
 layout(local_size_x = 32) in;
 
@@ -62,7 +63,8 @@ void main() {
             stack_size -= is_popped ? 1u : 0u;
             const bool is_inner = (word & CORE_TILE_INNER) != 0u;
             for (uint turn = 0u; turn < (!is_behind && !is_inner ? 1u : 0u); ++turn) {
-                const core_patch_meeting meeting = core_meet_patch(word, ray.box_origin, vec3(ray.direction), ray.far, float(ray.least_t),
+                const core_patch_meeting meeting = core_meet_patch(word, ray.box_origin, vec3(ray.direction), ray.far,
+                        float(ray.least_t),
                                                                    float(nearest.t + nearest.slack));
                 const uvec4 more = elvis_fetch4_core_patches(word, 4u);
                 patch_index = word;
@@ -89,7 +91,8 @@ void main() {
         const uint level = square & 15u, i = (square >> 4) & 8191u, j = square >> 17;
         // In the patch, then on the face.
         const elvis_real part = exp2(-float(level));
-        const elvis_real middle_a = elvis_real(2u * i + 1u) * part - elvis_real(1), middle_b = elvis_real(2u * j + 1u) * part - elvis_real(1);
+        const elvis_real middle_a = elvis_real(2u * i + 1u) * part - elvis_real(1);
+        const elvis_real middle_b = elvis_real(2u * j + 1u) * part - elvis_real(1);
         const elvis_real middle_u = elvis_real(of_patch.a) + elvis_real(of_patch.size) * middle_a;
         const elvis_real middle_v = elvis_real(of_patch.b) + elvis_real(of_patch.size) * middle_b;
         const elvis_real half_size = elvis_real(of_patch.size) * part;
@@ -105,7 +108,8 @@ void main() {
         n_steps += is_active ? 1u : 0u;
 
         // The square: tangents over half its side.
-        const elvis_vec3 bound = elvis_vec3(uintBitsToFloat(elvis_fetch4_core_patches(patch_index == CORE_NO_FACE ? 0u : patch_index, 5u).xyz));
+        const uint safe_patch = patch_index == CORE_NO_FACE ? 0u : patch_index;
+        const elvis_vec3 bound = elvis_vec3(uintBitsToFloat(elvis_fetch4_core_patches(safe_patch, 5u).xyz));
         const elvis_vec3 q = part * part * bound;
         const elvis_vec3 tangent_a = half_size * point.along_u, tangent_b = half_size * point.along_v;
         const elvis_vec3 away = point.x - (shift + ray.origin);
@@ -125,7 +129,8 @@ void main() {
         const bool is_elsewhere = t_middle - t_reach > nearest.t + nearest.slack || t_middle + t_reach < ray.least_t;
         const bool is_excluded = is_upper || is_elsewhere || max(max(w1, w2), w3) > elvis_real(0);
         // Over the square enlarged by CORE_PATCH_REACH, in which the bound holds, too.
-        const elvis_real l = s.is_regular ? elvis_real(2 * CORE_PATCH_REACH) * max(dot(abs(s.row_u), q), dot(abs(s.row_v), q)) / half_size
+        const elvis_real turned = max(dot(abs(s.row_u), q), dot(abs(s.row_v), q)) / half_size;
+        const elvis_real l = s.is_regular ? elvis_real(2 * CORE_PATCH_REACH) * turned
                                           : elvis_real(1);
         const bool is_single = l < elvis_real(0.5LF);
         const elvis_real largest_q = max(max(q.x, q.y), q.z), largest_noise = max(max(noise.x, noise.y), noise.z);
@@ -143,14 +148,16 @@ void main() {
         const bool has_converged = s.is_regular && (step <= s.error || left <= elvis_real(0.5LF) * s.error);
         const elvis_real outside = max(abs(new_u - middle_u), abs(new_v - middle_v)) - half_size;
         // On the diagonal of a triangle.
-        const elvis_real above = of_patch.is_diagonal ? new_u - elvis_real(of_patch.a) + new_v - elvis_real(of_patch.b) : elvis_real(-1);
+        const elvis_real above = of_patch.is_diagonal ? new_u - elvis_real(of_patch.a) + new_v - elvis_real(of_patch.b)
+                                                              : elvis_real(-1);
         const bool has_missed = s.is_regular && max(outside, above) > elvis_real(2) * (left + elvis_real(2) * s.error);
         // A crossing beyond the square's edge keeps it from either; it is farther beyond that of a part.
         const bool has_stalled = is_polishing && !has_converged && !has_missed && steps == CORE_STEPS;
         const bool is_touching = is_rounding && (has_stalled || (is_square && !is_excluded && !is_single));
         touched_t = is_touching ? min(touched_t, t_middle - t_reach) : touched_t;
         const bool splits = (has_stalled || (is_square && !is_excluded && !is_single)) && !is_rounding;
-        const bool is_hit = is_polishing && has_converged && max(outside, above) <= elvis_real(2) * s.error && s.t > ray.least_t + ray.widths_behind * s.width;
+        const bool is_hit = is_polishing && has_converged && max(outside, above) <= elvis_real(2) * s.error &&
+                s.t > ray.least_t + ray.widths_behind * s.width;
         const elvis_real excess = core_face_excess(new_u, new_v, square_word);
         core_take_crossing(nearest, is_hit, face, place.z, patch_index, core_partner_key(square_word, s.across), new_u, new_v,
                            excess >= elvis_real(-2) * s.error, s, elvis_vec3(0));
@@ -169,7 +176,8 @@ void main() {
     }
 
     core_location found = core_location_of(nearest, n_steps);
-    found.is_cut_short = n_squares > 0u || is_polishing || stack_size > 0u || entry < n_entries || core_has_driver_given_up(core_surface >> 31);
+    found.is_cut_short = n_squares > 0u || is_polishing || stack_size > 0u || entry < n_entries ||
+            core_has_driver_given_up(core_surface >> 31);
     const bool has_found = found.element != CORE_NO_ELEMENT;
     const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
     uint n_evaluations = 0u;

@@ -1,10 +1,10 @@
-// Patches of element faces (core/volume/face_patches.hpp): what is known of a face on a square of its parameters, before anything is
-// evaluated there.
+// Patches of element faces (core/volume/face_patches.hpp): what is known of a face on a square of its parameters, before anything
+// is evaluated there.
 //
 // A patch is x(a, b) = x0 + a A + b B + r(a, b), -1 <= a, b <= 1 (a + b <= 0 on the diagonal of a triangle). In the coordinates
 // (u, v, s) = (mu . (x - x0), mv . (x - x0), n . (x - x0)), with mu, mv dual to A, B and n their unit normal, the linear part is
-// (a, b, 0), and |r| is at most (flat, flat, high). A ray that is at (u0, v0) where s = 0 and moves by (wu, wv) while s grows by one is
-// therefore at
+// (a, b, 0), and |r| is at most (flat, flat, high). A ray that is at (u0, v0) where s = 0 and moves by (wu, wv) while s grows by
+// one is therefore at
 //
 //     a = u0 - r_u + wu r_s,   b = v0 - r_v + wv r_s
 //
@@ -82,8 +82,8 @@ core_patch_meeting core_meet_patch(uint index, vec3 origin, vec3 direction, floa
     return meeting;
 }
 
-// Bound of the error of Newton's prediction after a step of this length: the solution is at most (1 + L)/(1 - L) steps away, and the
-// rest of the linearization is its square times the bend, over the smallest stretching 1 - L.
+// Bound of the error of Newton's prediction after a step of this length: the solution is at most (1 + L)/(1 - L) steps away, and
+// the rest of the linearization is its square times the bend, over the smallest stretching 1 - L.
 elvis_real core_patch_prediction_error(float slope, float bend, elvis_real step) {
     const elvis_real room = elvis_real(1) / (elvis_real(1) - elvis_real(slope));
     const elvis_real distance = (elvis_real(1) + elvis_real(slope)) * room * step;

@@ -99,8 +99,8 @@ core_nearest core_nothing_yet() {
     return nearest;
 }
 
-// Takes a crossing if it is before the nearest, or the same within rounding and goes before it: of two faces that coincide, that of the
-// element on the viewer's side; on an edge, the face that the ray meets less obliquely, because its error is smaller; of
+// Takes a crossing if it is before the nearest, or the same within rounding and goes before it: of two faces that coincide, that
+// of the element on the viewer's side; on an edge, the face that the ray meets less obliquely, because its error is smaller; of
 // equals, the lower number.
 void core_take_crossing(inout core_nearest nearest, bool is_hit, uint face, uint number, uint patch_index, uint key, elvis_real u,
                         elvis_real v, bool is_on_edge, core_face_step s, elvis_vec3 motion) {
@@ -126,7 +126,8 @@ void core_take_crossing(inout core_nearest nearest, bool is_hit, uint face, uint
 }
 
 elvis_real core_face_excess(elvis_real u, elvis_real v, uint square_word) {
-    return (square_word & CORE_FACE_IS_TRIANGLE) != 0u ? max(max(-u, -v) - elvis_real(1), u + v) : max(abs(u), abs(v)) - elvis_real(1);
+    return (square_word & CORE_FACE_IS_TRIANGLE) != 0u ? max(max(-u, -v) - elvis_real(1), u + v)
+                                                       : max(abs(u), abs(v)) - elvis_real(1);
 }
 
 // 1 if the ray enters the element here and the one that it leaves is drawn, too: that one, on the viewer's side, goes first.
