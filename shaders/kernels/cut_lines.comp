@@ -96,6 +96,16 @@ void main() {
                 const bool is_linearized = linearization.exponents != 0u && square.all_hit;
                 const elvis_vec3 start =
                     is_linearized ? elvis_vec3(core_linear_inverse(linearization, vec3(target))) : CORE_CENTROID;
+                const elvis_vec3 shift = target - middle;
+                const elvis_vec3 to0 = abs(elvis_vec3(core_linear_inverse(linearization, vec3(shift + square.corner0))) - start);
+                const elvis_vec3 to1 = abs(elvis_vec3(core_linear_inverse(linearization, vec3(shift + square.corner1))) - start);
+                const elvis_vec3 to2 = abs(elvis_vec3(core_linear_inverse(linearization, vec3(shift + square.corner2))) - start);
+                const elvis_vec3 to3 = abs(elvis_vec3(core_linear_inverse(linearization, vec3(shift + square.corner3))) - start);
+                const elvis_vec3 reach = max(max(to0, to1), max(to2, to3));
+                const elvis_real extent = max(max(reach.x, reach.y), reach.z);
+                const bool is_skipped =
+                    is_linearized && core_is_far_outside(start, extent, elvis_fetch_core_curvatures(element, 0u));
+                element = is_skipped ? CORE_NO_ELEMENT : element;
                 x = start.x;
                 y = start.y;
                 z = start.z;

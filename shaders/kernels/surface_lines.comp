@@ -183,9 +183,20 @@ void main() {
             for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
                 const core_linearization linearization = core_fetch_linearization(element);
                 const elvis_vec3 target = core_reference.xyz - elvis_origin(element) + tangent.point;
-                const elvis_vec3 start = linearization.exponents != 0u
-                                             ? elvis_vec3(core_linear_inverse(linearization, vec3(target)))
-                                             : CORE_CENTROID;
+                const bool is_linearized = linearization.exponents != 0u;
+                const elvis_vec3 start =
+                    is_linearized ? elvis_vec3(core_linear_inverse(linearization, vec3(target))) : CORE_CENTROID;
+                const elvis_vec3 shift = target - tangent.point;
+                const elvis_vec3 to0 = abs(elvis_vec3(core_linear_inverse(linearization, vec3(shift + square.corner0))) - start);
+                const elvis_vec3 to1 = abs(elvis_vec3(core_linear_inverse(linearization, vec3(shift + square.corner1))) - start);
+                const elvis_vec3 to2 = abs(elvis_vec3(core_linear_inverse(linearization, vec3(shift + square.corner2))) - start);
+                const elvis_vec3 to3 = abs(elvis_vec3(core_linear_inverse(linearization, vec3(shift + square.corner3))) - start);
+                const elvis_vec3 reach = max(max(to0, to1), max(to2, to3));
+                // Twice: what the surface departs from its tangent plane is less than the pixel's size where it is smooth.
+                const elvis_real extent = elvis_real(2) * max(max(reach.x, reach.y), reach.z);
+                const bool is_skipped = is_linearized && is_smooth &&
+                                        core_is_far_outside(start, extent, elvis_fetch_core_curvatures(element, 0u));
+                element = is_skipped ? CORE_NO_ELEMENT : element;
                 x = start.x;
                 y = start.y;
                 z = start.z;
@@ -255,7 +266,9 @@ void main() {
         is_mesh_open = is_mesh_open || (leaves_mesh && (!is_divided || is_large));
         const bool has_estimate = is_judged && core_n_isovalues > 0u && core_is_model_estimated(safe_element);
         rests_on_estimates = rests_on_estimates || has_estimate;
-        goes_on = wants_contour || wants_mesh;
+        // A pixel that lies in one element as a whole meets no other.
+        const bool is_settled = is_judged && is_smooth && level == 0u && cell.is_inside && !leaves_contour;
+        goes_on = (wants_contour || wants_mesh) && !is_settled;
 
         level += is_divided ? 1u : 0u;
         across = is_divided ? 2u * across : across;

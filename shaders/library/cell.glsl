@@ -139,6 +139,17 @@ bool core_is_clear_of(core_cell cell, elvis_real cell_radius, elvis_real move, e
     return curvature < elvis_real(1e6LF) && cell.clearance > elvis_real(0.5LF) * cell_radius + elvis_real(8) * move;
 }
 
+// Whether the linearized mapping alone (library/linearization.glsl) says that the cell lies outside. `start`: what it predicts for the
+// middle of the cell; `extent`: the maximum norm of the corners' offsets from it.
+bool core_is_far_outside(elvis_vec3 start, elvis_real extent, elvis_real curvature) {
+    // It keeps this many digits of coordinates in the element.
+    const elvis_real start_error = elvis_real(1e-2LF);
+    const elvis_vec3 from_centroid = abs(start - CORE_CENTROID);
+    const elvis_real step = max(max(from_centroid.x, from_centroid.y), from_centroid.z) + extent;
+    return core_excess(start.x, start.y, start.z) >
+           CORE_CONSTRAINT_NORM * (core_prediction_error(curvature, step) + extent + start_error);
+}
+
 struct core_level_test {
     // No isovalue in the cell; one for certain, if the cell is inside the element.
     bool is_excluded, is_met;
