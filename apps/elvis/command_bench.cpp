@@ -87,7 +87,7 @@ nlohmann::ordered_json run_surfaces(const Arguments& arguments, const Device& de
     SurfacesOptions options;
     if (arguments.names_elements) {
         options.elements = arguments.elements;
-        options.elements_a_side = arguments.elements.front();
+        options.elements_a_side = options.contour_elements_a_side = arguments.elements.front();
     }
     if (arguments.names_orders) {
         options.orders = options.contour_orders = arguments.orders;

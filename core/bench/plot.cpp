@@ -42,6 +42,19 @@ std::string label(double x, double y, const char* anchor, const std::string& tex
     return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor, more) + escaped(text) + "</text>\n";
 }
 
+/** The next 1, 2 or 5 times a power of ten, down or up. */
+double round_number(double value, bool is_up) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    double best = is_up ? 10 * power : power;
+    for (const double digit : {1.0, 2.0, 5.0}) {
+        const double candidate = digit * power;
+        if (is_up ? candidate >= value * (1 - 1e-9) && candidate < best : candidate <= value * (1 + 1e-9)) {
+            best = candidate;
+        }
+    }
+    return best;
+}
+
 /** From values to the file's coordinates. */
 class Scale {
 public:
@@ -67,10 +80,9 @@ public:
             m_lower = m_upper = 1;
         }
         if (m_is_logarithmic) {
-            // Whole decades; one more below them for zero.
-            m_lower = std::pow(10.0, std::floor(std::log10(m_lower) + 1e-9) - (m_has_zero ? 1 : 0));
-            m_upper = std::pow(10.0, std::ceil(std::log10(m_upper) - 1e-9));
-            m_upper = std::max(m_upper, 10 * m_lower);
+            // To 1, 2 or 5 times a power of ten; a decade more below them for zero.
+            m_lower = round_number(m_lower, false) / (m_has_zero ? 10 : 1);
+            m_upper = std::max(round_number(m_upper, true), 10 * m_lower);
         } else {
             // From zero, unless all values lie far from it.
             m_lower = m_lower > 0 && m_lower < 0.7 * m_upper ? 0 : m_lower;
@@ -93,7 +105,7 @@ public:
         if (m_has_zero && value <= m_lower * 1.0001) {
             return "0";
         }
-        const bool is_plain = value == 0 || (std::abs(value) >= 1e-3 && std::abs(value) < 1e6);
+        const bool is_plain = value == 0 || (std::abs(value) >= 1e-3 && std::abs(value) < 1e7);
         return is_plain ? format("%.10g", value) : format("%.0e", value);
     }
 
@@ -109,12 +121,17 @@ private:
 std::vector<double> plot_ticks(double lower, double upper, bool is_logarithmic) {
     std::vector<double> ticks;
     if (is_logarithmic) {
-        const int first = static_cast<int>(std::ceil(std::log10(lower) - 1e-9));
-        const int last = static_cast<int>(std::floor(std::log10(upper) + 1e-9));
-        // No more than ten labels.
+        const int first = static_cast<int>(std::floor(std::log10(lower)));
+        const int last = static_cast<int>(std::ceil(std::log10(upper)));
+        // 2 and 5 in between where decades are few; no more than about ten labels.
         const int step = std::max(1, (last - first + 9) / 10);
         for (int power = first; power <= last; power += step) {
-            ticks.push_back(std::pow(10.0, power));
+            for (const double digit : {1.0, 2.0, 5.0}) {
+                const double tick = digit * std::pow(10.0, power);
+                if ((digit == 1 || last - first <= 4) && tick >= lower * (1 - 1e-9) && tick <= upper * (1 + 1e-9)) {
+                    ticks.push_back(tick);
+                }
+            }
         }
         return ticks;
     }

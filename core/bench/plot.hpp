@@ -29,7 +29,7 @@ struct Plot {
     std::vector<PlotSeries> series;
 };
 
-/** Positions of an axis's ticks in [lower, upper], ascending: 1, 2 or 5 times a power of ten, or the powers of ten. */
+/** Positions of an axis's ticks in [lower, upper], ascending: 1, 2 or 5 times a power of ten. */
 std::vector<double> plot_ticks(double lower, double upper, bool is_logarithmic);
 
 /** The document's text. */

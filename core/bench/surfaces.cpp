@@ -103,7 +103,7 @@ public:
 
 private:
     void vary_subdivisions(std::uint32_t order, Precision precision) {
-        const RuntimeVolume volume = waves_volume(m_registry, m_folder, m_options.elements_a_side, order);
+        const RuntimeVolume volume = waves_volume(m_registry, m_folder, m_options.contour_elements_a_side, order);
         Renderer renderer(m_device, volume, precision);
         FrameRequest request = waves_cut_plane(m_options.size);
         request.surfaces[0].contours = ten_contours();

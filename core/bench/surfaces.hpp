@@ -26,6 +26,8 @@ struct SurfacesOptions {
     std::vector<std::uint32_t> sizes{256, 512, 1024, 2048};
     std::vector<std::uint32_t> orders{2, 4, 6, 8, 10};
     std::vector<std::uint32_t> elements{4, 8, 16, 24, 32};
+    /** Of the contours: few elements, so that a higher order means more in each of them. */
+    std::uint32_t contour_elements_a_side = 4;
     std::vector<std::uint32_t> contour_orders{2, 4, 6, 8};
     std::uint32_t most_subdivisions = 8;
 };

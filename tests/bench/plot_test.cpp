@@ -27,8 +27,9 @@ std::vector<std::array<double, 2>> marks(const std::string& svg) {
 TEST_CASE("ticks are round numbers inside the range") {
     CHECK(plot_ticks(0, 10, false) == std::vector<double>{0, 2, 4, 6, 8, 10});
     CHECK(plot_ticks(0, 2048, false) == std::vector<double>{0, 500, 1000, 1500, 2000});
-    CHECK(plot_ticks(1, 1000, true) == std::vector<double>{1, 10, 100, 1000});
-    CHECK(plot_ticks(1e-12, 1e12, true).size() <= 10);
+    CHECK(plot_ticks(1, 100, true) == std::vector<double>{1, 2, 5, 10, 20, 50, 100});
+    CHECK(plot_ticks(1, 1e6, true) == std::vector<double>{1, 10, 100, 1000, 1e4, 1e5, 1e6});
+    CHECK(plot_ticks(3e-12, 1e12, true).size() <= 12);
 }
 
 TEST_CASE("points lie where the axes say") {
@@ -48,6 +49,17 @@ TEST_CASE("zero on a logarithmic axis is drawn hollow at its foot, below every o
     REQUIRE(points.size() == 3);
     CHECK(points[2][1] > points[1][1] + 10);
     CHECK_THAT(svg, Contains(">0</text>") && Contains("fill=\"white\"/>"));
+}
+
+TEST_CASE("logarithmic axes hold all points, over few decades and over many") {
+    for (const double least : {3.0, 1e-17}) {
+        const auto points = marks(to_svg({"t", {"x", false}, {"y", true}, {{"a", {{0, 40}, {1, least}, {2, 7e8}}}}}));
+        REQUIRE(points.size() == 3);
+        CHECK(points[2][1] >= 44); // the frame's upper edge
+        CHECK(points[1][1] <= 380);
+        CHECK(points[1][1] > points[0][1]);
+        CHECK(points[0][1] > points[2][1]);
+    }
 }
 
 TEST_CASE("plots without values, and values that are no numbers, do no harm") {

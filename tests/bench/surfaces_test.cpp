@@ -21,6 +21,7 @@ TEST_CASE("the suite of surfaces measures what it says and writes it down") {
     options.sizes = {32, 64};
     options.orders = {2};
     options.elements = {2, 3};
+    options.contour_elements_a_side = 2;
     options.contour_orders = {2};
     options.most_subdivisions = 4;
     std::size_t n_reported = 0;
