@@ -4,6 +4,7 @@
 #include <core/expression/expression.hpp>
 #include <core/scene/color_map.hpp>
 #include <core/scene/resolve.hpp>
+#include <core/scene/surface_distance.hpp>
 
 #include <algorithm>
 
@@ -76,7 +77,11 @@ void complete(ElementSelection& selection, const FieldChoice& field, const Scene
 Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
     Surface surface;
     surface.geometry = own.geometry;
-    surface.field = choose_field(volume, own.field ? own.field : scene.field);
+    std::optional<std::string> field = own.field ? own.field : scene.field;
+    if (field) {
+        *field = with_distances(*field, scene.surfaces);
+    }
+    surface.field = choose_field(volume, field);
     if (auto* elements = std::get_if<ElementFaces>(&surface.geometry)) {
         complete(elements->selection, surface.field, scene, volume);
     }

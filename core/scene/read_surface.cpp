@@ -98,6 +98,9 @@ SceneSurface read_surface(const JsonObject& object, const std::string& scene) {
     } else {
         surface.geometry = read_shape(object, type, scene);
     }
+    if (object.has("name")) {
+        surface.name = object.text("name");
+    }
     if (object.has("field")) {
         surface.field = object.text("field");
     }

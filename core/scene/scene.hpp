@@ -58,6 +58,8 @@ struct SceneContours {
 /** What it lacks it takes from the scene. */
 struct SceneSurface {
     SurfaceGeometry geometry;
+    /** For expressions; may be empty. */
+    std::string name{};
     std::optional<std::string> field{};
     std::optional<SceneColorMap> color_map{};
     std::optional<SceneContours> contours{};

@@ -59,6 +59,10 @@ AnnotationRequest make_annotation_request(const SceneAnnotation& annotation, con
     std::vector<FieldChoice> fields;
     for (std::size_t index = 0; index < request.surfaces.size(); ++index) {
         const Surface& surface = request.surfaces[index];
+        // One colour, as of wires, tells nothing.
+        if (surface.colors.points.size() < 2) {
+            continue;
+        }
         std::size_t bar = 0;
         while (bar < fields.size() &&
                !(fields[bar] == surface.field && is_same(result.color_bars[bar].colors, surface.colors))) {

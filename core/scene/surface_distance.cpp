@@ -1,0 +1,104 @@
+#include <core/scene/surface_distance.hpp>
+
+#include <core/base/error.hpp>
+#include <core/scene/json_reader.hpp>
+
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <string_view>
+
+namespace elvis {
+
+namespace {
+
+std::string join(std::initializer_list<std::string_view> parts) {
+    std::string text;
+    for (const std::string_view part : parts) {
+        text += part;
+    }
+    return text;
+}
+
+/** With all digits, in parentheses. */
+std::string number(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "(%.17g)", value);
+    return text;
+}
+
+/** dot(direction, x - point) */
+std::string along(const Vector3& direction, const Vector3& point) {
+    return join({"(", number(direction[0]), "*(@x-", number(point[0]), ")+", number(direction[1]), "*(@y-", number(point[1]), ")+",
+                 number(direction[2]), "*(@z-", number(point[2]), "))"});
+}
+
+/** |x - point|^2 */
+std::string square(const Vector3& point) {
+    return join({"((@x-", number(point[0]), ")^2+(@y-", number(point[1]), ")^2+(@z-", number(point[2]), ")^2)"});
+}
+
+Vector3 unit(const Vector3& a) {
+    const double length = std::hypot(a[0], a[1], a[2]);
+    return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+std::string distance_to(const SceneSurface& surface) {
+    if (const auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
+        const auto& [a, b, c, d] = plane->plane;
+        const double length = std::hypot(a, b, c);
+        return join({"(", along({a / length, b / length, c / length}, {}), "+", number(d / length), ")"});
+    }
+    if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+        if (const auto* sphere = std::get_if<Sphere>(shape)) {
+            return join({"(sqrt", square(sphere->center), "-", number(sphere->radius), ")"});
+        }
+        if (const auto* torus = std::get_if<Torus>(shape)) {
+            const std::string height = along(unit(torus->axis), torus->center);
+            const std::string from_axis = join({"sqrt(max(0,", square(torus->center), "-", height, "^2))"});
+            return join({"(sqrt((", from_axis, "-", number(torus->major_radius), ")^2+", height, "^2)-",
+                         number(torus->minor_radius), ")"});
+        }
+    }
+    throw Error("expression", join({"distance(", surface.name, "): distances are known of planes, spheres and tori"}));
+}
+
+const SceneSurface& surface_named(const std::string& name, std::span<const SceneSurface> surfaces) {
+    std::vector<std::string> names;
+    for (const SceneSurface& surface : surfaces) {
+        if (surface.name == name && !name.empty()) {
+            return surface;
+        }
+        if (!surface.name.empty()) {
+            names.push_back(surface.name);
+        }
+    }
+    const std::string nearest = names.empty() ? std::string() : join({"; the nearest is '", nearest_word(name, names), "'"});
+    throw Error("expression", join({"distance(", name, "): no surface of the scene has this name", nearest}));
+}
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+} // namespace
+
+std::string with_distances(const std::string& text, std::span<const SceneSurface> surfaces) {
+    static const std::string function = "distance(";
+    std::string result;
+    char quote = 0;
+    for (std::size_t i = 0; i < text.size();) {
+        const bool starts = quote == 0 && text.compare(i, function.size(), function) == 0 && (i == 0 || !is_word(text[i - 1]));
+        const std::size_t end = starts ? text.find(')', i) : std::string::npos;
+        if (end != std::string::npos) {
+            const std::size_t first = i + function.size();
+            result += distance_to(surface_named(text.substr(first, end - first), surfaces));
+            i = end + 1;
+            continue;
+        }
+        quote = quote == 0 && (text[i] == '"' || text[i] == '\'') ? text[i] : text[i] == quote ? char{0} : quote;
+        result += text[i++];
+    }
+    return result;
+}
+
+} // namespace elvis
