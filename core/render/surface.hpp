@@ -103,6 +103,8 @@ struct MeshLines {
 struct Surface {
     SurfaceGeometry geometry;
     FieldChoice field{};
+    /** What people know the field by, if not by its own name or text. */
+    std::string field_label{};
     ColorTable colors{};
     std::optional<Contours> contours{};
     std::optional<MeshLines> mesh_lines{};

@@ -79,6 +79,7 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
     surface.geometry = own.geometry;
     std::optional<std::string> field = own.field ? own.field : scene.field;
     if (field) {
+        surface.field_label = *field;
         *field = with_distances(*field, scene.surfaces);
     }
     surface.field = choose_field(volume, field);

@@ -72,7 +72,9 @@ AnnotationRequest make_annotation_request(const SceneAnnotation& annotation, con
             fields.push_back(surface.field);
             // The unit of an expression is the user's affair.
             const std::string unit = surface.field.expression ? std::string{} : volume.fields()[surface.field.field].unit;
-            result.color_bars.push_back({surface.colors, field_label(volume, surface.field), unit});
+            const bool is_named = surface.field.expression && !surface.field_label.empty();
+            const std::string label = is_named ? surface.field_label : field_label(volume, surface.field);
+            result.color_bars.push_back({surface.colors, label, unit});
         }
         const SpecialValues& special = frame.special_values[index];
         result.color_bars[bar].has_below |= special.below;
