@@ -14,7 +14,7 @@ namespace elvis {
 namespace {
 
 constexpr double width = 720, height = 440;
-constexpr double left = 84, right = 190, top = 44, bottom = 60;
+constexpr double left = 98, right = 190, top = 44, bottom = 60;
 
 /** M. Okabe, K. Ito, "Color Universal Design": told apart by colour-blind people. */
 constexpr const char* colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8a7000"};
