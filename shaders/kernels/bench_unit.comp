@@ -12,8 +12,8 @@ void main() {
     elvis_real sum = elvis_real(0);
     const elvis_real x = elvis_real(0.125LF) * (elvis_real(gl_LocalInvocationID.x) - elvis_real(3.5LF));
     for (uint i = 0u; i < core_n_values; ++i) {
-        // All coordinates, and the element as far as a compiler can tell, rest on the value before, so that no part of the work can be
-        // left out or done once for all.
+        // All coordinates, and the element as far as a compiler can tell, rest on the value before, so that no part of the work can
+        // be left out or done once for all.
         const elvis_real shift = elvis_real(1e-3LF) * clamp(sum, elvis_real(-1), elvis_real(1));
         const uint same = sum > elvis_real(1e30LF) ? 0u : element;
         sum += elvis_field_value(same, elvis_vec3(x + shift, elvis_real(0.01LF) * elvis_real(i) - shift, shift), 0u);

@@ -1,5 +1,5 @@
-// Colours of a surface's samples: a table of (value, r, g, b), piecewise linear, with colours of its own below, above and for NaN; lines
-// over it; nothing where it is clipped.
+// Colours of a surface's samples: a table of (value, r, g, b), piecewise linear, with colours of its own below, above and for NaN;
+// lines over it; nothing where it is clipped.
 
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
@@ -15,8 +15,8 @@ layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_
 #endif
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
-// In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of contours, of undecided ones,
-// of mesh lines and undecided ones; opacity, and colour outside of elements; planes that clip; isovalues.
+// In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of contours, of undecided
+// ones, of mesh lines and undecided ones; opacity, and colour outside of elements; planes that clip; isovalues.
 layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };

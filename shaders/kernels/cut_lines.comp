@@ -1,9 +1,9 @@
 // Which of the listed pixels meet contours of the field, and boundaries of elements, on a cut plane.
 //
-// A pixel is a closed square. Each element of the class that may reach into it is asked by itself, with its own values, so that a jump
-// between elements is no contour. The square is one cell at first; a cell in which the answer is open is halved in both directions, at
-// most core_subdivisions times (library/cell.glsl tells what is certain about a cell). Cells are visited depth first, in the order
-// (0,0) (1,0) (0,1) (1,1), which needs no stack.
+// A pixel is a closed square. Each element of the class that may reach into it is asked by itself, with its own values, so that a
+// jump between elements is no contour. The square is one cell at first; a cell in which the answer is open is halved in both
+// directions, at most core_subdivisions times (library/cell.glsl tells what is certain about a cell). Cells are visited depth
+// first, in the order (0,0) (1,0) (0,1) (1,1), which needs no stack.
 //
 // One evaluation of mapping and field a turn, whatever element and cell a lane is at.
 

@@ -1,7 +1,7 @@
 // Where the rays of a picture meet one cut plane, for the elements of one class: finds the element, evaluates the field.
 //
-// Several planes and classes merge in core_samples: the nearest plane wins; on one plane, the element on the viewer's side, then the
-// lowest number. One field evaluation a pixel and class, after the search.
+// Several planes and classes merge in core_samples: the nearest plane wins; on one plane, the element on the viewer's side, then
+// the lowest number. One field evaluation a pixel and class, after the search.
 //
 // With CORE_LINES, what needs no closer look is decided about lines: pixels whose square lies inside one element, and in which the
 // field certainly takes an isovalue or certainly none. The others are left to kernels/cut_lines.comp.
@@ -87,8 +87,8 @@ void main() {
     while (row < end_row) {
         const core_cut_point point = core_cut_pixel(ray, elvis_real(row));
         const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
-        // For pixels outside, too: in a loop of one turn it would take three times as long, because compilers move all that does not
-        // change with the turn in front of the loop and run out of registers.
+        // For pixels outside, too: in a loop of one turn it would take three times as long, because compilers move all that does
+        // not change with the turn in front of the loop and run out of registers.
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_vec3 xi = elvis_vec3(found.x, found.y, found.z);
 #if CORE_LINES

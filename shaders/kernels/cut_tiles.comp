@@ -1,5 +1,5 @@
-// For each tile of pixels, the nodes of a hierarchy that the tile's part of the cut plane can touch: neighbouring pixels share most of
-// their way through the hierarchy, so it is gone once for all of them.
+// For each tile of pixels, the nodes of a hierarchy that the tile's part of the cut plane can touch: neighbouring pixels share most
+// of their way through the hierarchy, so it is gone once for all of them.
 
 layout(local_size_x = 32) in;
 
@@ -31,8 +31,8 @@ void main() {
     const core_cut_point p00 = core_cut_pixel(left, row), p10 = core_cut_pixel(right, row);
     const core_cut_point p01 = core_cut_pixel(left, last_row), p11 = core_cut_pixel(right, last_row);
 
-    // Where the four corner rays meet the plane in front of the eye, the pixels between them meet it inside the quadrilateral of the
-    // four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all.
+    // Where the four corner rays meet the plane in front of the eye, the pixels between them meet it inside the quadrilateral of
+    // the four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all.
     const bool all_hit = p00.is_hit && p10.is_hit && p01.is_hit && p11.is_hit;
     const bool any_hit = p00.is_hit || p10.is_hit || p01.is_hit || p11.is_hit;
     const vec3 shift = vec3(core_reference_in_hierarchy.xyz);

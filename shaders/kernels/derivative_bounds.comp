@@ -1,8 +1,8 @@
 // Largest size, slope and second derivatives of a field at samples of each element: estimates, for plugins that cannot tell.
 //
-// Samples lie in collapsed coordinates at a grid of 4 x 4 x 4 points, where polynomials are steepest near the ends. Second derivatives
-// along each collapsed direction come from the difference to the gradient at a point CORE_STEP further inside. With the steps d_k in xi
-// and the differences g_k of the gradients, the second derivatives are the matrix M with M d_k = g_k.
+// Samples lie in collapsed coordinates at a grid of 4 x 4 x 4 points, where polynomials are steepest near the ends. Second
+// derivatives along each collapsed direction come from the difference to the gradient at a point CORE_STEP further inside. With the
+// steps d_k in xi and the differences g_k of the gradients, the second derivatives are the matrix M with M d_k = g_k.
 
 #include "library/expand.glsl"
 #include "library/finite.glsl"

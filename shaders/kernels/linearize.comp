@@ -1,5 +1,5 @@
-// The linearized inverse mapping of each element of a class, at its centroid (library/linearization.glsl), and how far the mapping is
-// from linear (library/prediction.glsl): once for a volume.
+// The linearized inverse mapping of each element of a class, at its centroid (library/linearization.glsl), and how far the mapping
+// is from linear (library/prediction.glsl): once for a volume.
 
 layout(local_size_x = 32) in;
 

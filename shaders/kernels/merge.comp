@@ -1,5 +1,6 @@
-// Merges the layer of a surface into the picture. Samples and marks are those of the nearest surface, transparent ones included; colours
-// those of the nearest opaque one. Transparent layers are kept apart until all surfaces are drawn (order_layers.comp, blend.comp).
+// Merges the layer of a surface into the picture. Samples and marks are those of the nearest surface, transparent ones included;
+// colours those of the nearest opaque one. Transparent layers are kept apart until all surfaces are drawn (order_layers.comp,
+// blend.comp).
 
 layout(local_size_x = CORE_GROUP_SIZE) in;
 

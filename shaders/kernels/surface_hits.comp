@@ -1,11 +1,11 @@
-// For each pixel the next crossing of its ray with a surface: t, its error, the normal, the bending; and the box of all crossings of a
-// tile of pixels, for kernels/surface_tiles.comp.
+// For each pixel the next crossing of its ray with a surface: t, its error, the normal, the bending; and the box of all crossings
+// of a tile of pixels, for kernels/surface_tiles.comp.
 //
-// The text of the kernel starts with library/surface_KIND.glsl, which gives core_next_hit. Crossings are looked for in a box only: that
-// of the volume, outside of which nothing is to be seen.
+// The text of the kernel starts with library/surface_KIND.glsl, which gives core_next_hit. Crossings are looked for in a box only:
+// that of the volume, outside of which nothing is to be seen.
 //
-// The first round looks from the eye on, or from core_beyond; every further one beyond the crossings of the round before that lie in no
-// element.
+// The first round looks from the eye on, or from core_beyond; every further one beyond the crossings of the round before that lie
+// in no element.
 //
 // A work group is a tile of pixels, or CORE_HIT_ROWS rows of it, an invocation one of its columns.
 

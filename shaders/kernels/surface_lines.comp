@@ -1,12 +1,12 @@
 // Which pixels of a curved surface's layer meet contours of the field and boundaries of elements.
 //
-// As kernels/cut_lines.comp, on the tangent plane of the surface at the pixel's own point. What the surface departs from it is an error
-// of the cells' corners: half the bending times the square of the distance, along the oblique ray. On faces (CORE_ON_FACES) the remainder
-// of a Newton step bounds it, stretched as the ray is oblique, since the mapping and the surface are one.
+// As kernels/cut_lines.comp, on the tangent plane of the surface at the pixel's own point. What the surface departs from it is an
+// error of the cells' corners: half the bending times the square of the distance, along the oblique ray. On faces (CORE_ON_FACES)
+// the remainder of a Newton step bounds it, stretched as the ray is oblique, since the mapping and the surface are one.
 //
 // Where the neighbouring pixels see points near that plane, the surface is smooth. Where one of them sees a point in front of it,
-// something may hide a part of the pixel; then nothing is certain. Elsewhere, at edges and silhouettes, other parts of the surface may
-// show in the pixel: a line that is met is met, but that none is met rests on a plane three times the pixel's size.
+// something may hide a part of the pixel; then nothing is certain. Elsewhere, at edges and silhouettes, other parts of the surface
+// may show in the pixel: a line that is met is met, but that none is met rests on a plane three times the pixel's size.
 
 layout(local_size_x = 32) in;
 

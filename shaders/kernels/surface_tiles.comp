@@ -1,5 +1,5 @@
-// For each tile of pixels, the nodes of a hierarchy that the tile's crossings with a surface can lie in: as kernels/cut_tiles.comp, but
-// the box of the crossings comes from kernels/surface_hits.comp.
+// For each tile of pixels, the nodes of a hierarchy that the tile's crossings with a surface can lie in: as kernels/cut_tiles.comp,
+// but the box of the crossings comes from kernels/surface_hits.comp.
 
 layout(local_size_x = 32) in;
 

@@ -1,9 +1,9 @@
 // What one element has to do with a pixel's cell: the part of a surface that a square of the picture shows.
 //
-// The cell's corners are points of the surface; between them it is flat, so that every point of the cell lies in their hull. The mapping
-// is linearized at a point xi of the element. A point of cell and element has the offset J^-1 (x - x(xi)) from xi but for the error of
-// a Newton step (library/prediction.glsl) and rounding, which is the patch of library/model.glsl. Faces are linear in reference
-// coordinates, so where the corners lie tells what the boundary of the element does in the cell:
+// The cell's corners are points of the surface; between them it is flat, so that every point of the cell lies in their hull. The
+// mapping is linearized at a point xi of the element. A point of cell and element has the offset J^-1 (x - x(xi)) from xi but for
+// the error of a Newton step (library/prediction.glsl) and rounding, which is the patch of library/model.glsl. Faces are linear in
+// reference coordinates, so where the corners lie tells what the boundary of the element does in the cell:
 //
 //   inside    all of the cell lies in the element
 //   outside   none of it does
@@ -20,7 +20,8 @@ struct core_cell {
     bool is_inside, is_outside, is_crossed;
     // The surface lies in a face of the element, which is on the far side.
     bool is_behind;
-    // By how much at least the corners violate a face together, or leave the surface's own one, as predicted; negative if they do not.
+    // By how much at least the corners violate a face together, or leave the surface's own one, as predicted; negative if they do
+    // not.
     elvis_real clearance;
     // Length of the predicted step to the middle of the corners, and that point.
     elvis_real step;
@@ -132,15 +133,16 @@ core_cell core_cell_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvi
     return cell;
 }
 
-// Whether the cell lies outside for another reason than the bound, which says nothing far away from a curved element: the point of the
-// element nearest to the prediction is the one that it was made from but for `move`, and the cell lies beyond a face by far more. That
-// element and surface could meet elsewhere all the same takes an element that folds; of those the curvature is not known.
+// Whether the cell lies outside for another reason than the bound, which says nothing far away from a curved element: the point of
+// the element nearest to the prediction is the one that it was made from but for `move`, and the cell lies beyond a face by far
+// more. That element and surface could meet elsewhere all the same takes an element that folds; of those the curvature is not
+// known.
 bool core_is_clear_of(core_cell cell, elvis_real cell_radius, elvis_real move, elvis_real curvature) {
     return curvature < elvis_real(1e6LF) && cell.clearance > elvis_real(0.5LF) * cell_radius + elvis_real(8) * move;
 }
 
-// Whether the linearized mapping alone (library/linearization.glsl) says that the cell lies outside. `start`: what it predicts for the
-// middle of the cell; `extent`: the maximum norm of the corners' offsets from it.
+// Whether the linearized mapping alone (library/linearization.glsl) says that the cell lies outside. `start`: what it predicts for
+// the middle of the cell; `extent`: the maximum norm of the corners' offsets from it.
 bool core_is_far_outside(elvis_vec3 start, elvis_real extent, elvis_real curvature) {
     // It keeps this many digits of coordinates in the element.
     const elvis_real start_error = elvis_real(1e-2LF);

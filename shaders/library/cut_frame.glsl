@@ -1,7 +1,7 @@
 // Geometry of one cut plane in one picture, prepared by the host in double precision (core/render/cut_plane_geometry.hpp).
 //
-// Everything is relative to a reference point near the part of the plane that is seen, so that single precision spends its digits on
-// differences. Pixel (column, row) has the ray
+// Everything is relative to a reference point near the part of the plane that is seen, so that single precision spends its digits
+// on differences. Pixel (column, row) has the ray
 //     base + t * direction,   base = base0 + (column - column0) * base_column + (row - row0) * base_row,   direction likewise,
 // with (column0, row0) in the picture's middle, so that no large terms cancel, base on a plane across the view, and t the distance
 // along the view's axis. It meets the cut plane at t = -level / slope, where
@@ -61,8 +61,8 @@ core_cut_point core_cut_pixel(core_cut_column column, elvis_real row) {
     point.is_hit = direction.w != elvis_real(0) && point.t + column.reference_distance > elvis_real(0);
     point.direction = direction.xyz;
     point.position = base.xyz + point.t * direction.xyz;
-    // Rounding of numbers of these sizes: the terms of base and the product; and those of the level, which the slope makes a distance
-    // along the ray.
+    // Rounding of numbers of these sizes: the terms of base and the product; and those of the level, which the slope makes a
+    // distance along the ray.
     const elvis_vec4 terms = column.size + abs(down * column.base_row);
     const elvis_vec3 size = terms.xyz + (abs(point.t) + terms.w / abs(direction.w)) * abs(direction.xyz);
     point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);

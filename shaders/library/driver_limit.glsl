@@ -1,5 +1,5 @@
-// Whether the driver has ended a loop, of the snippet too, before it was done: then this one ends before its second turn. `zero`: zero,
-// but not so that a compiler could know.
+// Whether the driver has ended a loop, of the snippet too, before it was done: then this one ends before its second turn. `zero`:
+// zero, but not so that a compiler could know.
 bool core_has_driver_given_up(uint zero) {
     uint canary = 0u;
     while (canary < 2u + zero) {

@@ -1,5 +1,5 @@
-// elvis_field_hessian for snippets without: differences of elvis_field_gradient like those of gradient_default.glsl, with the same errors
-// relative to the largest second derivative where the gradient is exact.
+// elvis_field_hessian for snippets without: differences of elvis_field_gradient like those of gradient_default.glsl, with the same
+// errors relative to the largest second derivative where the gradient is exact.
 
 #include "library/stencil.glsl"
 

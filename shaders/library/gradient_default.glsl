@@ -1,9 +1,9 @@
 // elvis_field_gradient for snippets that give field values only: differences of sixth order that stay inside the element.
 //
-// Derivatives are taken along three directions that lead from xi to corners of the tetrahedron c0 c1 c2 c3 = (-,-,-) (+,-,-) (-,+,-)
-// (-,-,+), which every reference shape contains. Shapes are convex, so the way to a corner is inside, wherever xi is, a collapsed
-// vertex included. The corner with the largest barycentric coordinate (>= 1/4 in size) is left out: the three directions are then
-// independent.
+// Derivatives are taken along three directions that lead from xi to corners of the tetrahedron c0 c1 c2 c3 = (-,-,-) (+,-,-)
+// (-,+,-) (-,-,+), which every reference shape contains. Shapes are convex, so the way to a corner is inside, wherever xi is, a
+// collapsed vertex included. The corner with the largest barycentric coordinate (>= 1/4 in size) is left out: the three directions
+// are then independent.
 //
 // Along each direction the field is taken at seven equidistant points, spaced by a fraction of the way to the corner: centred if
 // there is room behind xi, if need be with a spacing down to an eighth; else starting at xi. With a distance h between points,
@@ -11,8 +11,8 @@
 //   centred    error <= h^6 |f^(7)| / 140 +  1.8 eps |f| / h       (weights +-1/60, +-3/20, +-3/4)
 //   one-sided  error <= h^6 |f^(7)| / 7   + 27.7 eps |f| / h
 //
-// where eps is the relative error of a value. Each fraction suits waves of up to ten radians a unit length, some three in an element.
-// Largest errors measured (tests/defaults), relative to the largest gradient, on all four shapes:
+// where eps is the relative error of a value. Each fraction suits waves of up to ten radians a unit length, some three in an
+// element. Largest errors measured (tests/defaults), relative to the largest gradient, on all four shapes:
 //
 //   radians a unit length     1        3        6        10
 //   float64, inside           3e-13    4e-13    3e-13    2e-12

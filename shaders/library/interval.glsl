@@ -1,15 +1,11 @@
 // Interval arithmetic: ranges of functions over boxes that surely hold.
 //
 // There is no directed rounding on devices: every result is widened outward, by two units in the last place (what rounding to
-// nearest,
-// or even towards zero, can lose), three for division (Vulkan promises 2.5), six for square roots (4.5), four for the elementary
-// functions of library/math.glsl (2), and by CORE_INTERVAL_TINY for results that devices may take for zero. All of it is
-// `precise`, so
-// that no compiler rearranges it. Ends are never infinite: an interval that reaches beyond +-CORE_INTERVAL_END says nothing on
-// that side,
-// and is cut there. Where a function has no value on part of an interval (root or logarithm of negative numbers) the result
-// bounds
-// the values that exist.
+// nearest, or even towards zero, can lose), three for division (Vulkan promises 2.5), six for square roots (4.5), four for the
+// elementary functions of library/math.glsl (2), and by CORE_INTERVAL_TINY for results that devices may take for zero. All of it is
+// `precise`, so that no compiler rearranges it. Ends are never infinite: an interval that reaches beyond +-CORE_INTERVAL_END says
+// nothing on that side, and is cut there. Where a function has no value on part of an interval (root or logarithm of negative
+// numbers) the result bounds the values that exist.
 //
 // See R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis (2009).
 
@@ -34,8 +30,7 @@ struct core_interval {
 core_interval core_interval_whole() { return core_interval(-CORE_INTERVAL_END, CORE_INTERVAL_END); }
 
 // Widened by `ulps` units in the last place; NaN and infinities become the ends. Two units of roundoff are one unit in the last
-// place at
-// most.
+// place at most.
 core_interval core_interval_outward(elvis_real lower, elvis_real upper, elvis_real ulps) {
     const elvis_real relative = elvis_real(2) * ulps * CORE_ROUNDOFF;
     precise const elvis_real below = lower - (relative * abs(lower) + CORE_INTERVAL_TINY);
@@ -140,9 +135,8 @@ core_interval core_interval_log(core_interval a) {
 // Largest arguments that sine and cosine are computed for; beyond, the range is all of [-1, 1].
 #define CORE_INTERVAL_ANGLE elvis_real(1e4LF)
 
-// Sine on an interval: its extremes are the ends and the maxima at pi/2 + 2 pi k, the minima at -pi/2 + 2 pi k, that lie
-// within, or so
-// close that rounding cannot tell.
+// Sine on an interval: its extremes are the ends and the maxima at pi/2 + 2 pi k, the minima at -pi/2 + 2 pi k, that lie within, or
+// so close that rounding cannot tell.
 core_interval core_interval_sin(core_interval a) {
     const bool is_small = a.lower > -CORE_INTERVAL_ANGLE && a.upper < CORE_INTERVAL_ANGLE;
     const elvis_real lower = is_small ? a.lower : elvis_real(0), upper = is_small ? a.upper : elvis_real(0);
@@ -193,9 +187,8 @@ core_interval core_interval_atan(core_interval y, core_interval x) {
                          is_above ? above.upper : is_below ? below.upper : is_right ? right.upper : all.upper);
 }
 
-// x^n for a whole number n >= 1: growing where n is odd, growing in |x| where it is even. Each product of positive numbers
-// loses an ulp
-// at most (towards zero), which is why the result is widened by n + 1.
+// x^n for a whole number n >= 1: growing where n is odd, growing in |x| where it is even. Each product of positive numbers loses an
+// ulp at most (towards zero), which is why the result is widened by n + 1.
 core_interval core_interval_whole_power(core_interval a, uint n) {
     const bool is_odd = (n & 1u) != 0u;
     const core_interval size = core_interval_abs(a);

@@ -6,8 +6,8 @@
 #ifndef CORE_LIGHTING
 #define CORE_LIGHTING
 
-// ambient and number of lights; strength and exponent of highlights; then for each light its vector and kind, and its colour. Places
-// are relative to the reference point of the rays.
+// ambient and number of lights; strength and exponent of highlights; then for each light its vector and kind, and its colour.
+// Places are relative to the reference point of the rays.
 layout(set = 0, binding = CORE_LIGHTS_BINDING, std430) readonly buffer core_lights_block { elvis_vec4 core_lights[]; };
 
 #define CORE_LIGHT_AT_EYE elvis_real(0)

@@ -1,10 +1,10 @@
-// The mapping linearized at the centroid, inverted: xi ~ offset + matrix * (x - origin). Newton's method starts from it, which saves
-// the first evaluation and lets most candidates that do not hold the point be dismissed after one.
+// The mapping linearized at the centroid, inverted: xi ~ offset + matrix * (x - origin). Newton's method starts from it, which
+// saves the first evaluation and lets most candidates that do not hold the point be dismissed after one.
 //
 // It is stored in six words as 16-bit fractions, since a start needs three digits: each row of the matrix and the offset times a
 // power of two. The rows' exponents, as a float's, stand in the lower bytes of `exponents`; the offset's, less
-// core_min_offset_exponent, in the upper five bits; and the three bits between hold the curvature (library/prediction.glsl) rounded up to
-// a power of two. exponents == 0: there is no linearization.
+// core_min_offset_exponent, in the upper five bits; and the three bits between hold the curvature (library/prediction.glsl) rounded
+// up to a power of two. exponents == 0: there is no linearization.
 
 // A smaller offset needs no exponent of its own; beyond 2^10 (positions far from their origin, in elements' lengths) too few digits
 // would be left.

@@ -1,19 +1,19 @@
 // Which element of a class holds a point of a cut surface.
 //
-// Every element within rounding of the point is a candidate: neighbours share a face in exact arithmetic only, and must leave no gap.
-// Among candidates the viewer's side decides (key 0: a small step towards the viewer stays in the element), then the lowest number.
-// So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at. A point that is
-// inside by more than rounding is in no other element of a valid mesh: there the search ends.
+// Every element within rounding of the point is a candidate: neighbours share a face in exact arithmetic only, and must leave no
+// gap. Among candidates the viewer's side decides (key 0: a small step towards the viewer stays in the element), then the lowest
+// number. So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at. A point
+// that is inside by more than rounding is in no other element of a valid mesh: there the search ends.
 //
-// Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first, from
-// the solution here carried on with the Jacobian here, which leaves one Newton step to do.
+// Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first,
+// from the solution here carried on with the Jacobian here, which leaves one Newton step to do.
 //
 // The kernel brings core_entry(i), the nodes to descend from, library/show.glsl, and the buffer core_elements
 // (library/linearization.glsl).
 //
-// One loop serves all candidates of a pixel, one Newton step a turn: lanes that dismiss a candidate after one step go on to their next
-// one while others still iterate. Code that few turns need stands in loops of one turn, because branches are not skipped by drivers
-// that compute all lanes.
+// One loop serves all candidates of a pixel, one Newton step a turn: lanes that dismiss a candidate after one step go on to their
+// next one while others still iterate. Code that few turns need stands in loops of one turn, because branches are not skipped by
+// drivers that compute all lanes.
 
 #include "library/newton.glsl"
 #include "library/hierarchy.glsl"
@@ -24,8 +24,8 @@
 #define CORE_SURFACE_NORMAL core_plane_normal.xyz
 #endif
 
-// Turns of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is far
-// above what any sensible search takes and leaves room for a tile's other pixels.
+// Turns of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is
+// far above what any sensible search takes and leaves room for a tile's other pixels.
 #define CORE_WORK_LIMIT 2000u
 
 // Where the column's last pixel was found, to carry on from.
@@ -160,7 +160,8 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             }
         }
 
-        // Not in a loop of one turn, which would take three times as long (kernels/cut_plane.comp): a turn without an element is rare.
+        // Not in a loop of one turn, which would take three times as long (kernels/cut_plane.comp): a turn without an element is
+        // rare.
         const bool is_active = element != CORE_NO_ELEMENT;
         const uint safe_element = is_active ? element : 0u;
         core_inverse inverse;

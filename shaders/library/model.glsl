@@ -2,13 +2,11 @@
 //
 // A patch is the set of offsets d in reference coordinates that belong to a pixel's cell, as seen from the cell's point xi: those
 // within the convex hull of four corners (where the linearized mapping puts the pixel's corners), enlarged by `beyond` in the
-// maximum
-// norm (what the linearization leaves out). A model of a function f over a patch says
+// maximum norm (what the linearization leaves out). A model of a function f over a patch says
 //
 //     f(xi + d) = value + dot(slope, d) + e,   |e| <= remainder,   for every d of the patch,
 //
-// rounding included. Where nothing can be said, value and slope are zero and the remainder is CORE_UNKNOWN; that sticks to all
-// that
+// rounding included. Where nothing can be said, value and slope are zero and the remainder is CORE_UNKNOWN; that sticks to all that
 // is computed from it. f stays within core_model_reach(model, patch) of model.value.
 //
 // A function g of one model is linearized at its value: with t = f - value, |t| <= T = core_model_reach,
@@ -18,13 +16,10 @@
 // which gives value g(value), slope g'(value) slope, remainder |g'(value)| remainder + |q|. Where an exact form of q is known, it
 // stands with the function. See K. Makino, M. Berz, Taylor models and other validated functional inclusion methods (2003).
 //
-// Rounding: with the unit roundoff u, each result adds CORE_MODEL_OPERATIONS u (|value| + |slope|_1 radius) to its remainder
-// for what
-// its own value and slope lose (at most four roundings, a division of 2.5 ulp, or an elementary function of 2 ulp among them);
-// the
-// computation of remainders themselves, sums of positive numbers, is covered by a factor CORE_MODEL_UP; and CORE_MODEL_TINY
-// stands
-// for what is lost where results below the least normal number become zero.
+// Rounding: with the unit roundoff u, each result adds CORE_MODEL_OPERATIONS u (|value| + |slope|_1 radius) to its remainder for
+// what its own value and slope lose (at most four roundings, a division of 2.5 ulp, or an elementary function of 2 ulp among them);
+// the computation of remainders themselves, sums of positive numbers, is covered by a factor CORE_MODEL_UP; and CORE_MODEL_TINY
+// stands for what is lost where results below the least normal number become zero.
 
 #ifndef CORE_MODEL
 #define CORE_MODEL
@@ -114,8 +109,8 @@ core_model core_model_constant(elvis_real value) {
 }
 
 // A smooth function from its value and gradient at xi. bounds: x the largest sum of the absolute values of its nine second
-// derivatives
-// (|d^T H d| / 2 <= x radius^2 / 2), y the error of the computed value, z the sum of those of the computed gradient's entries.
+// derivatives (|d^T H d| / 2 <= x radius^2 / 2), y the error of the computed value, z the sum of those of the computed gradient's
+// entries.
 core_model core_model_leaf(elvis_real value, elvis_vec3 gradient, elvis_vec3 bounds, core_patch cell) {
     const elvis_real remainder = elvis_real(0.5LF) * bounds.x * cell.radius * cell.radius + bounds.y + bounds.z * cell.radius;
     return core_model_result(value, gradient, remainder, true, cell);
@@ -297,9 +292,8 @@ core_model core_model_atan(core_model f, core_patch cell) {
     return core_model_result(elvis_atan(f.value), inverse * f.slope, rest, core_model_is_known(f), cell);
 }
 
-// The angle of (x, y): its gradient is (-y, x) / r^2, and its second derivatives have the norm 1 / r^2, so q <= (T_x^2 + T_y^2)
-// / (2 r^2)
-// with the least r. Unknown at the origin and across the cut y = 0, x < 0.
+// The angle of (x, y): its gradient is (-y, x) / r^2, and its second derivatives have the norm 1 / r^2, so q <= (T_x^2 + T_y^2) /
+// (2 r^2) with the least r. Unknown at the origin and across the cut y = 0, x < 0.
 core_model core_model_atan(core_model y, core_model x, core_patch cell) {
     const elvis_real reach_x = core_model_reach(x, cell), reach_y = core_model_reach(y, cell);
     const elvis_real least_x = max(core_model_least(abs(x.value), reach_x), elvis_real(0));

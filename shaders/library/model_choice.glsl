@@ -34,8 +34,8 @@ core_model core_model_over_length(core_model f, core_model length_, core_patch c
 
 core_model core_model_power_to(core_model f, elvis_real p, core_patch cell) { return core_model_power(f, p, cell); }
 
-// A coordinate of an affine mapping. Its computed value and slope lose a few units in the last place of what they are sums of, which is
-// no more than the position and the Jacobian's entries together.
+// A coordinate of an affine mapping. Its computed value and slope lose a few units in the last place of what they are sums of,
+// which is no more than the position and the Jacobian's entries together.
 core_model core_model_coordinate(elvis_real x, elvis_vec3 slope, core_patch cell) {
     const elvis_real size = abs(x) + elvis_real(3) * core_model_norm1(slope);
     const elvis_real error = elvis_real(16) * CORE_ROUNDOFF * size;

@@ -122,9 +122,9 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     const bool is_regular = core_is_finite(step);
 
     // Quadratic convergence: |s_k+1| ~ C |s_k|^2 with C = |s_k| / |s_k-1|^2, if both steps started at predictions. Asking a quarter
-    // of the rounding keeps a factor for the estimate; the change itself is the criterion where the estimate does not apply. C depends on
-    // the direction of the steps and can come out far too small: it is taken to be at least 1, about what a quadratic mapping has whose
-    // curvature is as large as its Jacobian.
+    // of the rounding keeps a factor for the estimate; the change itself is the criterion where the estimate does not apply. C
+    // depends on the direction of the steps and can come out far too small: it is taken to be at least 1, about what a quadratic
+    // mapping has whose curvature is as large as its Jacobian.
     const bool is_predicted = was_inside && step * step <= tolerance &&
                               step * step * step <= elvis_real(0.25LF) * tolerance * state.last_step * state.last_step;
     const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));

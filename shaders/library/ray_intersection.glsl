@@ -1,21 +1,23 @@
 // Where a ray runs through an element with curved faces, from nothing but elvis_mapping_jacobian: the default for every snippet.
 //
-// A face is a parallelogram or triangle corner + s a + r b in reference coordinates (core_face_frame). The ray with origin o and unit
-// direction d meets it where
+// A face is a parallelogram or triangle corner + s a + r b in reference coordinates (core_face_frame). The ray with origin o and
+// unit direction d meets it where
 //
 //   F(s, r) = (e1, e2) . (x(corner + s a + r b) - o) = 0,     e1, e2, d orthonormal,
 //
-// at the parameter t = d . (x - o) / d . d. Newton's method looks for the roots of F from the centres of CORE_RAY_PATCHES^2 patches of each face.
-// A patch is left after one evaluation if the linear model there puts the root more than one patch away: its neighbours start closer. So
-// a ray that misses costs one evaluation a patch. This finds all roots while F is close to linear within a patch; that is an assumption
-// (no bound of the mapping's curvature is known here), so segments are estimates in the sense of elvis/runtime.h.
+// at the parameter t = d . (x - o) / d . d. Newton's method looks for the roots of F from the centres of CORE_RAY_PATCHES^2 patches
+// of each face. A patch is left after one evaluation if the linear model there puts the root more than one patch away: its
+// neighbours start closer. So a ray that misses costs one evaluation a patch. This finds all roots while F is close to linear
+// within a patch; that is an assumption (no bound of the mapping's curvature is known here), so segments are estimates in the sense
+// of elvis/runtime.h.
 //
-// The ray enters where the face constraint g decreases along it. World normal cross(J a, J b) = cof(J) (a x b) points out of the element
-// if (a x b).grad g and det J have the same sign. The line is followed in both directions; who starts inside clips at t = 0.
+// The ray enters where the face constraint g decreases along it. World normal cross(J a, J b) = cof(J) (a x b) points out of the
+// element if (a x b).grad g and det J have the same sign. The line is followed in both directions; who starts inside clips at t =
+// 0.
 //
-// Measured (tests/defaults) on elements of all four shapes with faces bent by up to 0.4 of half their size, up to 3 % of which are hit
-// twice: no wrong segment without a flag, 0.1 % of the rays flagged; t within 5e-14 in float64 and 7e-5 in float32, worse only where
-// the ray nearly touches a face.
+// Measured (tests/defaults) on elements of all four shapes with faces bent by up to 0.4 of half their size, up to 3 % of which are
+// hit twice: no wrong segment without a flag, 0.1 % of the rays flagged; t within 5e-14 in float64 and 7e-5 in float32, worse only
+// where the ray nearly touches a face.
 //
 // In single precision the origin should be close to the element: t is no more exact than the coordinates of the origin.
 
@@ -31,8 +33,8 @@
 #define CORE_RAY_STARTS uint(CORE_N_FACES * CORE_RAY_PATCHES * CORE_RAY_PATCHES)
 // Evaluations a ray: one a start, and four times as many for those that go on. Roots that are met from several starts are few.
 #define CORE_RAY_WORK (5u * CORE_RAY_STARTS)
-// From a start within two thirds of a patch, six steps converge in double precision; a double root (the ray touches the face) halves
-// its distance with each.
+// From a start within two thirds of a patch, six steps converge in double precision; a double root (the ray touches the face)
+// halves its distance with each.
 #define CORE_RAY_STEPS 12u
 #define CORE_RAY_MAX_CROSSINGS 8u
 
@@ -61,8 +63,8 @@ elvis_real core_face_excess(elvis_real s, elvis_real r, bool is_triangle) {
     return max(max(-s, -r), is_triangle ? s + r - one : max(s, r) - one);
 }
 
-// Crossings of the line in the order of t. All those within `slack` of each other and of one kind are one: a ray through an edge meets
-// both faces, and several starts lead to one root.
+// Crossings of the line in the order of t. All those within `slack` of each other and of one kind are one: a ray through an edge
+// meets both faces, and several starts lead to one root.
 struct core_crossings {
     uint count;
     uint flags;
@@ -113,8 +115,8 @@ core_ray_segments core_pair_crossings(core_crossings list) {
         const bool is_there = i < list.count && !is_skipped;
         const bool enters = is_there && list.enters[i];
         const bool leaves = is_there && !list.enters[i];
-        // Out of turn: fine if it is undone within rounding, or if the ray touches an edge from outside and only one of the two faces
-        // there is met, for the same reason.
+        // Out of turn: fine if it is undone within rounding, or if the ray touches an edge from outside and only one of the two
+        // faces there is met, for the same reason.
         const bool is_wrong = (enters && is_inside) || (leaves && !is_inside);
         is_skipped = is_wrong && next < list.count && list.enters[next] != enters && list.t[next] - list.t[i] <= list.slack;
         segments.flags |= is_wrong && !is_skipped && !list.is_on_edge[i] ? CORE_RAY_INCONSISTENT : 0u;

@@ -1,5 +1,5 @@
-// The reference shape as a region: how far a point violates its faces, and the way back in. Included once for each snippet instance.
-// CORE_CONSTRAINT_NORM: by how much a face constraint changes at most when every coordinate changes by 1.
+// The reference shape as a region: how far a point violates its faces, and the way back in. Included once for each snippet
+// instance. CORE_CONSTRAINT_NORM: by how much a face constraint changes at most when every coordinate changes by 1.
 
 #ifndef CORE_SHAPE_REGION
 #define CORE_SHAPE_REGION

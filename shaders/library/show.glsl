@@ -1,8 +1,8 @@
 // What is found along a pixel's ray, and how it gets into the picture: the nearest surface wins; on one surface, the element on the
 // viewer's side, then the lowest number.
 //
-// The kernel brings library/cut_frame.glsl, library/samples.glsl, core_samples, core_marks, core_surface, core_first_component, core_end_component and
-// core_is_discontinuous.
+// The kernel brings library/cut_frame.glsl, library/samples.glsl, core_samples, core_marks, core_surface, core_first_component,
+// core_end_component and core_is_discontinuous.
 
 #include "library/driver_limit.glsl"
 

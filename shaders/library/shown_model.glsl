@@ -1,5 +1,5 @@
-// What a surface shows as a Taylor model over a pixel's cell. The kernel brings core_first_component and core_end_component, and the
-// host's buffer core_bounds: for each element and component the bounds of second and first derivatives and of the size of the
+// What a surface shows as a Taylor model over a pixel's cell. The kernel brings core_first_component and core_end_component, and
+// the host's buffer core_bounds: for each element and component the bounds of second and first derivatives and of the size of the
 // field, and whether they are estimated.
 
 #include "library/model.glsl"

@@ -1,5 +1,5 @@
-// Differences of sixth order along three directions that stay inside the element: see gradient_default.glsl. Included by what snippets
-// lack, after library/reference_shape.glsl, once for each instance.
+// Differences of sixth order along three directions that stay inside the element: see gradient_default.glsl. Included by what
+// snippets lack, after library/reference_shape.glsl, once for each instance.
 
 #ifndef CORE_STENCIL
 #define CORE_STENCIL
@@ -41,7 +41,8 @@ void core_stencil_directions(elvis_vec3 xi, out elvis_vec3 first, out elvis_vec3
     }
 }
 
-// Point k of 7 along a direction is xi + (first + k) spacing direction, and its weight core_gradient_weight(k, is_centred) / spacing.
+// Point k of 7 along a direction is xi + (first + k) spacing direction, and its weight core_gradient_weight(k, is_centred) /
+// spacing.
 void core_stencil(elvis_vec3 xi, elvis_vec3 direction, out elvis_real spacing, out int first, out bool is_centred) {
     const elvis_real three = elvis_real(3);
     const elvis_real largest = CORE_GRADIENT_SPACING;

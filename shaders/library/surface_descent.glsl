@@ -1,5 +1,5 @@
-// What surfaces made of many pieces have in common: the way of a ray through a hierarchy, and how a crossing found in several pieces is
-// judged.
+// What surfaces made of many pieces have in common: the way of a ray through a hierarchy, and how a crossing found in several
+// pieces is judged.
 
 #include "library/surface_hit.glsl"
 #include "library/hierarchy.glsl"
@@ -34,8 +34,8 @@ float core_box_entry(core_node node, core_box_ray ray, float farthest) {
     return is_met ? enter - slack : 3.3e38;
 }
 
-// Rounding moves edges of pieces across the ray by a little. A crossing well inside some piece is sure. One near edges only is, if two
-// pieces that face the same way hold it; near the edge of a single piece, or of two that fold back there, it is undecided.
+// Rounding moves edges of pieces across the ray by a little. A crossing well inside some piece is sure. One near edges only is, if
+// two pieces that face the same way hold it; near the edge of a single piece, or of two that fold back there, it is undecided.
 struct core_votes {
     bool is_sure;
     uint n_facing, n_averted;

@@ -1,10 +1,10 @@
 // Where a function of x, y and z changes its sign along a ray.
 //
-// The part of the ray in question is halved until the function's range over a piece, by interval arithmetic, says that there is no zero; or
-// the range of its derivative along the ray says that the function only rises or only falls there, so that its values at the piece's ends
-// tell whether there is one. Pieces are gone through from near to far: the first crossing found is the first there is. A piece that
-// single (or double) precision cannot halve any more is a crossing if the signs at its ends differ; else the ray touches the surface
-// there, as far as can be known, and the pixel is undecided.
+// The part of the ray in question is halved until the function's range over a piece, by interval arithmetic, says that there is no
+// zero; or the range of its derivative along the ray says that the function only rises or only falls there, so that its values at
+// the piece's ends tell whether there is one. Pieces are gone through from near to far: the first crossing found is the first there
+// is. A piece that single (or double) precision cannot halve any more is a crossing if the signs at its ends differ; else the ray
+// touches the surface there, as far as can be known, and the pixel is undecided.
 //
 // The kernel brings core_implicit_value, core_implicit and core_implicit_slopes (core/expression/glsl.hpp), of world coordinates.
 //

@@ -1,13 +1,13 @@
 // Quadrics: spheres, cylinders, cones, and all others. With CORE_HAS_ENDS only the part between two planes across the third local
 // direction, closed by discs if wanted.
 //
-// Rows: xyz: local directions, w: q_i | xyz: anchor, a point of the surface near what is seen, w: level | xyz: linear, w: 2 max |q_i|
-// | ends along the third direction, is_capped, 0. With y = local coordinates relative to the anchor the surface is
+// Rows: xyz: local directions, w: q_i | xyz: anchor, a point of the surface near what is seen, w: level | xyz: linear, w: 2 max
+// |q_i| | ends along the third direction, is_capped, 0. With y = local coordinates relative to the anchor the surface is
 //
 //     f(y) = sum q_i y_i^2 + linear . y + level = 0,
 //
-// scaled to a gradient of about unit length, so that a small or a distant surface, and a huge one, keep their digits: nothing larger than
-// what is seen is subtracted from what is seen.
+// scaled to a gradient of about unit length, so that a small or a distant surface, and a huge one, keep their digits: nothing
+// larger than what is seen is subtracted from what is seen.
 //
 // The ray's parameter is counted from where f is extreme along the ray (if that is near), so that the discriminant of the quadratic
 // equation is the value there and loses nothing by cancellation. One step of Newton's method removes what the root still lost.

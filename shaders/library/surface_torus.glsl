@@ -6,14 +6,14 @@
 //
 //     p(s) = (|y|^2 + R^2 - r^2)^2 - 4 R^2 rho^2 = 0,
 //
-// a quartic in s. A quartic is monotone between the zeros of its derivative, these lie one each between those of the second derivative,
-// and these are known: so all zeros are enclosed, and none is missed. The quartic decides where to look only: signs, and zeros, are those
-// of
+// a quartic in s. A quartic is monotone between the zeros of its derivative, these lie one each between those of the second
+// derivative, and these are known: so all zeros are enclosed, and none is missed. The quartic decides where to look only: signs,
+// and zeros, are those of
 //
 //     e(s) = (rho - R)^2 + h^2 - r^2,
 //
-// the factor of p = e ((rho + R)^2 + h^2 - r^2) that belongs to the surface, about 2 r times the distance from it, which loses no digits.
-// For a spindle torus (r > R) the other factor vanishes on the inner part, and p is taken itself.
+// the factor of p = e ((rho + R)^2 + h^2 - r^2) that belongs to the surface, about 2 r times the distance from it, which loses no
+// digits. For a spindle torus (r > R) the other factor vanishes on the inner part, and p is taken itself.
 
 #include "library/surface_hit.glsl"
 
@@ -31,7 +31,8 @@ elvis_real core_torus_p1(core_torus_ray ray, elvis_real s) {
     return elvis_real(4) * square * (ray.a * s + ray.b) - elvis_real(2) * (ray.d * s + ray.e);
 }
 
-// About 2 r times the distance from the surface; and how it changes with the point, and what it loses by rounding if the point has `noise`.
+// About 2 r times the distance from the surface; and how it changes with the point, and what it loses by rounding if the point has
+// `noise`.
 elvis_real core_torus_level(core_torus_ray ray, elvis_real s) {
     const elvis_vec3 y = ray.origin + s * ray.direction;
     const elvis_real rho = length(y.xy);

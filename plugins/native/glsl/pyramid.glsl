@@ -207,7 +207,8 @@ void NATIVE_GRADIENT(uint element, uint first_row, elvis_vec3 xi, out NATIVE_TYP
 //     f13 = Q B_p' B_q + m1 f11 + m2 f12, f23 likewise,                   Q = t^(e-1) J' + (1 - e)/2 t^(e-2) J
 //     f33 = S B_p B_q + 2 Q (m1 B_p' B_q + m2 B_p B_q') + m1^2 f11 + 2 m1 m2 f12 + m2^2 f22,
 //                                                                         S = t^e J'' - e t^(e-1) J' + e (e-1)/4 t^(e-2) J
-// so that t^(e-2) with e = 1 stands only where a function is not linear in x1, x2 and t: those have no second derivative at the apex.
+// so that t^(e-2) with e = 1 stands only where a function is not linear in x1, x2 and t: those have no second derivative at the
+// apex.
 
 void NATIVE_HESSIAN(uint element, uint first_row, elvis_vec3 xi, out NATIVE_TYPE f, out NATIVE_TYPE f1, out NATIVE_TYPE f2,
                     out NATIVE_TYPE f3, out NATIVE_TYPE f11, out NATIVE_TYPE f22, out NATIVE_TYPE f33, out NATIVE_TYPE f23,
