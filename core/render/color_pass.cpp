@@ -38,13 +38,14 @@ void append(std::vector<double>& numbers, const std::optional<std::array<double,
     numbers.insert(numbers.end(), {rgb[0], rgb[1], rgb[2], 1.0});
 }
 
-KernelRequest color_kernel(Precision precision, bool is_lit) {
+KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines) {
     constexpr BindingType storage = BindingType::storage_buffer;
     KernelRequest request =
-        pixel_kernel(is_lit ? "lit_color" : "color", precision,
+        pixel_kernel(std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : ""), precision,
                      {BindingType::uniform_buffer, storage, storage, storage, storage, storage}, sizeof(ColorParameters));
     request.kernel = "kernels/color.comp";
     request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
+    request.defines.emplace_back("CORE_HAS_LINES", has_lines ? "1" : "0");
     if (is_lit) {
         for (const std::uint32_t binding : {6u, 7u}) {
             request.bindings.push_back({binding, storage});
@@ -56,13 +57,14 @@ KernelRequest color_kernel(Precision precision, bool is_lit) {
 } // namespace
 
 ColorPass::ColorPass(const Device& device, Precision precision)
-    : m_device(device), m_precision(precision), m_color(device, color_kernel(precision, false)),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(precision), Buffer::Use::uniform) {}
+    : m_device(device), m_precision(precision), m_frame(device, cut_plane_rows * 4 * real_bytes(precision), Buffer::Use::uniform) {}
 
-void ColorPass::provide_lit() {
-    if (!m_lit_color) {
-        m_lit_color = std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, true));
+const ComposedKernel& ColorPass::provide(bool is_lit, bool has_lines) {
+    std::unique_ptr<ComposedKernel>& kernel = m_kernels[(is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];
+    if (!kernel) {
+        kernel = std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, is_lit, has_lines));
     }
+    return *kernel;
 }
 
 void ColorPass::begin(std::size_t n_surfaces) {
@@ -128,17 +130,17 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      std::holds_alternative<CutPlane>(surface.geometry) ? 1u : 0u};
     const std::span<const std::byte> push_constants = std::as_bytes(std::span(&parameters, 1));
     std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
+    const ComposedKernel& kernel = provide(lighting != nullptr, surface.has_lines());
     if (!lighting) {
-        dispatch_pixels(m_color, bindings, push_constants, n_pixels);
+        dispatch_pixels(kernel, bindings, push_constants, n_pixels);
         return;
     }
-    provide_lit();
     const std::array<double, 4>& reference = view.rows[6];
     const std::vector<double> light_numbers = lighting_rows(*lighting, {reference[0], reference[1], reference[2]});
     const Buffer lights(m_device, light_numbers.size() * real_bytes(m_precision));
     write_reals(lights, m_precision, light_numbers);
     bindings.insert(bindings.end(), {&lights, &layer.normals});
-    dispatch_pixels(*m_lit_color, bindings, push_constants, n_pixels);
+    dispatch_pixels(kernel, bindings, push_constants, n_pixels);
 }
 
 } // namespace elvis

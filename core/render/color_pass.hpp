@@ -9,6 +9,7 @@
 #include <core/render/layer.hpp>
 #include <core/shader/composer.hpp>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -30,8 +31,8 @@ public:
     void draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
               const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting);
 
-    /** Compiles what surfaces with light need. */
-    void provide_lit();
+    /** The kernel for surfaces with light or lines; compiled when it is first asked for. */
+    const ComposedKernel& provide(bool is_lit, bool has_lines);
 
     /** Of the surfaces drawn since begin. */
     std::vector<SpecialValues> special_values() const;
@@ -39,8 +40,8 @@ public:
 private:
     const Device& m_device;
     Precision m_precision;
-    ComposedKernel m_color;
-    std::unique_ptr<ComposedKernel> m_lit_color;
+    /** Plain, with lines, with light, with both: what a picture does not need costs it nothing. */
+    std::array<std::unique_ptr<ComposedKernel>, 4> m_kernels;
     Buffer m_frame;
     std::unique_ptr<Buffer> m_special;
     std::size_t m_n_surfaces = 0;

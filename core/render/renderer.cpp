@@ -217,9 +217,7 @@ std::vector<ElementFace> Renderer::Impl::chosen_faces(const FaceGeometry& faces)
 /** Compiles what the surface needs and is not there yet. */
 void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& surface) {
     const Clock::time_point start = Clock::now();
-    if (is_lit(request, surface)) {
-        color_pass.provide_lit();
-    }
+    color_pass.provide(is_lit(request, surface), surface.has_lines());
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
         cut_plane_pass(surface.has_lines());
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {

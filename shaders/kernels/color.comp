@@ -102,10 +102,13 @@ void main() {
     const bool is_drawn = owner != 0u;
     elvis_real value = elvis_real(0);
     bool is_clipped = false, is_outside = false;
+#if CORE_HAS_LINES
     bool is_contour = false, is_contour_undecided = false, is_mesh_line = false, is_mesh_undecided = false;
+#endif
     for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
         value = core_samples[pixel].value;
         is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
+#if CORE_HAS_LINES
         // Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own.
         const uint contour = core_flags_near(pixel, core_contour_reach);
         is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
@@ -115,14 +118,17 @@ void main() {
         is_mesh_undecided = (mesh & CORE_FLAG_MESH_UNDECIDED) != 0u;
         is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u ||
                        (is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) == 0u);
+#endif
     }
     for (uint turn = 0u; turn < (is_drawn && core_n_clips > 0u ? 1u : 0u); ++turn) {
         is_clipped = core_is_clipped(pixel, core_samples[pixel].depth);
     }
     const bool is_nan = !core_is_finite(value) && !is_outside;
+#if CORE_HAS_LINES
     for (uint turn = 0u; turn < (is_contour && !is_nan && (core_contour_style & CORE_STYLE_COLOR) == 0u ? 1u : 0u); ++turn) {
         value = core_nearest_isovalue(value);
     }
+#endif
 
     // How many points are not above the value.
     uint low = 0u;
@@ -161,6 +167,7 @@ void main() {
         core_special_values[3u * core_surface + (is_nan ? 2u : (is_below ? 0u : 1u))] = 1u;
     }
 
+#if CORE_HAS_LINES
     // Lines have their colours whatever the light. What is decided goes over what is not, contours over mesh lines.
     const bool has_contour_color = is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;
     const bool shows_undecided_contour = is_contour_undecided && !is_contour;
@@ -170,6 +177,7 @@ void main() {
     color = is_seen && has_mesh_color ? core_special(6u) : color;
     color = is_seen && shows_undecided_contour ? core_special(5u) : color;
     color = is_seen && has_contour_color ? core_special(4u) : color;
+#endif
     color.w *= is_seen ? core_special(8u).x : elvis_real(1);
     if (is_inside) {
         core_colors[pixel] = color;
