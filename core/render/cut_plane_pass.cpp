@@ -55,7 +55,7 @@ std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (numbe
 } // namespace
 
 CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines)
-    : m_device(device), m_precision(data.precision()), m_with_lines(with_lines),
+    : m_device(device), m_data(data), m_precision(data.precision()), m_with_lines(with_lines),
       // Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes.
       m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
@@ -115,7 +115,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
 }
 
 void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
-                        const LineRequest& lines, const LayerTarget& target, FrameCounts& counts) {
+                        const LineRequest& lines, bool shows_outside, const LayerTarget& target, FrameCounts& counts) {
     write_reals(m_frame, m_precision, std::span<const double>(geometry.rows.front().data(), 4 * geometry.rows.size()));
     m_counts.fill(0);
     const auto n_isovalues = static_cast<std::uint32_t>(lines.isovalues.size());
@@ -134,6 +134,18 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
         for (const ClassKernels& kernels : m_kernels) {
             draw_lines(kernels, component, lines, target, counts);
         }
+    }
+    if (shows_outside) {
+        if (!m_outside) {
+            m_outside = std::make_unique<OutsidePass>(m_device, m_precision, true);
+        }
+        std::array<double, 6> box = box_around(m_data.bounds());
+        const std::array<double, 4>& reference = geometry.rows[6];
+        for (std::size_t i = 0; i < box.size(); ++i) {
+            box[i] -= reference[i % 3];
+        }
+        m_outside->set_box(box);
+        m_outside->draw(m_frame, nullptr, surface, target);
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
     counts.field_evaluations += found[0];

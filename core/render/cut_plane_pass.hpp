@@ -8,6 +8,7 @@
 #include <core/render/frame.hpp>
 #include <core/render/layer.hpp>
 #include <core/render/line_request.hpp>
+#include <core/render/outside_pass.hpp>
 #include <core/volume/device_volume.hpp>
 
 #include <memory>
@@ -22,9 +23,12 @@ public:
     /** With lines, `data` must have derivative bounds. */
     CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines);
 
-    /** Draws one plane as surface number `surface`, at least 1; adds to the counts. `lines`: only of a pass made with them. */
+    /**
+     * Draws one plane as surface number `surface`, at least 1; adds to the counts. `lines`: only of a pass made with them.
+     * `shows_outside`: also where it lies in no element, near the volume.
+     */
     void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component, const LineRequest& lines,
-              const LayerTarget& target, FrameCounts& counts);
+              bool shows_outside, const LayerTarget& target, FrameCounts& counts);
 
 private:
     struct ClassKernels {
@@ -43,6 +47,7 @@ private:
                     const LayerTarget& target, FrameCounts& counts);
 
     const Device& m_device;
+    const DeviceVolume& m_data;
     Precision m_precision;
     bool m_with_lines;
     std::uint32_t m_tile_width;
@@ -52,6 +57,7 @@ private:
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;
     std::optional<Buffer> m_list;
+    std::unique_ptr<OutsidePass> m_outside;
 };
 
 } // namespace elvis

@@ -295,7 +295,8 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     constexpr std::uint32_t first = 1;
     const LineRequest lines = line_request(surface, offset_of(surface));
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
-        cut_plane_pass(surface.has_lines()).draw(rays, first, component, lines, target, counts);
+        cut_plane_pass(surface.has_lines()).draw(rays, first, component, lines, surface.outside.has_value(), target,
+                                                         counts);
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
         current->cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, surface.outside.has_value(),
                                   target, counts);

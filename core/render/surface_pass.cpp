@@ -27,11 +27,6 @@ struct TilesParameters {
     std::uint32_t tiles_a_row, n_tiles, n_parts;
 };
 
-struct OutsideParameters {
-    std::uint32_t n_pixels, groups_x;
-    std::uint32_t width, surface;
-};
-
 struct PixelsParameters {
     std::uint32_t width, height;
     std::uint32_t first_tile_row;
@@ -50,11 +45,11 @@ double diagonal_of(const std::array<double, 6>& bounds) {
 /** Where a shape is looked for if what lies outside of the volume is shown, too. */
 std::array<double, 6> box_of(const CutShape& shape, const std::array<double, 6>& volume) {
     std::array<double, 6> box = shape_bounds(shape);
+    const std::array<double, 6> around = box_around(volume);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double extent = volume[axis + 3] - volume[axis];
         const bool is_finite = std::isfinite(box[axis]) && std::isfinite(box[axis + 3]);
-        box[axis] = is_finite ? std::min(box[axis], volume[axis]) : volume[axis] - extent;
-        box[axis + 3] = is_finite ? std::max(box[axis + 3], volume[axis + 3]) : volume[axis + 3] + extent;
+        box[axis] = is_finite ? std::min(box[axis], volume[axis]) : around[axis];
+        box[axis + 3] = is_finite ? std::max(box[axis + 3], volume[axis + 3]) : around[axis + 3];
     }
     return box;
 }
@@ -107,20 +102,6 @@ void SurfacePass::provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles,
     provide(m_device, m_bending, n_pixels * real_bytes(m_precision));
     provide(m_device, m_boxes, n_tiles * n_parts * 6 * sizeof(float));
     provide(m_device, m_tiles, n_tiles * tile_stride * sizeof(std::uint32_t));
-}
-
-void SurfacePass::draw_outside(std::uint32_t surface, const LayerTarget& target) {
-    const Layer& layer = target.layer;
-    if (!m_outside) {
-        constexpr BindingType storage = BindingType::storage_buffer;
-        m_outside = std::make_unique<ComposedKernel>(
-            m_device, pixel_kernel("surface_outside", m_precision, {BindingType::uniform_buffer, storage, storage, storage},
-                                   sizeof(OutsideParameters)));
-    }
-    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const OutsideParameters parameters{n_pixels, pixel_groups_x, layer.width, surface};
-    dispatch_pixels(*m_outside, {&m_frame, &*m_hits, &layer.samples, &layer.marks}, std::as_bytes(std::span(&parameters, 1)),
-                    n_pixels);
 }
 
 void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
@@ -176,7 +157,10 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
             }
         }
         if (shows_outside) {
-            draw_outside(surface, target);
+            if (!m_outside) {
+                m_outside = std::make_unique<OutsidePass>(m_device, m_precision, false);
+            }
+            m_outside->draw(m_frame, &*m_hits, surface, target);
             break;
         }
         const std::uint32_t n_found = m_counts.read_items<std::uint32_t>(1, n_pass_counts)[0];

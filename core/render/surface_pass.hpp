@@ -10,6 +10,7 @@
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
 #include <core/render/layer.hpp>
+#include <core/render/outside_pass.hpp>
 #include <core/render/surface_solver.hpp>
 #include <core/volume/device_volume.hpp>
 
@@ -42,7 +43,6 @@ private:
         std::unique_ptr<ComposedKernel> tiles;
         std::unique_ptr<ComposedKernel> pixels;
     };
-    void draw_outside(std::uint32_t surface, const LayerTarget& target);
     void provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t n_parts);
 
     const Device& m_device;
@@ -54,7 +54,7 @@ private:
     Buffer m_counts;
     /** Stands where a buffer is not used. */
     Buffer m_nothing;
-    std::unique_ptr<ComposedKernel> m_outside;
+    std::unique_ptr<OutsidePass> m_outside;
     std::optional<Buffer> m_hits, m_bending, m_boxes, m_tiles;
 };
 

@@ -41,7 +41,7 @@ const std::vector<PlaceKey>& place_keys() {
         {"minor_radius", {"torus"}},
         {"expression", {"implicit"}},
         {"file", {"mesh", "bezier"}},
-        {"outside", {"sphere", "cylinder", "cone", "quadric", "torus", "implicit", "mesh", "bezier"}}};
+        {"outside", {"plane", "sphere", "cylinder", "cone", "quadric", "torus", "implicit", "mesh", "bezier"}}};
     return keys;
 }
 

@@ -252,6 +252,9 @@ TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with
         // The view follows a plane, not these.
         CHECK(hits(std::string(surface) + R"(, {"type": "sphere", "center": [0, 0, -9], "radius": 0.1})") > 100);
     }
+    // A plane beside the volume shows nothing else.
+    CHECK(hits(R"({"type": "plane", "plane": [0, 0, 1, -1.5]})") == 0);
+    CHECK(hits(R"({"type": "plane", "plane": [0, 0, 1, -1.5], "outside": [1, 0, 0]})") > 500);
     // All the rest of the picture that the surface reaches is outside.
     CHECK(hits(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1.4, "outside": [1, 0, 0]})") > 500);
 
@@ -267,7 +270,7 @@ TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with
     CHECK_THAT(fault(R"({"type": "cylinder", "from": [0, 0, 0], "to": [0, 0, 0], "radius": 1})"), Contains("the same point"));
     CHECK_THAT(fault(R"x({"type": "implicit", "expression": "x + sine(y)"})x"), Contains("surfaces[0]") && Contains("sine"));
     CHECK_THAT(fault(R"({"type": "mesh", "file": "nothing.stl"})"), Contains("nothing.stl") && Contains("cannot be read"));
-    CHECK_THAT(fault(R"({"type": "plane", "plane": [0, 0, 1, 0], "outside": [1, 0, 0]})"), Contains("outside"));
+    CHECK_THAT(fault(R"({"type": "boundary", "outside": [1, 0, 0]})"), Contains("outside"));
 }
 
 TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
