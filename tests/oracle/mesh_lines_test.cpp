@@ -17,11 +17,11 @@ const Device& device() {
     return the_device;
 }
 
-constexpr double bend = 0.2;
+constexpr double mild = 0.2;
 
 // Range of x - bend y^2 over the quadrilateral: its extremes lie on the sides, where it is quadratic.
-std::array<long double, 2> bent_range(const Square& square) {
-    const auto g = [](long double x, long double y) { return x - bend * y * y; };
+std::array<long double, 2> bent_range(const Square& square, long double bend = mild) {
+    const auto g = [bend](long double x, long double y) { return x - bend * y * y; };
     long double least = std::numeric_limits<long double>::infinity(), most = -least;
     for (std::size_t i = 0; i < 4; ++i) {
         const Point& a = square[i];
@@ -45,7 +45,7 @@ bool has_quarter(long double least, long double most) { return std::ceil(4 * lea
 TEST_CASE("mesh lines are right to the pixel, on straight and curved elements, or marked undecided") {
     for (const bool is_curved : {false, true}) {
         const auto bent = [is_curved](const Vector& x) -> Vector {
-            return {x.x() + (is_curved ? bend * x.y() * x.y() : 0), x.y(), x.z()};
+            return {x.x() + (is_curved ? mild * x.y() * x.y() : 0), x.y(), x.z()};
         };
         const TemporaryFile file("lines.h5");
         VolumeData data;
@@ -57,7 +57,7 @@ TEST_CASE("mesh lines are right to the pixel, on straight and curved elements, o
             Renderer renderer(device(), volume, precision);
             for (const double magnification : {2.0, 50.0, 1000.0}) {
                 // A crossing of lines.
-                const Point middle = {0.5L + (is_curved ? bend * 0.25L : 0.0L), 0.5L};
+                const Point middle = {0.5L + (is_curved ? mild * 0.25L : 0.0L), 0.5L};
                 FrameRequest request = view_around(middle, magnification, 160);
                 request.camera.image_shift = {0.31, 0.17};
                 request.surfaces[0].mesh_lines.emplace();
@@ -81,6 +81,38 @@ TEST_CASE("mesh lines are right to the pixel, on straight and curved elements, o
             }
         }
     }
+}
+
+TEST_CASE("mesh lines of strongly curved elements are right in pixels that are large beside them") {
+    constexpr double strong = 0.9;
+    const auto bent = [](const Vector& x) -> Vector { return {x.x() + strong * x.y() * x.y(), x.y(), x.z()}; };
+    const TemporaryFile file("strong.h5");
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(Shape::hexahedron, 2), space_of(Shape::hexahedron, 1),
+                                      compose(cube(Shape::hexahedron, 2), bent), [](const Vector& x) { return x.x(); }));
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    Renderer renderer(device(), volume, Precision::float64);
+    std::size_t marked = 0, wrong = 0, undecided = 0;
+    for (int shift = 0; shift < 60; ++shift) {
+        FrameRequest request = view_around({0.5L + strong * 0.25L, 0.5L}, 3, 10);
+        request.camera.image_shift = {0.618 * shift - std::floor(0.618 * shift), 0.414 * shift - std::floor(0.414 * shift)};
+        request.surfaces[0].mesh_lines.emplace();
+        request.surfaces[0].subdivisions = static_cast<std::uint32_t>(shift % 3) * 3;
+        const Verdict verdict = judge(request, renderer.render(request), pixel_flag::mesh_line, pixel_flag::mesh_line_undecided,
+                                      [&](const Square& square) {
+                                          const auto [low, high] =
+                                              std::minmax({square[0][1], square[1][1], square[2][1], square[3][1]});
+                                          const auto [least, most] = bent_range(square, strong);
+                                          return (low <= 0.5L && high >= 0.5L) || (least <= 0.5L && most >= 0.5L);
+                                      });
+        marked += verdict.marked;
+        wrong += verdict.wrong;
+        undecided += verdict.undecided;
+    }
+    WARN(marked << " pixels, " << undecided << " undecided, " << wrong << " wrong");
+    CHECK(marked > 500);
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("a plane in faces shows their edges as mesh lines, and nothing else") {
