@@ -37,6 +37,7 @@ struct Arguments {
     std::vector<std::string> cut_planes;
     std::vector<std::string> boundary_groups;
     bool boundary = false;
+    std::vector<double> isovalues;
     std::string contours;
     bool mesh_lines = false;
     std::string color_map;
@@ -94,7 +95,7 @@ Vector3 vector3(const char* option, const std::string& text) {
 
 /** Surfaces of the command line stand instead of those of the file. */
 void apply_surfaces(const Arguments& arguments, Scene& scene) {
-    if (!arguments.cut_planes.empty() || arguments.boundary) {
+    if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty()) {
         scene.surfaces.clear();
     }
     for (const std::string& text : arguments.cut_planes) {
@@ -106,6 +107,12 @@ void apply_surfaces(const Arguments& arguments, Scene& scene) {
     }
     if (arguments.boundary) {
         scene.surfaces.push_back({BoundaryFaces{arguments.boundary_groups}});
+    }
+    if (!arguments.isovalues.empty()) {
+        Isosurfaces isosurfaces;
+        isosurfaces.values = arguments.isovalues;
+        std::sort(isosurfaces.values.begin(), isosurfaces.values.end());
+        scene.surfaces.push_back({std::move(isosurfaces)});
     }
     if (!arguments.contours.empty()) {
         scene.contours = SceneContours{};
@@ -198,6 +205,7 @@ nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Fr
                             {"hierarchy", times.hierarchy_milliseconds},
                             {"compile", times.compile_milliseconds},
                             {"render", frame.render_milliseconds},
+                            {"device", frame.device_milliseconds},
                             {"total", total}};
     const FrameCounts& counts = frame.counts;
     root["counts"] = {{"pixels", counts.pixels},
@@ -213,7 +221,12 @@ nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Fr
                       {"undecided_contour_pixels", counts.undecided_contour_pixels},
                       {"mesh_line_pixels", counts.mesh_line_pixels},
                       {"undecided_mesh_line_pixels", counts.undecided_mesh_line_pixels},
-                      {"refined_pixels", counts.refined_pixels}};
+                      {"refined_pixels", counts.refined_pixels},
+                      {"isosurface_pixels", counts.isosurface_pixels},
+                      {"undecided_isosurface_pixels", counts.undecided_isosurface_pixels},
+                      {"isosurface_crossings", counts.isosurface_crossings},
+                      {"excluded_pieces", counts.excluded_pieces},
+                      {"undecided_pieces", counts.undecided_pieces}};
     const RendererMemory memory = renderer.memory();
     root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
     if (!repeated.empty()) {
@@ -237,6 +250,10 @@ void warn_about(const FrameCounts& counts) {
     }
     if (counts.undecided_pixels > 0) {
         spdlog::info("{} pixels are undecided within rounding", counts.undecided_pixels);
+    }
+    if (counts.undecided_isosurface_pixels > 0) {
+        spdlog::info("for {} pixels it is undecided whether they meet an isosurface, or one before that shown; they carry flag 64",
+                     counts.undecided_isosurface_pixels);
     }
     if (counts.undecided_contour_pixels > 0) {
         spdlog::info("for {} pixels it is undecided whether they meet a contour; they carry flag 2",
@@ -323,6 +340,8 @@ void add_render(CLI::App& app) {
         command->add_option("--boundary", a->boundary_groups, "The boundary, or one of its groups by name; may be repeated")
             ->expected(0, 1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--isosurface", a->isovalues, "Value of the field where a surface is drawn; may be repeated")
+        ->allow_extra_args(false);
     command->add_option("--contours", a->contours, "V,V,..: values of contour lines");
     command->add_flag("--mesh-lines", a->mesh_lines, "Draw where boundaries of elements meet the surfaces");
     command->add_option("--color-map", a->color_map, "Built-in name, or file (ParaView JSON, ElVis XML)");

@@ -53,6 +53,8 @@ inline constexpr std::uint32_t contour_undecided = 2;
 inline constexpr std::uint32_t mesh_line = 4;
 inline constexpr std::uint32_t newton_failure = 8;
 inline constexpr std::uint32_t nan = 16;
+inline constexpr std::uint32_t isosurface = 32;
+inline constexpr std::uint32_t isosurface_undecided = 64;
 inline constexpr std::uint32_t undecided = 256;
 inline constexpr std::uint32_t mesh_line_undecided = 512;
 inline constexpr std::uint32_t work_limit = 1024;
@@ -77,6 +79,12 @@ struct FrameCounts {
     std::uint64_t undecided_contour_pixels = 0;
     std::uint64_t mesh_line_pixels = 0;
     std::uint64_t undecided_mesh_line_pixels = 0;
+    std::uint64_t isosurface_pixels = 0;
+    std::uint64_t undecided_isosurface_pixels = 0;
+    /** Pieces of rays in elements that surely hold no isovalue; that stayed open; and crossings, hidden ones included. */
+    std::uint64_t excluded_pieces = 0;
+    std::uint64_t undecided_pieces = 0;
+    std::uint64_t isosurface_crossings = 0;
     /** Pixels that had to be looked at more closely for lines. */
     std::uint64_t refined_pixels = 0;
 };

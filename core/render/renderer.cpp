@@ -4,9 +4,11 @@
 #include <core/render/device_time.hpp>
 #include <core/render/edge_pass.hpp>
 #include <core/render/face_pass.hpp>
+#include <core/render/isosurface_pass.hpp>
 #include <core/render/layer.hpp>
 #include <core/render/line_pass.hpp>
 #include <core/render/merge_pass.hpp>
+#include <core/render/point_value_pass.hpp>
 #include <core/render/renderer.hpp>
 #include <core/render/shown_field.hpp>
 #include <core/render/surface_pass.hpp>
@@ -62,6 +64,8 @@ struct FieldPasses {
     std::map<FaceGeometry, FacePass> faces;
     std::optional<SurfacePass> cut_shapes;
     std::optional<LinePass> lines_on_faces, lines_on_shapes;
+    std::optional<IsosurfacePass> isosurfaces;
+    std::optional<PointValuePass> point_values;
 };
 
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
@@ -114,6 +118,9 @@ struct Renderer::Impl {
     void follow_geometry();
     FacePass& face_pass(const FaceGeometry& faces);
     LinePass& line_pass(bool on_faces);
+    IsosurfacePass& isosurface_pass(const Isosurfaces& wanted);
+    void draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
+                          const LayerTarget& target, FrameCounts& counts);
     const EdgeSet& edge_set(const FaceGeometry& faces);
     std::vector<ElementFace> chosen_faces(const FaceGeometry& faces) const;
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
@@ -182,6 +189,17 @@ void Renderer::Impl::follow_geometry() {
     }
 }
 
+/** For the selected field, which is that of `wanted`. */
+IsosurfacePass& Renderer::Impl::isosurface_pass(const Isosurfaces& wanted) {
+    if (!current->isosurfaces) {
+        data.provide_derivative_bounds();
+        current->isosurfaces.emplace(device, volume, data);
+    }
+    current->isosurfaces->choose(wanted.values, fields.offset(wanted.field), fields.component(wanted.field),
+                                 wanted.skips_by_range);
+    return *current->isosurfaces;
+}
+
 const EdgeSet& Renderer::Impl::edge_set(const FaceGeometry& faces) {
     follow_geometry();
     auto found = edge_sets.find(faces);
@@ -231,12 +249,19 @@ void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& 
         solvers.try_emplace(key, device, precision, *shape);
     } else if (const auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
         edge_set(wires->faces);
+    } else if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+        if (surface.field != isosurfaces->field && !current->point_values) {
+            current->point_values.emplace(device, volume, data);
+        }
+        select(isosurfaces->field, request.time_step);
+        isosurface_pass(*isosurfaces);
+        select(surface.field, request.time_step);
     } else {
         face_pass(*face_geometry(surface));
     }
     if (surface.has_lines() && !std::holds_alternative<CutPlane>(surface.geometry) &&
         !std::holds_alternative<WireFrame>(surface.geometry)) {
-        line_pass(!std::holds_alternative<CutShape>(surface.geometry));
+        line_pass(face_geometry(surface).has_value());
     }
     times.compile_milliseconds += milliseconds_since(start);
 }
@@ -248,6 +273,10 @@ void Renderer::Impl::keep_fields(const FrameRequest& request) {
     for (const Surface& surface : request.surfaces) {
         selections.push_back(fields.selection(surface.field, request.time_step));
         keys.insert(ShownFields::key(surface.field));
+        if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+            selections.push_back(fields.selection(isosurfaces->field, request.time_step));
+            keys.insert(ShownFields::key(isosurfaces->field));
+        }
     }
     // Bounds of derivatives, on which passes rest, are made anew for another step.
     const bool is_other_step = passes_step != request.time_step;
@@ -287,6 +316,21 @@ CutPlaneGeometry Renderer::Impl::view(const FrameRequest& request, const Surface
     return cut_plane_geometry(plane, request.camera, request.width, request.height, data.centre());
 }
 
+void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
+                                      const LayerTarget& target, FrameCounts& counts) {
+    constexpr std::uint32_t first = 1;
+    const CutPlaneGeometry rays = view(request, surface);
+    IsosurfacePass& pass = *passes.at(ShownFields::key(wanted.field)).isosurfaces;
+    pass.draw(rays, first, target, counts);
+    const ShownComponent component = fields.component(surface.field);
+    if (surface.field != wanted.field) {
+        current->point_values->draw(pass.points(), first, component, target, counts);
+    }
+    if (surface.has_lines()) {
+        line_pass(false).draw(rays, component, line_request(surface, offset_of(surface)), &pass.bending(), target, counts);
+    }
+}
+
 void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target,
                                    FrameCounts& counts) {
     const CutPlaneGeometry rays = view(request, surface);
@@ -303,6 +347,8 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
         if (surface.has_lines()) {
             line_pass(false).draw(rays, component, lines, &current->cut_shapes->bending(), target, counts);
         }
+    } else if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+        draw_isosurfaces(request, surface, *isosurfaces, target, counts);
     } else if (const auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
         if (!edge_pass) {
             edge_pass.emplace(precision);
@@ -359,6 +405,8 @@ void Renderer::Impl::read(const Layer& from, const std::vector<SurfaceFacts>& fa
         counts.nan_pixels += has(pixel_flag::nan);
         counts.work_limit_pixels += has(pixel_flag::work_limit);
         counts.estimated_pixels += has(pixel_flag::estimated);
+        counts.isosurface_pixels += has(pixel_flag::isosurface);
+        counts.undecided_isosurface_pixels += has(pixel_flag::isosurface_undecided);
         counts.contour_pixels += has(pixel_flag::contour);
         counts.undecided_contour_pixels += has(pixel_flag::contour_undecided);
         counts.mesh_line_pixels += has(pixel_flag::mesh_line);

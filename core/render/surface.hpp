@@ -77,7 +77,17 @@ struct WireFrame {
     double width = 1;
 };
 
-using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements, ElementFaces, WireFrame, CutShape>;
+/** Where a field takes one of these values. */
+struct Isosurfaces {
+    /** Which has the level sets; Surface::field is what colours them. */
+    FieldChoice field{};
+    /** Ascending; at least one. */
+    std::vector<double> values{};
+    /** Elements whose range holds no value are not looked at, where ranges are known: with equal pictures, but slower, without. */
+    bool skips_by_range = true;
+};
+
+using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements, ElementFaces, WireFrame, CutShape, Isosurfaces>;
 
 /** How lines on a surface are drawn. */
 struct LineStyle {

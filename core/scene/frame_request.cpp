@@ -83,6 +83,13 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
         *field = with_distances(*field, scene.surfaces);
     }
     surface.field = choose_field(volume, field);
+    if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+        isosurfaces->field = surface.field;
+        if (own.color_field) {
+            surface.field_label = *own.color_field;
+            surface.field = choose_field(volume, with_distances(*own.color_field, scene.surfaces));
+        }
+    }
     if (auto* elements = std::get_if<ElementFaces>(&surface.geometry)) {
         complete(elements->selection, surface.field, scene, volume);
     }

@@ -38,6 +38,7 @@ CutShape read_shape(const JsonObject& object, const std::string& type, const std
 /** Of a surface of type "elements" or "wireframe". */
 ElementSelection read_selection(const JsonObject& object);
 WireFrame read_wireframe(const JsonObject& object);
-SceneSurface read_surface(const JsonObject& object, const std::string& scene);
+/** `type`: what the key "type" says, or would say. */
+SceneSurface read_surface(const JsonObject& object, const std::string& type, const std::string& scene);
 
 } // namespace elvis

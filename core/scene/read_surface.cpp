@@ -29,6 +29,29 @@ CutPlane read_plane(const JsonObject& object) {
     return plane;
 }
 
+/** One colour, whatever the value. */
+SceneColorMap uniform_map(const Rgb& color) {
+    SceneColorMap map;
+    map.points = {{0, color}};
+    map.below = map.above = map.nan = color;
+    map.range = {0.0, 1.0};
+    return map;
+}
+
+Isosurfaces read_isosurfaces(const JsonObject& object) {
+    if (!object.has("values")) {
+        object.fail("values", "is missing, which an isosurface needs");
+    }
+    Isosurfaces isosurfaces;
+    isosurfaces.values = object.numbers("values");
+    std::sort(isosurfaces.values.begin(), isosurfaces.values.end());
+    isosurfaces.skips_by_range = !object.has("range_skipping") || object.flag("range_skipping");
+    if (object.has("color") && (object.has("color_map") || object.has("color_field"))) {
+        object.fail("color", "stands in place of 'color_map' and 'color_field': only one of them can be");
+    }
+    return isosurfaces;
+}
+
 } // namespace
 
 SceneLineStyle read_line_style(const JsonObject& object) {
@@ -77,9 +100,8 @@ SceneContours read_contours(const JsonObject& object) {
     return contours;
 }
 
-SceneSurface read_surface(const JsonObject& object, const std::string& scene) {
+SceneSurface read_surface(const JsonObject& object, const std::string& type, const std::string& scene) {
     SceneSurface surface;
-    const std::string type = object.word("type");
     check_place_keys(object, type);
     if (type == "plane") {
         surface.geometry = read_plane(object);
@@ -90,11 +112,16 @@ SceneSurface read_surface(const JsonObject& object, const std::string& scene) {
     } else if (type == "wireframe") {
         surface.geometry = read_wireframe(object);
         const Rgb color = object.has("color") ? fixed<3>(object.numbers("color")) : Rgb{0, 0, 0};
-        surface.color_map.emplace();
-        surface.color_map->points = {{0, color}};
-        surface.color_map->below = surface.color_map->above = surface.color_map->nan = color;
-        surface.color_map->range = {0.0, 1.0};
+        surface.color_map = uniform_map(color);
         surface.is_lit = false;
+    } else if (type == "isosurface") {
+        surface.geometry = read_isosurfaces(object);
+        if (object.has("color")) {
+            surface.color_map = uniform_map(fixed<3>(object.numbers("color")));
+        }
+        if (object.has("color_field")) {
+            surface.color_field = object.text("color_field");
+        }
     } else {
         surface.geometry = read_shape(object, type, scene);
     }

@@ -117,7 +117,12 @@ Scene read_scene(const std::string& path) {
     }
     if (root.has("surfaces")) {
         for (const JsonObject& surface : root.objects("surfaces")) {
-            scene.surfaces.push_back(read_surface(surface, path));
+            scene.surfaces.push_back(read_surface(surface, surface.word("type"), path));
+        }
+    }
+    if (root.has("isosurfaces")) {
+        for (const JsonObject& surface : root.objects("isosurfaces")) {
+            scene.surfaces.push_back(read_surface(surface, "isosurface", path));
         }
     }
     return scene;

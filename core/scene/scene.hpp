@@ -61,6 +61,8 @@ struct SceneSurface {
     /** For expressions; may be empty. */
     std::string name{};
     std::optional<std::string> field{};
+    /** Of isosurfaces, which `field` has the values of. */
+    std::optional<std::string> color_field{};
     std::optional<SceneColorMap> color_map{};
     std::optional<SceneContours> contours{};
     std::optional<SceneLineStyle> mesh_lines{};

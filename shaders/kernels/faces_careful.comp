@@ -22,6 +22,7 @@ layout(local_size_x = 32) in;
 #include "library/face_tiles.glsl"
 #include "library/hierarchy.glsl"
 #include "library/samples.glsl"
+#include "library/pixel_ray.glsl"
 #include "library/face_rays.glsl"
 #include "library/face_surface.glsl"
 

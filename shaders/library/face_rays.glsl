@@ -1,48 +1,9 @@
 // Rays of pixels against faces: one step of Newton's method, and what is known of the nearest crossing.
 //
-// The kernel brings library/cut_frame.glsl, library/hierarchy.glsl, library/face_frame.glsl, library/face_patch.glsl,
-// library/face_point.glsl, and the buffer core_faces: local element, local face, number, misfit of the polynomial.
+// The kernel brings library/pixel_ray.glsl, library/face_frame.glsl, library/face_patch.glsl, library/face_point.glsl, and the buffer
+// core_faces: local element, local face, number, misfit of the polynomial.
 
 #define CORE_NO_FACE 0xffffffffu
-
-struct core_ray {
-    // Relative to the reference point, and in the hierarchy's coordinates.
-    elvis_vec3 origin, direction;
-    vec3 box_origin;
-    // Size of the coordinates that box_origin is made of.
-    float far;
-    // Of points in front of the eye, or behind the last crossing, and by how many times a crossing's rounding they must be.
-    elvis_real least_t, widths_behind;
-    elvis_real error;
-};
-
-core_ray core_pixel_ray(core_cut_column along, elvis_real row) {
-    const elvis_real down = row - along.row0;
-    core_ray ray;
-    ray.origin = (along.base + down * along.base_row).xyz;
-    ray.direction = (along.direction + down * along.direction_row).xyz;
-    ray.least_t = -along.reference_distance;
-    ray.widths_behind = elvis_real(0);
-    const elvis_vec3 size = (along.size + abs(down * along.base_row)).xyz;
-    ray.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);
-    ray.box_origin = vec3(ray.origin + core_reference_in_hierarchy.xyz);
-    const vec3 far = vec3(size) + abs(vec3(core_reference_in_hierarchy.xyz));
-    ray.far = max(max(far.x, far.y), far.z);
-    return ray;
-}
-
-// Least t at which the ray may be in the box; more than anything if it misses it.
-float core_box_entry(core_node node, core_ray ray) {
-    const vec3 direction = vec3(ray.direction);
-    const vec3 inverse = 1.0 / mix(direction, vec3(1e-30), lessThan(abs(direction), vec3(1e-30)));
-    const float tolerance = 16.0 * CORE_FLOAT_ROUNDOFF * ray.far;
-    const vec3 a = (node.lower - tolerance - ray.box_origin) * inverse;
-    const vec3 b = (node.upper + tolerance - ray.box_origin) * inverse;
-    const vec3 low = min(a, b), high = max(a, b);
-    const float enter = max(max(low.x, low.y), low.z), leave = min(min(high.x, high.y), high.z);
-    const float slack = 1e-5 * (abs(enter) + abs(leave));
-    return enter <= leave + slack && leave + slack >= float(ray.least_t) ? enter - slack : 3.3e38;
-}
 
 struct core_face_step {
     bool is_regular;

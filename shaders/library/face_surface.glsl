@@ -24,22 +24,8 @@ layout(push_constant) uniform core_parameters {
     uint core_wants_normals;
 };
 
+#include "library/look_beyond.glsl"
 #include "library/show.glsl"
-
-// Moves the ray's start to behind the last crossing. Returns whether one more is wanted.
-bool core_look_beyond(uint pixel, inout core_ray ray) {
-    bool is_wanted = true;
-    for (uint turn = 0u; turn < core_has_beyond; ++turn) {
-        const elvis_real depth = core_beyond[pixel];
-        const elvis_real per_length = elvis_real(1) / sqrt(dot(ray.direction, ray.direction));
-        const elvis_real t = depth * per_length + ray.least_t;
-        is_wanted = depth < CORE_FAR;
-        // Rounding of the depth; that of the crossings themselves is core_face_step.width.
-        ray.least_t = is_wanted ? t + elvis_real(8) * CORE_ROUNDOFF * depth : ray.least_t;
-        ray.widths_behind = elvis_real(2);
-    }
-    return is_wanted;
-}
 
 core_location core_location_of(core_nearest nearest, uint n_steps) {
     const bool has_found = nearest.face != CORE_NO_FACE;

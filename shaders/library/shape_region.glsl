@@ -1,5 +1,6 @@
 // The reference shape as a region: how far a point violates its faces, and the way back in. Included once for each snippet
-// instance. CORE_CONSTRAINT_NORM: by how much a face constraint changes at most when every coordinate changes by 1.
+// instance. CORE_CONSTRAINT_NORM: by how much a face constraint changes at most when every coordinate changes by 1. CORE_EXTENT: the
+// distance of the farthest point from the centroid, in the maximum norm.
 
 #ifndef CORE_SHAPE_REGION
 #define CORE_SHAPE_REGION
@@ -7,21 +8,27 @@
 #if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
 #define CORE_CENTROID elvis_vec3(0, 0, 0)
 #define CORE_CONSTRAINT_NORM elvis_real(1)
+#define CORE_EXTENT elvis_real(1)
 #elif ELVIS_SHAPE == ELVIS_SHAPE_PRISM
 #define CORE_CENTROID elvis_vec3(elvis_real(-1) / elvis_real(3), 0, elvis_real(-1) / elvis_real(3))
 #define CORE_CONSTRAINT_NORM elvis_real(2)
+#define CORE_EXTENT (elvis_real(4) / elvis_real(3))
 #elif ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
 #define CORE_CENTROID elvis_vec3(-0.25, -0.25, -0.5)
 #define CORE_CONSTRAINT_NORM elvis_real(2)
+#define CORE_EXTENT elvis_real(1.5LF)
 #elif ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL
 #define CORE_CENTROID elvis_vec3(0, 0, 0)
 #define CORE_CONSTRAINT_NORM elvis_real(1)
+#define CORE_EXTENT elvis_real(1)
 #elif ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
 #define CORE_CENTROID elvis_vec3(elvis_real(-1) / elvis_real(3), elvis_real(-1) / elvis_real(3), 0)
 #define CORE_CONSTRAINT_NORM elvis_real(2)
+#define CORE_EXTENT (elvis_real(4) / elvis_real(3))
 #else
 #define CORE_CENTROID elvis_vec3(-0.5, -0.5, -0.5)
 #define CORE_CONSTRAINT_NORM elvis_real(3)
+#define CORE_EXTENT elvis_real(1.5LF)
 #endif
 
 // Largest violation of a face constraint; <= 0 inside.

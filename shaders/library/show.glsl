@@ -5,6 +5,7 @@
 // core_end_component and core_is_discontinuous.
 
 #include "library/driver_limit.glsl"
+#include "library/shown_value.glsl"
 
 #define CORE_NO_ELEMENT 0xffffffffu
 
@@ -22,24 +23,6 @@ struct core_location {
     // The search was ended before it was done.
     bool is_cut_short;
 };
-
-// An expression brings its own core_shown_value, and whether it rests on estimates (core/expression/glsl.hpp).
-#ifndef CORE_SHOWN_BY_EXPRESSION
-#define CORE_VALUE_FLAGS 0u
-// The component, or the length of the vector of several.
-elvis_real core_shown_value(uint element, elvis_vec3 xi) {
-    elvis_real value = elvis_field_value(element, xi, core_first_component);
-#if ELVIS_N_COMPONENTS > 1
-    elvis_real sum = value * value;
-    for (uint component = core_first_component + 1u; component < core_end_component; ++component) {
-        const elvis_real other = elvis_field_value(element, xi, component);
-        sum += other * other;
-    }
-    value = core_end_component - core_first_component > 1u ? sqrt(sum) : value;
-#endif
-    return value;
-}
-#endif
 
 // Puts what was found into the picture, unless another surface or element goes before it. Returns the number of field evaluations.
 uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_real value) {

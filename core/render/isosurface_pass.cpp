@@ -1,0 +1,174 @@
+#include <core/render/isosurface_pass.hpp>
+#include <core/render/real_array.hpp>
+
+#include <algorithm>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t tile_height = 16;
+/** Rows of an invocation: all its pixels share the iterations that drivers grant. */
+constexpr std::uint32_t rows_an_invocation = 4;
+/** Words of a tile's list: shaders/library/face_tiles.glsl. */
+constexpr std::uint32_t tile_stride = 64;
+constexpr std::uint32_t group_size = 32;
+/** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
+constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
+/** Of m_counts. */
+enum Count : std::size_t { evaluations, excluded, outside, undecided, inner_tiles, crossings, n_counts };
+
+struct TilesParameters {
+    std::uint32_t tiles_a_row, n_tiles;
+};
+
+struct Parameters {
+    std::uint32_t width, height;
+    std::uint32_t tiles_a_row;
+    std::uint32_t first_tile_row;
+    std::uint32_t surface;
+    std::uint32_t first_component, end_component;
+    std::uint32_t n_isovalues;
+    std::uint32_t has_beyond;
+};
+
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
+
+/** Makes the buffer anew if it is of another size. */
+const Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::uint64_t bytes) {
+    if (!buffer || buffer->bytes() != bytes) {
+        buffer.reset();
+        buffer.emplace(device, bytes);
+    }
+    return *buffer;
+}
+
+/** Of a core_hit_point. */
+std::size_t point_bytes(Precision precision) { return precision == Precision::float64 ? 32 : 16; }
+
+} // namespace
+
+const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device, Draws what) {
+    std::unique_ptr<ComposedKernel>& kernel = drawing[static_cast<std::size_t>(what)];
+    if (!kernel) {
+        KernelRequest own = request;
+        own.kernel = "kernels/isosurface.comp";
+        own.name = "isosurface of element class " + std::to_string(element_class);
+        own.defines.emplace_back("CORE_DESCENDS", what == Draws::deep_pixels ? "1" : "0");
+        kernel = std::make_unique<ComposedKernel>(device, own);
+    }
+    return *kernel;
+}
+
+IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+      m_level_set(device, volume, data),
+      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        if (volume.classes()[index].n_elements == 0) {
+            continue;
+        }
+        ClassKernels kernels;
+        KernelRequest request;
+        request.precision = m_precision;
+        request.buffers = m_level_set.host_buffers(index);
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                           {"CORE_LEAF_WORD", "index"}};
+        request.name = "ray_tiles";
+        request.kernel = "kernels/face_tiles.comp";
+        request.bindings = {
+            {0, BindingType::uniform_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(TilesParameters);
+        kernels.tiles = std::make_unique<ComposedKernel>(device, request);
+
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                           {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"}};
+        for (const FetchBuffer& buffer : data.host_buffers(index)) {
+            if (buffer.name != "core_nodes") {
+                request.buffers.push_back(buffer);
+            }
+        }
+        data.add_field(request, index, true);
+        for (std::uint32_t binding = 3; binding <= 9; ++binding) {
+            request.bindings.push_back({binding, BindingType::storage_buffer});
+        }
+        request.push_constant_bytes = sizeof(Parameters);
+        kernels.request = request;
+        kernels.element_class = index;
+        kernels.provide(m_device, Draws::pixels);
+        m_kernels.push_back(std::move(kernels));
+    }
+}
+
+void IsosurfacePass::choose(std::span<const double> isovalues, double offset, const ShownComponent& component,
+                            bool skips_by_range) {
+    m_values.assign(isovalues.begin(), isovalues.end());
+    for (double& value : m_values) {
+        value -= offset;
+    }
+    m_component = {component.first(), component.end()};
+    m_level_set.choose(m_values, m_component, skips_by_range);
+}
+
+void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
+                          FrameCounts& counts) {
+    const Layer& layer = target.layer;
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
+    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
+    const std::uint32_t n_tiles = tiles_a_row * tile_rows;
+    const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+    const Buffer& points = provide(m_points, m_device, layer.n_pixels() * point_bytes(m_precision));
+    const Buffer& bending = provide(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
+    const Buffer& isovalues = provide(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
+    write_reals(isovalues, m_precision, m_values);
+    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
+    // The beyond buffer is not read without depths: anything of reals.
+    const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
+    const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
+                                                   &tiles,   &isovalues,     &beyond,        &points,        &bending};
+    for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
+        ClassKernels& kernels = m_kernels[index];
+        if (m_level_set.n_elements(kernels.element_class) == 0) {
+            continue;
+        }
+        m_counts.fill(0);
+        const TilesParameters of_tiles{tiles_a_row, n_tiles};
+        const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &tiles, &m_counts};
+        kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));
+        Parameters parameters{layer.width,
+                              layer.height,
+                              tiles_a_row,
+                              0,
+                              first_surface + kernels.element_class,
+                              m_component.first,
+                              m_component.end,
+                              static_cast<std::uint32_t>(m_values.size()),
+                              target.beyond ? 1u : 0u};
+        const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[inner_tiles];
+        const auto draw_tiles = [&](Draws what) {
+            const ComposedKernel& kernel = kernels.provide(m_device, what);
+            for (std::uint32_t row = 0; row < tile_rows; row += rows_a_dispatch) {
+                parameters.first_tile_row = row;
+                kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
+                                std::min(rows_a_dispatch, tile_rows - row) * (tile_height / rows_an_invocation));
+            }
+        };
+        if (n_deep_tiles < n_tiles) {
+            draw_tiles(Draws::pixels);
+        }
+        if (n_deep_tiles > 0) {
+            draw_tiles(Draws::deep_pixels);
+        }
+        const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+        counts.field_evaluations += found[evaluations];
+        counts.excluded_pieces += found[excluded] + found[outside];
+        counts.undecided_pieces += found[undecided];
+        counts.isosurface_crossings += found[crossings];
+    }
+}
+
+} // namespace elvis

@@ -1,0 +1,68 @@
+/**
+ * @file isosurface_pass.hpp
+ * Draws isosurfaces into the samples of a picture.
+ */
+#pragma once
+
+#include <core/render/cut_plane_geometry.hpp>
+#include <core/render/frame.hpp>
+#include <core/render/layer.hpp>
+#include <core/volume/device_volume.hpp>
+#include <core/volume/level_set.hpp>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+/** The kernels of one volume and of the field that has the level sets, for each element class. */
+class IsosurfacePass {
+public:
+    /** `data` has that field selected, and its derivative bounds. Most kernels are compiled when constructed. */
+    IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+
+    /** What the next pictures show: ascending values of the field, which lacks `offset` on the device; see LevelSet::choose. */
+    void choose(std::span<const double> isovalues, double offset, const ShownComponent& component, bool skips_by_range);
+
+    /**
+     * Draws the nearest crossing of each ray; each class is a surface of its own, numbered from `first_surface`. Samples get
+     * the isovalue, less the offset. `view` is the geometry of any plane: only its rays matter.
+     */
+    void draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
+
+    /** Of each pixel drawn last: reference coordinates and local element of the crossing (core_hit_point). */
+    const Buffer& points() const { return *m_points; }
+    /** An upper bound of the normal curvatures of what was drawn last, a number a pixel. */
+    const Buffer& bending() const { return *m_bending; }
+
+private:
+    enum class Draws { pixels, deep_pixels };
+    struct ClassKernels {
+        std::unique_ptr<ComposedKernel> tiles;
+        /** Compiled when first needed. */
+        std::array<std::unique_ptr<ComposedKernel>, 2> drawing;
+        KernelRequest request;
+        std::uint32_t element_class = 0;
+
+        const ComposedKernel& provide(const Device& device, Draws what);
+    };
+
+    const Device& m_device;
+    Precision m_precision;
+    std::uint32_t m_tile_width;
+    LevelSet m_level_set;
+    /** Less the offset. */
+    std::vector<double> m_values;
+    LevelComponent m_component;
+    std::vector<ClassKernels> m_kernels;
+    Buffer m_frame;
+    Buffer m_counts;
+    std::optional<Buffer> m_isovalues;
+    /** Kept from frame to frame. */
+    std::optional<Buffer> m_tiles, m_points, m_bending;
+};
+
+} // namespace elvis

@@ -1,0 +1,355 @@
+// The first point of each pixel's ray at which the field takes one of the isovalues, in the elements of one class.
+//
+// A work group is a tile of pixels; its list (kernels/face_tiles.comp) names the leaves of a hierarchy over the elements whose range
+// holds an isovalue, in the order of depth, so that the search ends at the first leaf behind the crossing found.
+//
+// The part of a ray in an element's box is cut down by the linearized mapping, and then a piece at a time is looked at, front to
+// back (library/ray_piece.glsl). One evaluation bounds the field over the whole piece by a line and an error. So it is known that
+//
+//   no isovalue is taken         the piece is done: that is certified, as far as the bounds are
+//   one is taken in a part       the piece is cut down to that part, before which there is none: the interval Newton method
+//                                (R. E. Moore, Interval Analysis, 1966), which converges quadratically where the field is steep
+//   or little                    the piece is halved
+//
+// until the piece is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
+// pixel is undecided if that cannot be told.
+//
+// One evaluation of mapping and field a turn, whatever element and piece a lane is at, so that lanes do not wait for each other.
+
+layout(local_size_x = CORE_TILE_WIDTH) in;
+
+#include "library/precision.glsl"
+#include "library/cut_frame.glsl"
+#include "library/face_tiles.glsl"
+#include "library/hierarchy.glsl"
+#include "library/samples.glsl"
+#include "library/hit_point.glsl"
+#include "library/pixel_ray.glsl"
+#include "library/linearization.glsl"
+
+layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
+// Three numbers a pixel.
+layout(set = 0, binding = 2, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+layout(set = 0, binding = 6, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
+layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
+layout(set = 0, binding = 8, std430) writeonly buffer core_points_block { core_hit_point core_points[]; };
+// An upper bound of the surface's normal curvatures, without sign.
+layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
+layout(push_constant) uniform core_parameters {
+    uvec2 core_size;
+    uint core_tiles_per_row;
+    uint core_first_tile_row;
+    // Counted from 1; 0 is no surface.
+    uint core_surface;
+    uint core_first_component;
+    uint core_end_component;
+    uint core_n_isovalues;
+    uint core_has_beyond;
+};
+
+elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
+
+#include "library/look_beyond.glsl"
+#include "library/driver_limit.glsl"
+#include "library/cell.glsl"
+#include "library/shown_model.glsl"
+#include "library/ray_piece.glsl"
+#include "library/level_model.glsl"
+
+#define CORE_NO_ELEMENT 0xffffffffu
+// Turns of one pixel: all pixels of an invocation stay below where drivers end loops.
+#define CORE_WORK_LIMIT 1500u
+// Evaluations in one element, beyond which the rest of it is left undecided.
+#define CORE_MOST_EVALUATIONS 200u
+// Times the mapping is linearized anew nearer to the piece before it is halved.
+#define CORE_MAX_MOVES 6u
+
+// In reference coordinates: offsets from xi up to which the line's root is as good as rounding allows, but for its normal; and to
+// which xi itself is good enough for that.
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_NARROW elvis_real(6e-8LF)
+#define CORE_AT_ROOT elvis_real(2.5e-13LF)
+#else
+#define CORE_NARROW elvis_real(2e-3LF)
+#define CORE_AT_ROOT elvis_real(8e-6LF)
+#endif
+// Pieces are not made shorter than this part of that.
+#define CORE_FLOOR elvis_real(0.25LF)
+
+// Of the linearization at the centroid, which keeps this many digits of coordinates in the element.
+#define CORE_LINEAR_ERROR 2e-2
+
+// The part of the ray, within `span`, that can lie in the element as far as the mapping's linearization at the centroid tells.
+vec2 core_linear_span(vec3 start, vec3 direction, float curvature, vec2 span) {
+    const float slack = float(CORE_CONSTRAINT_NORM) * (curvature * float(CORE_EXTENT * CORE_EXTENT) + CORE_LINEAR_ERROR);
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const vec4 constraint = vec4(core_face_constraint(face));
+        const float excess = dot(constraint.xyz, start) + constraint.w - slack, slope = dot(constraint.xyz, direction);
+        const float root = -excess / slope;
+        span.y = slope > 0.0 ? min(span.y, root) : span.y;
+        span.x = slope < 0.0 ? max(span.x, root) : span.x;
+    }
+    return span;
+}
+
+// The part of that in which the linear model of the whole element leaves room for an isovalue, if there is only one; all of it if
+// there are several.
+vec2 core_level_span(core_level_model model, vec3 start, vec3 direction, float curvature, vec2 span) {
+    const vec3 size = abs(model.slope);
+    const float beyond = curvature * float(CORE_EXTENT * CORE_EXTENT) + CORE_LINEAR_ERROR;
+    const float value = model.value + dot(model.slope, start - vec3(CORE_CENTROID)), slope = dot(model.slope, direction);
+    const float a = value + span.x * slope, b = value + span.y * slope;
+    const float rounding = 16.0 * CORE_FLOAT_ROUNDOFF * (abs(value) + abs(span.x * slope) + abs(span.y * slope));
+    const float error = model.remainder + beyond * (size.x + size.y + size.z) + rounding;
+    const float least = min(a, b) - error, most = max(a, b) + error;
+    const uint first = core_first_isovalue(elvis_real(least));
+    const bool has_one = first < core_n_isovalues && float(core_isovalue(min(first, core_n_isovalues - 1u))) <= most;
+    const bool has_more = first + 1u < core_n_isovalues && float(core_isovalue(min(first + 1u, core_n_isovalues - 1u))) <= most;
+    const float isovalue = float(core_isovalue(min(first, core_n_isovalues - 1u)));
+    const float middle = (isovalue - value) / slope, half_width = (error + CORE_FLOAT_ROUNDOFF * abs(isovalue)) / abs(slope);
+    const bool is_cut = has_one && !has_more && abs(slope) > 0.0 && error < CORE_LEVEL_UNKNOWN;
+    const vec2 part = vec2(max(span.x, middle - half_width), min(span.y, middle + half_width));
+    const bool is_none = !has_one && error < CORE_LEVEL_UNKNOWN;
+    return is_none ? vec2(1.0, 0.0) : is_cut ? part : span;
+}
+
+void main() {
+    const uint column = gl_WorkGroupID.x * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
+    const uint first_row = (core_first_tile_row * (CORE_TILE_HEIGHT / CORE_ROWS) + gl_WorkGroupID.y) * CORE_ROWS;
+    const uint list = (gl_WorkGroupID.x + first_row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
+    const uint header = core_tiles[list];
+    const bool is_mine = (header & CORE_TILE_INNER) != 0u == (CORE_DESCENDS == 1);
+    const uint n_listed = is_mine ? header & ~CORE_TILE_INNER : 0u;
+    const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_ROWS, core_size.y) : first_row;
+    const core_cut_column along = core_cut_begin(elvis_real(column));
+    uint n_evaluations = 0u, n_excluded = 0u, n_outside = 0u, n_undecided = 0u, n_crossings = 0u;
+    uint row = first_row;
+    while (row < end_row) {
+        core_ray ray = core_pixel_ray(along, elvis_real(row));
+        const uint pixel = row * core_size.x + column;
+        const uint n_entries = core_look_beyond(pixel, ray) ? n_listed : 0u;
+        const elvis_real stretch = length(ray.direction);
+#if CORE_DESCENDS
+        uint stack[CORE_STACK_SIZE];
+#define CORE_TOP stack[stack_size - 1u]
+#else
+        // A stack costs a quarter of the time even where it stays empty.
+#define CORE_TOP 0u
+#endif
+        uint stack_size = 0u, entry = 0u, work = 0u, used = 0u, moves = 0u, flags = 0u;
+        uint element = CORE_NO_ELEMENT;
+        // The piece from a to b, and what has to be looked at after it.
+        elvis_real a = elvis_real(0), b = elvis_real(0), next = elvis_real(0), last = elvis_real(0);
+        elvis_real x = elvis_real(0), y = elvis_real(0), z = elvis_real(0);
+        // The nearest crossing so far; of another class, its depth.
+        elvis_real best_t = CORE_FAR, best_slack = elvis_real(0), best_x = x, best_y = x, best_z = x, best_isovalue = x;
+        elvis_real normal_x = x, normal_y = x, normal_z = x;
+        // Bound of the field's second derivatives in the element, and of the surface's curvature at the best crossing.
+        elvis_real bend = CORE_FAR, best_bend = CORE_FAR;
+        uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
+        const bool was_hit = core_marks[pixel].owner != 0u;
+        for (uint turn = 0u; turn < (was_hit ? 1u : 0u); ++turn) {
+            best_t = core_samples[pixel].depth / stretch - along.reference_distance;
+            best_number = core_samples[pixel].number;
+            best_slack = elvis_real(16) * CORE_ROUNDOFF * core_samples[pixel].depth;
+        }
+        while ((element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
+            work += 1u;
+            while (element == CORE_NO_ELEMENT && (stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
+                work += 1u;
+                const bool is_popped = stack_size > 0u;
+                const uint at = list + 1u + 2u * min(entry, n_listed - 1u);
+                const uint word = is_popped ? CORE_TOP : core_tiles[at];
+                const float entry_t = uintBitsToFloat(core_tiles[at + 1u]);
+                const bool is_behind = !is_popped && entry_t > float(best_t + best_slack);
+                stack_size -= is_popped ? 1u : 0u;
+                entry = is_popped ? entry : (is_behind ? n_entries : entry + 1u);
+                const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
+                vec2 span = core_box_span(node, ray);
+                span.x = max(span.x, float(ray.least_t));
+                span.y = min(span.y, float(best_t + best_slack));
+                const bool is_touched = !is_behind && span.x <= span.y;
+#if CORE_DESCENDS
+                for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+                    stack[stack_size] = node.child + 1u;
+                    stack[stack_size + 1u] = node.child;
+                    stack_size += 2u;
+                }
+#endif
+                for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
+                    const core_linearization linearization = core_fetch_linearization(node.child);
+                    const vec3 target = vec3(core_reference.xyz - elvis_origin(node.child) + ray.origin);
+                    const vec3 start = core_linear_inverse(linearization, target);
+                    const vec3 motion = core_linear_inverse(linearization, target + vec3(ray.direction)) - start;
+                    const bool is_linearized = linearization.exponents != 0u;
+                    const float curvature = float(elvis_fetch_core_curvatures(node.child, 0u));
+                    const vec2 inside = core_linear_span(start, motion, curvature, span);
+                    const vec2 part = core_level_span(core_fetch_level_model(node.child), start, motion, curvature, inside);
+                    span = is_linearized ? part : span;
+                    const float middle = 0.5 * (span.x + span.y);
+                    const vec3 at_middle = start + middle * motion;
+                    x = is_linearized ? elvis_real(at_middle.x) : CORE_CENTROID.x;
+                    y = is_linearized ? elvis_real(at_middle.y) : CORE_CENTROID.y;
+                    z = is_linearized ? elvis_real(at_middle.z) : CORE_CENTROID.z;
+                    core_project(x, y, z);
+                    a = elvis_real(span.x);
+                    b = next = last = elvis_real(span.y);
+                    element = span.x <= span.y ? node.child : CORE_NO_ELEMENT;
+                    used = moves = 0u;
+                    bend = CORE_FAR;
+                }
+            }
+
+            const bool is_active = element != CORE_NO_ELEMENT;
+            const uint safe_element = is_active ? element : 0u;
+            const elvis_vec3 xi = elvis_vec3(x, y, z);
+            elvis_vec3 position;
+            elvis_mat3 jacobian;
+            elvis_mapping_jacobian(safe_element, xi, position, jacobian);
+            const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
+            const elvis_real middle = elvis_real(0.5LF) * (a + b);
+            const elvis_vec3 step = middle * ray.direction;
+            const elvis_real error = ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_largest(shift) + core_largest(step));
+            const core_frame frame = core_frame_at(position, jacobian, error);
+            const elvis_real speed = core_largest(core_to_xi(frame, ray.direction));
+            const elvis_real shortest = CORE_FLOOR * CORE_NARROW / speed;
+            const elvis_real half_width = elvis_real(0.5LF) * (b - a);
+            const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
+            const bool is_short = half_width < shortest;
+            core_piece piece = core_piece_in_element(xi, frame, ((shift - position) + ray.origin) + step, ray.direction,
+                                                     max(half_width, shortest), curvature);
+            core_model model;
+            elvis_real value;
+            core_piece_take_field(piece, safe_element, xi, model, value);
+            const core_crossing crossing = core_first_crossing(piece);
+            n_evaluations += is_active ? 1u : 0u;
+            used += 1u;
+
+            const bool is_nan = is_active && !core_is_finite(value + core_largest(position));
+            const bool is_empty = piece.low > piece.high;
+            const bool is_done_with = is_empty || crossing.is_excluded;
+
+            // Where the field surely takes the isovalue: at both ends of the part it lies on different sides.
+            const elvis_real from = crossing.s - crossing.half_width, to = crossing.s + crossing.half_width;
+            const bool is_found = piece.is_known && from >= piece.low && to <= piece.high;
+            const bool is_narrow = piece.radius <= CORE_NARROW;
+            const elvis_vec3 to_root = piece.q + crossing.s * piece.w;
+            const bool is_at_root = core_largest(to_root) <= max(CORE_AT_ROOT, elvis_real(4) * core_largest(frame.xi_error));
+            const elvis_vec3 root = xi + to_root;
+            const bool is_inside = core_excess(root.x, root.y, root.z) <= CORE_CONSTRAINT_NORM * elvis_real(2) * piece.beyond;
+
+            const elvis_real part_low = max(from, piece.low), part_high = min(to, piece.high);
+            const bool is_part = piece.is_known && part_high - part_low < elvis_real(0.6LF) * (piece.high - piece.low);
+
+            const bool ends_here = is_active && !is_done_with && is_narrow && is_found;
+            const bool takes = ends_here && is_at_root;
+            const bool is_broken = is_nan || (is_active && used >= CORE_MOST_EVALUATIONS);
+            const bool is_far = core_largest(piece.q) > elvis_real(0.5LF) * max(half_width, shortest) * speed;
+            const bool is_stuck = is_short && (is_narrow || moves >= CORE_MAX_MOVES) && !ends_here;
+
+            const elvis_real t = middle + crossing.s;
+            const bool is_behind_start = t > ray.least_t + ray.widths_behind * crossing.half_width && t > ray.least_t;
+            const uint number = elvis_fetch_core_elements(safe_element, 0u);
+            const elvis_real slack = max(crossing.half_width, best_slack);
+            const bool is_same = abs(t - best_t) <= slack;
+            const bool is_better = takes && is_inside && is_behind_start && (is_same ? number < best_number : t < best_t);
+            best_element = is_better ? element : best_element;
+            best_number = is_better ? number : best_number;
+            best_t = is_better ? t : best_t;
+            best_slack = is_better ? crossing.half_width : best_slack;
+            best_x = is_better ? root.x : best_x;
+            best_y = is_better ? root.y : best_y;
+            best_z = is_better ? root.z : best_z;
+            best_isovalue = is_better ? crossing.isovalue : best_isovalue;
+            // J^-T times the gradient in xi.
+            const elvis_vec3 gradient = model.slope.x * frame.row0 + model.slope.y * frame.row1 + model.slope.z * frame.row2;
+            normal_x = is_better ? gradient.x : normal_x;
+            normal_y = is_better ? gradient.y : normal_y;
+            normal_z = is_better ? gradient.z : normal_z;
+            // Along the surface f is constant: its curvature is the second derivative over the slope, where the mapping's own
+            // bending counts, too.
+            bend = min(bend, elvis_real(2) * model.remainder / (piece.radius * piece.radius));
+            const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
+            const elvis_real bend_here = inverse_square * (bend + elvis_real(2) * curvature * core_model_norm1(model.slope)) / length(gradient);
+            best_bend = is_better ? bend_here : best_bend;
+            n_crossings += takes ? 1u : 0u;
+            n_outside += is_active && is_empty ? 1u : 0u;
+            n_excluded += is_active && !is_empty && crossing.is_excluded ? 1u : 0u;
+            const bool is_open = is_active && !is_done_with && (is_stuck || is_broken);
+            n_undecided += is_open ? 1u : 0u;
+            flags |= is_open ? (is_nan ? CORE_FLAG_NAN : CORE_FLAG_ISOSURFACE_UNDECIDED) : 0u;
+            const bool rests_on_estimates = is_active && core_is_model_estimated(safe_element);
+            flags |= rests_on_estimates ? CORE_FLAG_ESTIMATED : 0u;
+
+            // What is looked at next.
+            const bool is_over = is_broken || (takes && is_inside && is_behind_start);
+            const bool goes_on = is_done_with || takes || is_stuck || is_broken;
+            const bool cuts = !goes_on && (ends_here || is_part);
+            const bool moves_on = !goes_on && !cuts && (is_short || (is_far && moves < CORE_MAX_MOVES));
+            // The next piece is as long as this one, or twice if that was easy; the last one takes what would be left.
+            const elvis_real length_next = (is_done_with ? elvis_real(4) : elvis_real(2)) * max(half_width, shortest);
+            const elvis_real after = next + length_next;
+            const elvis_real new_a = goes_on ? next : cuts ? middle + part_low : moves_on ? a : middle + piece.low;
+            const elvis_real new_b = goes_on ? (after + elvis_real(0.5LF) * length_next >= last ? last : after)
+                                     : cuts  ? middle + part_high
+                                     : moves_on ? b
+                                                : middle + elvis_real(0.5LF) * (piece.low + piece.high);
+            // After a part that holds the only isovalue of the piece, the piece is over.
+            next = goes_on ? new_b : cuts ? (crossing.is_only ? next : min(next, middle + part_high)) : moves_on ? next : new_b;
+            moves = moves_on ? moves + 1u : 0u;
+            const bool has_more = new_a < last && new_a < new_b && new_a <= best_t + best_slack;
+            element = is_over || (goes_on && !has_more) ? CORE_NO_ELEMENT : element;
+            a = new_a;
+            b = max(new_b, new_a);
+            // The point of the element that is nearest to its middle.
+            const elvis_real to_middle = elvis_real(0.5LF) * (a + b) - middle;
+            x += core_is_finite(piece.q.x + piece.w.x) ? clamp(piece.q.x + to_middle * piece.w.x, elvis_real(-4), elvis_real(4)) : elvis_real(0);
+            y += core_is_finite(piece.q.y + piece.w.y) ? clamp(piece.q.y + to_middle * piece.w.y, elvis_real(-4), elvis_real(4)) : elvis_real(0);
+            z += core_is_finite(piece.q.z + piece.w.z) ? clamp(piece.q.z + to_middle * piece.w.z, elvis_real(-4), elvis_real(4)) : elvis_real(0);
+            core_project(x, y, z);
+        }
+        const bool is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
+        flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
+        const bool is_hit = best_element != CORE_NO_ELEMENT;
+        flags |= is_hit ? CORE_FLAG_ISOSURFACE : 0u;
+        for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
+            core_marks[pixel].flags |= flags;
+        }
+        for (uint turn = 0u; turn < (is_hit ? 1u : 0u); ++turn) {
+            core_marks[pixel].owner = core_surface << CORE_OWNER_BITS;
+            core_samples[pixel].value = best_isovalue;
+            core_samples[pixel].depth = (best_t + along.reference_distance) * stretch;
+            core_samples[pixel].number = best_number;
+            const elvis_vec3 normal = elvis_vec3(normal_x, normal_y, normal_z);
+            const elvis_real size = (dot(normal, ray.direction) > elvis_real(0) ? elvis_real(-1) : elvis_real(1)) / length(normal);
+            core_normals[3u * pixel] = size * normal.x;
+            core_normals[3u * pixel + 1u] = size * normal.y;
+            core_normals[3u * pixel + 2u] = size * normal.z;
+            core_points[pixel].x = best_x;
+            core_points[pixel].y = best_y;
+            core_points[pixel].z = best_z;
+            core_points[pixel].element = best_element;
+            core_bending[pixel] = core_is_finite(best_bend) ? min(best_bend, CORE_FAR) : CORE_FAR;
+        }
+        row += 1u;
+    }
+    // Then no pixel of the column is to be trusted.
+    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
+    for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
+        core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
+    }
+    for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {
+        const uint evaluations = subgroupAdd(n_evaluations), excluded = subgroupAdd(n_excluded), outside = subgroupAdd(n_outside);
+        const uint undecided = subgroupAdd(n_undecided), crossings = subgroupAdd(n_crossings);
+        if (subgroupElect()) {
+            atomicAdd(core_counts[0], evaluations);
+            atomicAdd(core_counts[1], excluded);
+            atomicAdd(core_counts[2], outside);
+            atomicAdd(core_counts[3], undecided);
+            atomicAdd(core_counts[5], crossings);
+        }
+    }
+}
