@@ -48,13 +48,25 @@ std::size_t point_bytes(Precision precision) { return precision == Precision::fl
 
 } // namespace
 
-const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device, Draws what) {
-    std::unique_ptr<ComposedKernel>& kernel = drawing[static_cast<std::size_t>(what)];
+const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device, Role role, bool has_one_isovalue) {
+    std::unique_ptr<ComposedKernel>& kernel = kernels[static_cast<std::size_t>(role)][has_one_isovalue ? 1 : 0];
     if (!kernel) {
         KernelRequest own = request;
-        own.kernel = "kernels/isosurface.comp";
-        own.name = "isosurface of element class " + std::to_string(element_class);
-        own.defines.emplace_back("CORE_DESCENDS", what == Draws::deep_pixels ? "1" : "0");
+        own.defines.emplace_back("CORE_HAS_ONE_ISOVALUE", has_one_isovalue ? "1" : "0");
+        if (role == Role::tiles) {
+            own.name = "isosurface_tiles";
+            own.kernel = "kernels/face_tiles.comp";
+            own.push_constant_bytes = sizeof(TilesParameters);
+        } else {
+            own.name = "isosurface";
+            own.kernel = "kernels/isosurface.comp";
+            own.defines.emplace_back("CORE_DESCENDS", role == Role::deep_pixels ? "1" : "0");
+            for (std::uint32_t binding = 4; binding <= 9; ++binding) {
+                own.bindings.push_back({binding, BindingType::storage_buffer});
+            }
+            own.push_constant_bytes = sizeof(Parameters);
+        }
+        own.name += " of element class " + std::to_string(element_class);
         kernel = std::make_unique<ComposedKernel>(device, own);
     }
     return *kernel;
@@ -70,35 +82,25 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
             continue;
         }
         ClassKernels kernels;
-        KernelRequest request;
+        KernelRequest& request = kernels.request;
         request.precision = m_precision;
         request.buffers = m_level_set.host_buffers(index);
-        request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
-                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                           {"CORE_LEAF_WORD", "index"}};
-        request.name = "ray_tiles";
-        request.kernel = "kernels/face_tiles.comp";
-        request.bindings = {
-            {0, BindingType::uniform_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
-        request.push_constant_bytes = sizeof(TilesParameters);
-        kernels.tiles = std::make_unique<ComposedKernel>(device, request);
-
-        request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
-                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                           {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"}};
         for (const FetchBuffer& buffer : data.host_buffers(index)) {
             if (buffer.name != "core_nodes") {
                 request.buffers.push_back(buffer);
             }
         }
         data.add_field(request, index, true);
-        for (std::uint32_t binding = 3; binding <= 9; ++binding) {
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                           {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"},
+                           {"CORE_LEAF_WORD", "index"},
+                           {"CORE_TESTS_LEVELS", "1"}};
+        request.bindings = {{0, BindingType::uniform_buffer}};
+        for (std::uint32_t binding = 1; binding <= 3; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
         }
-        request.push_constant_bytes = sizeof(Parameters);
-        kernels.request = request;
         kernels.element_class = index;
-        kernels.provide(m_device, Draws::pixels);
         m_kernels.push_back(std::move(kernels));
     }
 }
@@ -111,6 +113,10 @@ void IsosurfacePass::choose(std::span<const double> isovalues, double offset, co
     }
     m_component = {component.first(), component.end()};
     m_level_set.choose(m_values, m_component, skips_by_range);
+    for (ClassKernels& kernels : m_kernels) {
+        kernels.provide(m_device, Role::tiles, m_values.size() == 1);
+        kernels.provide(m_device, Role::pixels, m_values.size() == 1);
+    }
 }
 
 void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
@@ -137,8 +143,9 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
         }
         m_counts.fill(0);
         const TilesParameters of_tiles{tiles_a_row, n_tiles};
-        const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &tiles, &m_counts};
-        kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));
+        const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &m_counts, &isovalues};
+        kernels.provide(m_device, Role::tiles, m_values.size() == 1)
+            .dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));
         Parameters parameters{layer.width,
                               layer.height,
                               tiles_a_row,
@@ -149,8 +156,8 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
                               static_cast<std::uint32_t>(m_values.size()),
                               target.beyond ? 1u : 0u};
         const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[inner_tiles];
-        const auto draw_tiles = [&](Draws what) {
-            const ComposedKernel& kernel = kernels.provide(m_device, what);
+        const auto draw_tiles = [&](Role role) {
+            const ComposedKernel& kernel = kernels.provide(m_device, role, m_values.size() == 1);
             for (std::uint32_t row = 0; row < tile_rows; row += rows_a_dispatch) {
                 parameters.first_tile_row = row;
                 kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
@@ -158,10 +165,10 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
             }
         };
         if (n_deep_tiles < n_tiles) {
-            draw_tiles(Draws::pixels);
+            draw_tiles(Role::pixels);
         }
         if (n_deep_tiles > 0) {
-            draw_tiles(Draws::deep_pixels);
+            draw_tiles(Role::deep_pixels);
         }
         const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
         counts.field_evaluations += found[evaluations];

@@ -21,7 +21,7 @@ namespace elvis {
 /** The kernels of one volume and of the field that has the level sets, for each element class. */
 class IsosurfacePass {
 public:
-    /** `data` has that field selected, and its derivative bounds. Most kernels are compiled when constructed. */
+    /** `data` has that field selected, and its derivative bounds. Kernels are compiled when first needed, most by choose(). */
     IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
     /** What the next pictures show: ascending values of the field, which lacks `offset` on the device; see LevelSet::choose. */
@@ -39,15 +39,16 @@ public:
     const Buffer& bending() const { return *m_bending; }
 
 private:
-    enum class Draws { pixels, deep_pixels };
+    /** Lists for tiles of pixels; tiles whose lists hold leaves only; tiles that many elements may touch. */
+    enum class Role { tiles, pixels, deep_pixels };
     struct ClassKernels {
-        std::unique_ptr<ComposedKernel> tiles;
-        /** Compiled when first needed. */
-        std::array<std::unique_ptr<ComposedKernel>, 2> drawing;
+        /** What they have in common. */
         KernelRequest request;
         std::uint32_t element_class = 0;
+        /** By role, and whether there is one isovalue. Compiled when first needed. */
+        std::array<std::array<std::unique_ptr<ComposedKernel>, 2>, 3> kernels;
 
-        const ComposedKernel& provide(const Device& device, Draws what);
+        const ComposedKernel& provide(const Device& device, Role role, bool has_one_isovalue);
     };
 
     const Device& m_device;

@@ -8,7 +8,7 @@ layout(local_size_x = 32) in;
 #include "library/hierarchy.glsl"
 #include "library/face_tiles.glsl"
 
-// What stands for a leaf: its item, or the node.
+// What stands for a leaf: its item, or the node. A kernel can dismiss leaves for a reason of its own, too.
 #ifndef CORE_LEAF_WORD
 #define CORE_LEAF_WORD node.child
 #endif
@@ -28,6 +28,8 @@ struct core_beam {
     vec3 at_left, at_right, at_top, at_bottom;
     vec3 axis;
     float axis_offset, eye_t;
+    // The rays at the corners, relative to the reference point.
+    vec3 origins[4], directions[4];
 };
 
 bool core_is_beyond(core_node node, vec3 normal, vec3 point) {
@@ -37,8 +39,8 @@ bool core_is_beyond(core_node node, vec3 normal, vec3 point) {
     return dot(normal, farthest - point) < -rounding * dot(abs(normal), vec3(1));
 }
 
-// Least t in the box, a little less; above every t if the beam does not meet it in front of the eye.
-float core_beam_entry(core_node node, core_beam beam) {
+// Least and largest t in the box, a little farther apart; above every t if the beam does not meet it in front of the eye.
+vec2 core_beam_span(core_node node, core_beam beam) {
     const vec3 middle = 0.5 * (node.lower + node.upper), half_size = 0.5 * (node.upper - node.lower);
     const float t = dot(beam.axis, middle) - beam.axis_offset, reach = dot(abs(beam.axis), half_size);
     const float size = dot(abs(beam.axis), abs(middle) + half_size) + abs(beam.axis_offset) + abs(t);
@@ -46,7 +48,7 @@ float core_beam_entry(core_node node, core_beam beam) {
     const bool is_outside = t + reach + slack < beam.eye_t || core_is_beyond(node, beam.left, beam.at_left) ||
                             core_is_beyond(node, beam.right, beam.at_right) || core_is_beyond(node, beam.top, beam.at_top) ||
                             core_is_beyond(node, beam.bottom, beam.at_bottom);
-    return is_outside ? 3.3e38 : t - reach - slack;
+    return is_outside ? vec2(3.3e38) : vec2(t - reach - slack, t + reach + slack);
 }
 
 core_beam core_tile_beam(elvis_real column, elvis_real row) {
@@ -71,8 +73,19 @@ core_beam core_tile_beam(elvis_real column, elvis_real row) {
     beam.bottom = facing * cross(across, last_direction);
     beam.axis_offset = dot(beam.axis, vec3(core_base0.xyz) + shift);
     beam.eye_t = -float(core_reference.w);
+    for (int corner = 0; corner < 4; ++corner) {
+        const elvis_real down = corner < 2 ? first : last;
+        beam.origins[corner] = vec3(((corner & 1) == 0 ? left.base : right.base).xyz + down * left.base_row.xyz);
+        beam.directions[corner] = vec3(((corner & 1) == 0 ? left.direction : right.direction).xyz + down * left.direction_row.xyz);
+    }
     return beam;
 }
+
+#ifdef CORE_TESTS_LEVELS
+#include "library/level_leaf_test.glsl"
+#else
+bool core_leaf_is_met(uint item, core_beam beam, vec2 span) { return true; }
+#endif
 
 void main() {
     const uint tile = gl_GlobalInvocationID.x;
@@ -89,8 +102,12 @@ void main() {
         stack_size -= 1u;
         const uint index = stack[stack_size];
         const core_node node = core_fetch_node(index);
-        const float entry = core_beam_entry(node, beam);
-        const bool is_met = entry < 3.2e38;
+        const vec2 span = core_beam_span(node, beam);
+        const float entry = span.x;
+        bool is_met = entry < 3.2e38;
+        for (uint turn = 0u; turn < (is_met && node.is_leaf ? 1u : 0u); ++turn) {
+            is_met = core_leaf_is_met(node.child, beam, span);
+        }
         // A node that could leave too many entries behind stays an entry itself, for the pixels to descend from.
         const bool is_entry = node.is_leaf || n_entries + stack_size + 2u > CORE_TILE_CAPACITY;
         for (uint turn = 0u; turn < (is_met && is_entry ? 1u : 0u); ++turn) {

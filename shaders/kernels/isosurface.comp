@@ -51,6 +51,7 @@ layout(push_constant) uniform core_parameters {
 };
 
 elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
+#include "library/isovalues.glsl"
 
 #include "library/look_beyond.glsl"
 #include "library/driver_limit.glsl"
@@ -58,6 +59,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #include "library/shown_model.glsl"
 #include "library/ray_piece.glsl"
 #include "library/level_model.glsl"
+#include "library/level_span.glsl"
 
 #define CORE_NO_ELEMENT 0xffffffffu
 // Turns of one pixel: all pixels of an invocation stay below where drivers end loops.
@@ -67,54 +69,20 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 // Times the mapping is linearized anew nearer to the piece before it is halved.
 #define CORE_MAX_MOVES 6u
 
-// In reference coordinates: offsets from xi up to which the line's root is as good as rounding allows, but for its normal; and to
-// which xi itself is good enough for that.
+// Error of the unit normal that is left.
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_NORMAL_ERROR elvis_real(2e-13LF)
+#else
+#define CORE_NORMAL_ERROR elvis_real(2e-6LF)
+#endif
+// Offsets from xi, in reference coordinates, below which rounding counts more than what the linearization leaves out.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_NARROW elvis_real(6e-8LF)
-#define CORE_AT_ROOT elvis_real(2.5e-13LF)
 #else
 #define CORE_NARROW elvis_real(2e-3LF)
-#define CORE_AT_ROOT elvis_real(8e-6LF)
 #endif
 // Pieces are not made shorter than this part of that.
 #define CORE_FLOOR elvis_real(0.25LF)
-
-// Of the linearization at the centroid, which keeps this many digits of coordinates in the element.
-#define CORE_LINEAR_ERROR 2e-2
-
-// The part of the ray, within `span`, that can lie in the element as far as the mapping's linearization at the centroid tells.
-vec2 core_linear_span(vec3 start, vec3 direction, float curvature, vec2 span) {
-    const float slack = float(CORE_CONSTRAINT_NORM) * (curvature * float(CORE_EXTENT * CORE_EXTENT) + CORE_LINEAR_ERROR);
-    for (int face = 0; face < CORE_N_FACES; ++face) {
-        const vec4 constraint = vec4(core_face_constraint(face));
-        const float excess = dot(constraint.xyz, start) + constraint.w - slack, slope = dot(constraint.xyz, direction);
-        const float root = -excess / slope;
-        span.y = slope > 0.0 ? min(span.y, root) : span.y;
-        span.x = slope < 0.0 ? max(span.x, root) : span.x;
-    }
-    return span;
-}
-
-// The part of that in which the linear model of the whole element leaves room for an isovalue, if there is only one; all of it if
-// there are several.
-vec2 core_level_span(core_level_model model, vec3 start, vec3 direction, float curvature, vec2 span) {
-    const vec3 size = abs(model.slope);
-    const float beyond = curvature * float(CORE_EXTENT * CORE_EXTENT) + CORE_LINEAR_ERROR;
-    const float value = model.value + dot(model.slope, start - vec3(CORE_CENTROID)), slope = dot(model.slope, direction);
-    const float a = value + span.x * slope, b = value + span.y * slope;
-    const float rounding = 16.0 * CORE_FLOAT_ROUNDOFF * (abs(value) + abs(span.x * slope) + abs(span.y * slope));
-    const float error = model.remainder + beyond * (size.x + size.y + size.z) + rounding;
-    const float least = min(a, b) - error, most = max(a, b) + error;
-    const uint first = core_first_isovalue(elvis_real(least));
-    const bool has_one = first < core_n_isovalues && float(core_isovalue(min(first, core_n_isovalues - 1u))) <= most;
-    const bool has_more = first + 1u < core_n_isovalues && float(core_isovalue(min(first + 1u, core_n_isovalues - 1u))) <= most;
-    const float isovalue = float(core_isovalue(min(first, core_n_isovalues - 1u)));
-    const float middle = (isovalue - value) / slope, half_width = (error + CORE_FLOAT_ROUNDOFF * abs(isovalue)) / abs(slope);
-    const bool is_cut = has_one && !has_more && abs(slope) > 0.0 && error < CORE_LEVEL_UNKNOWN;
-    const vec2 part = vec2(max(span.x, middle - half_width), min(span.y, middle + half_width));
-    const bool is_none = !has_one && error < CORE_LEVEL_UNKNOWN;
-    return is_none ? vec2(1.0, 0.0) : is_cut ? part : span;
-}
 
 void main() {
     const uint column = gl_WorkGroupID.x * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
@@ -125,6 +93,7 @@ void main() {
     const uint n_listed = is_mine ? header & ~CORE_TILE_INNER : 0u;
     const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_ROWS, core_size.y) : first_row;
     const core_cut_column along = core_cut_begin(elvis_real(column));
+    core_begin_isovalues();
     uint n_evaluations = 0u, n_excluded = 0u, n_outside = 0u, n_undecided = 0u, n_crossings = 0u;
     uint row = first_row;
     while (row < end_row) {
@@ -232,23 +201,36 @@ void main() {
             const bool is_empty = piece.low > piece.high;
             const bool is_done_with = is_empty || crossing.is_excluded;
 
-            // Where the field surely takes the isovalue: at both ends of the part it lies on different sides.
+            // Where the field surely takes the isovalue: at both ends of the part it lies on different sides. It does so once only
+            // if its slope along the ray surely keeps its sign.
             const elvis_real from = crossing.s - crossing.half_width, to = crossing.s + crossing.half_width;
-            const bool is_found = piece.is_known && from >= piece.low && to <= piece.high;
-            const bool is_narrow = piece.radius <= CORE_NARROW;
+            bend = min(bend, elvis_real(2) * model.remainder / (piece.radius * piece.radius));
+            // Of the field along curves that are straight in the world: the mapping's own bending counts, too.
+            const elvis_real bend_here = bend + elvis_real(2) * curvature * core_model_norm1(model.slope);
+            const bool is_found = piece.is_known && from >= piece.low && to <= piece.high &&
+                                  speed * bend_here * piece.radius < abs(piece.slope);
             const elvis_vec3 to_root = piece.q + crossing.s * piece.w;
-            const bool is_at_root = core_largest(to_root) <= max(CORE_AT_ROOT, elvis_real(4) * core_largest(frame.xi_error));
+            const elvis_real distance = core_largest(to_root);
+            // J^-T times the gradient in xi.
+            const elvis_vec3 gradient = model.slope.x * frame.row0 + model.slope.y * frame.row1 + model.slope.z * frame.row2;
+            const elvis_real inverse_size = sqrt(dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2));
+            const elvis_real size = length(gradient);
+            // From xi to the root the gradient changes by this much at most, and the line's root is wrong by half the product.
+            const elvis_real change = bend_here * distance;
+            const bool is_at_root = (change * inverse_size <= CORE_NORMAL_ERROR * size &&
+                                     change * distance * speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
+                                    distance <= elvis_real(4) * core_largest(frame.xi_error);
             const elvis_vec3 root = xi + to_root;
             const bool is_inside = core_excess(root.x, root.y, root.z) <= CORE_CONSTRAINT_NORM * elvis_real(2) * piece.beyond;
 
             const elvis_real part_low = max(from, piece.low), part_high = min(to, piece.high);
             const bool is_part = piece.is_known && part_high - part_low < elvis_real(0.6LF) * (piece.high - piece.low);
 
-            const bool ends_here = is_active && !is_done_with && is_narrow && is_found;
+            const bool ends_here = is_active && !is_done_with && is_found;
             const bool takes = ends_here && is_at_root;
             const bool is_broken = is_nan || (is_active && used >= CORE_MOST_EVALUATIONS);
             const bool is_far = core_largest(piece.q) > elvis_real(0.5LF) * max(half_width, shortest) * speed;
-            const bool is_stuck = is_short && (is_narrow || moves >= CORE_MAX_MOVES) && !ends_here;
+            const bool is_stuck = is_short && (piece.radius <= CORE_NARROW || moves >= CORE_MAX_MOVES) && !ends_here;
 
             const elvis_real t = middle + crossing.s;
             const bool is_behind_start = t > ray.least_t + ray.widths_behind * crossing.half_width && t > ray.least_t;
@@ -264,17 +246,10 @@ void main() {
             best_y = is_better ? root.y : best_y;
             best_z = is_better ? root.z : best_z;
             best_isovalue = is_better ? crossing.isovalue : best_isovalue;
-            // J^-T times the gradient in xi.
-            const elvis_vec3 gradient = model.slope.x * frame.row0 + model.slope.y * frame.row1 + model.slope.z * frame.row2;
             normal_x = is_better ? gradient.x : normal_x;
             normal_y = is_better ? gradient.y : normal_y;
             normal_z = is_better ? gradient.z : normal_z;
-            // Along the surface f is constant: its curvature is the second derivative over the slope, where the mapping's own
-            // bending counts, too.
-            bend = min(bend, elvis_real(2) * model.remainder / (piece.radius * piece.radius));
-            const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
-            const elvis_real bend_here = inverse_square * (bend + elvis_real(2) * curvature * core_model_norm1(model.slope)) / length(gradient);
-            best_bend = is_better ? bend_here : best_bend;
+            best_bend = is_better ? inverse_size * inverse_size * bend_here / size : best_bend;
             n_crossings += takes ? 1u : 0u;
             n_outside += is_active && is_empty ? 1u : 0u;
             n_excluded += is_active && !is_empty && crossing.is_excluded ? 1u : 0u;

@@ -7,7 +7,7 @@
 //
 //     f(s) = value + slope s + e,   |e| <= error,   wherever the piece lies in the element.
 //
-// The kernel brings library/cell.glsl and library/shown_model.glsl.
+// The kernel brings library/isovalues.glsl, library/cell.glsl and library/shown_model.glsl.
 
 struct core_piece {
     // Offset of the middle, and its change along the ray, in reference coordinates.
@@ -87,16 +87,13 @@ struct core_crossing {
 core_crossing core_first_crossing(core_piece piece) {
     const elvis_real a = piece.value + piece.low * piece.slope, b = piece.value + piece.high * piece.slope;
     const elvis_real least = min(a, b) - piece.error, most = max(a, b) + piece.error;
-    const uint first = core_first_isovalue(least);
-    uint last = first;
-    while (last < core_n_isovalues && core_isovalue(last) <= most) {
-        last += 1u;
-    }
+    const uint first = core_isovalue_from(least);
+    const uint last = core_isovalues_end(first, most);
     const uint next = piece.slope > elvis_real(0) ? first : max(last, 1u) - 1u;
     core_crossing crossing;
     crossing.is_excluded = piece.is_known && first == last;
     crossing.is_only = piece.is_known && last == first + 1u;
-    crossing.isovalue = core_isovalue(min(next, core_n_isovalues - 1u));
+    crossing.isovalue = core_isovalue_at(min(next, CORE_N_ISOVALUES - 1u));
     const elvis_real inverse = elvis_real(1) / piece.slope;
     crossing.s = (crossing.isovalue - piece.value) * inverse;
     crossing.half_width = piece.error * abs(inverse);
