@@ -81,6 +81,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #else
 #define CORE_NARROW elvis_real(2e-3LF)
 #endif
+#define CORE_WIDEST elvis_real(0.25LF)
 // Pieces are not made shorter than this part of that.
 #define CORE_FLOOR elvis_real(0.25LF)
 
@@ -112,6 +113,8 @@ void main() {
         uint element = CORE_NO_ELEMENT;
         // The piece from a to b, and what has to be looked at after it.
         elvis_real a = elvis_real(0), b = elvis_real(0), next = elvis_real(0), last = elvis_real(0);
+        // Half of what is looked at at least: where the field is so flat that rounding moves the crossing by more than the piece is long.
+        elvis_real wide = elvis_real(0);
         elvis_real x = elvis_real(0), y = elvis_real(0), z = elvis_real(0);
         // The nearest crossing so far; of another class, its depth.
         elvis_real best_t = CORE_FAR, best_slack = elvis_real(0), best_x = x, best_y = x, best_z = x, best_isovalue = x;
@@ -156,7 +159,8 @@ void main() {
                     const bool is_linearized = linearization.exponents != 0u;
                     const float curvature = float(elvis_fetch_core_curvatures(node.child, 0u));
                     const vec2 inside = core_linear_span(start, motion, curvature, span);
-                    const vec2 part = core_level_span(core_fetch_level_model(node.child), start, motion, curvature, inside);
+                    const core_level_model level = core_fetch_level_model(node.child);
+                    const vec2 part = core_level_span(level, start, motion, curvature, inside);
                     span = is_linearized ? part : span;
                     const float middle = 0.5 * (span.x + span.y);
                     const vec3 at_middle = start + middle * motion;
@@ -168,7 +172,8 @@ void main() {
                     b = next = last = elvis_real(span.y);
                     element = span.x <= span.y ? node.child : CORE_NO_ELEMENT;
                     used = moves = 0u;
-                    bend = CORE_FAR;
+                    wide = elvis_real(0);
+                    bend = elvis_real(2) * elvis_real(level.remainder) / (CORE_EXTENT * CORE_EXTENT);
                 }
             }
 
@@ -188,8 +193,8 @@ void main() {
             const elvis_real half_width = elvis_real(0.5LF) * (b - a);
             const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
             const bool is_short = half_width < shortest;
-            core_piece piece = core_piece_in_element(xi, frame, ((shift - position) + ray.origin) + step, ray.direction,
-                                                     max(half_width, shortest), curvature);
+            const elvis_real reach = max(max(half_width, shortest), wide);
+            core_piece piece = core_piece_in_element(xi, frame, ((shift - position) + ray.origin) + step, ray.direction, reach, curvature);
             core_model model;
             elvis_real value;
             core_piece_take_field(piece, safe_element, xi, model, value);
@@ -202,12 +207,13 @@ void main() {
             const bool is_done_with = is_empty || crossing.is_excluded;
 
             // Where the field surely takes the isovalue: at both ends of the part it lies on different sides. It does so once only
-            // if its slope along the ray surely keeps its sign.
+            // if its slope along the ray surely keeps its sign. The part may reach beyond a face by what rounding makes of it: then
+            // the root is what decides.
             const elvis_real from = crossing.s - crossing.half_width, to = crossing.s + crossing.half_width;
             bend = min(bend, elvis_real(2) * model.remainder / (piece.radius * piece.radius));
             // Of the field along curves that are straight in the world: the mapping's own bending counts, too.
             const elvis_real bend_here = bend + elvis_real(2) * curvature * core_model_norm1(model.slope);
-            const bool is_found = piece.is_known && from >= piece.low && to <= piece.high &&
+            const bool is_found = piece.is_known && from >= -reach && to <= reach &&
                                   speed * bend_here * piece.radius < abs(piece.slope);
             const elvis_vec3 to_root = piece.q + crossing.s * piece.w;
             const elvis_real distance = core_largest(to_root);
@@ -219,18 +225,26 @@ void main() {
             const elvis_real change = bend_here * distance;
             const bool is_at_root = (change * inverse_size <= CORE_NORMAL_ERROR * size &&
                                      change * distance * speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
-                                    distance <= elvis_real(4) * core_largest(frame.xi_error);
+                                    distance <= elvis_real(4) * core_largest(frame.xi_error) ||
+                                    // Rounding is most of the error: nothing more is to be had.
+                                    (bend_here * piece.radius * piece.radius <= piece.error && distance <= speed * crossing.half_width);
             const elvis_vec3 root = xi + to_root;
-            const bool is_inside = core_excess(root.x, root.y, root.z) <= CORE_CONSTRAINT_NORM * elvis_real(2) * piece.beyond;
+            // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face.
+            const bool is_inside = core_excess(root.x, root.y, root.z) <=
+                                   CORE_CONSTRAINT_NORM * (elvis_real(2) * piece.beyond + elvis_real(0.25LF) * speed * crossing.half_width);
 
-            const elvis_real part_low = max(from, piece.low), part_high = min(to, piece.high);
+            // The middle of the next piece is the root, if there is one.
+            const elvis_real part_low = is_found ? from : max(from, piece.low), part_high = is_found ? to : min(to, piece.high);
             const bool is_part = piece.is_known && part_high - part_low < elvis_real(0.6LF) * (piece.high - piece.low);
 
             const bool ends_here = is_active && !is_done_with && is_found;
             const bool takes = ends_here && is_at_root;
             const bool is_broken = is_nan || (is_active && used >= CORE_MOST_EVALUATIONS);
             const bool is_far = core_largest(piece.q) > elvis_real(0.5LF) * max(half_width, shortest) * speed;
-            const bool is_stuck = is_short && (piece.radius <= CORE_NARROW || moves >= CORE_MAX_MOVES) && !ends_here;
+            const elvis_real wider = elvis_real(4) * crossing.half_width;
+            const bool is_flat = is_short && !is_done_with && !is_found && !is_part && wider > elvis_real(1.5LF) * wide &&
+                                 wider * speed < CORE_WIDEST;
+            const bool is_stuck = is_short && !is_flat && (piece.radius <= max(CORE_NARROW, elvis_real(2) * wide * speed) || moves >= CORE_MAX_MOVES) && !ends_here;
 
             const elvis_real t = middle + crossing.s;
             const bool is_behind_start = t > ray.least_t + ray.widths_behind * crossing.half_width && t > ray.least_t;
@@ -263,7 +277,7 @@ void main() {
             const bool is_over = is_broken || (takes && is_inside && is_behind_start);
             const bool goes_on = is_done_with || takes || is_stuck || is_broken;
             const bool cuts = !goes_on && (ends_here || is_part);
-            const bool moves_on = !goes_on && !cuts && (is_short || (is_far && moves < CORE_MAX_MOVES));
+            const bool moves_on = !goes_on && !cuts && (is_flat || is_short || (is_far && moves < CORE_MAX_MOVES));
             // The next piece is as long as this one, or twice if that was easy; the last one takes what would be left.
             const elvis_real length_next = (is_done_with ? elvis_real(4) : elvis_real(2)) * max(half_width, shortest);
             const elvis_real after = next + length_next;
@@ -274,7 +288,8 @@ void main() {
                                                 : middle + elvis_real(0.5LF) * (piece.low + piece.high);
             // After a part that holds the only isovalue of the piece, the piece is over.
             next = goes_on ? new_b : cuts ? (crossing.is_only ? next : min(next, middle + part_high)) : moves_on ? next : new_b;
-            moves = moves_on ? moves + 1u : 0u;
+            moves = moves_on && !is_flat ? moves + 1u : 0u;
+            wide = is_flat ? wider : goes_on ? elvis_real(0) : wide;
             const bool has_more = new_a < last && new_a < new_b && new_a <= best_t + best_slack;
             element = is_over || (goes_on && !has_more) ? CORE_NO_ELEMENT : element;
             a = new_a;
