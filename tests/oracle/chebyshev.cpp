@@ -109,8 +109,8 @@ std::vector<double> ChebyshevSeries::dense_values() const {
 std::vector<double> ChebyshevSeries::companion_roots(double level) const {
     std::vector<double> c = m_coefficients;
     c[0] -= level;
-    // A leading coefficient that is rounding would only add roots far away, at the price of the others' accuracy.
-    const double rounding = 1e-15 * vector_of(c).cwiseAbs().maxCoeff();
+    // Leading coefficients that are rounding would only add roots far away, at the price of the others' accuracy.
+    const double rounding = 2e-14 * vector_of(c).cwiseAbs().maxCoeff();
     while (c.size() > 1 && std::abs(c.back()) <= rounding)
         c.pop_back();
     std::vector<double> roots;

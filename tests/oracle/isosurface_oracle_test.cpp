@@ -1,12 +1,11 @@
 // The oracle for isosurfaces against closed forms, and its three ways to find roots against each other.
-#include "isosurface.hpp"
+#include "isosurface_compare.hpp"
 #include "meshes.hpp"
 #include "random_volumes.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace elvis::oracle {
 namespace {
@@ -108,6 +107,146 @@ TEST_CASE("the oracle's ways to find roots agree", "[isosurface]") {
     WARN(n_hits << " hits of " << n_rays << " rays, apart by at most " << worst << " of the volume");
     CHECK(n_hits > 500);
     CHECK(n_failures == 0);
+}
+
+namespace {
+
+// What a renderer without errors would give.
+Frame frame_of(const IsosurfacePicture& exact, const Volume& volume, std::uint32_t size) {
+    Frame frame;
+    frame.width = frame.height = size;
+    for (const RayAnswer& answer : exact.answers) {
+        const bool is_hit = answer.crossing.has_value();
+        const double nan = std::nan("");
+        frame.depth.push_back(is_hit ? answer.crossing->t : nan);
+        frame.element.push_back(is_hit ? volume.number(answer.crossing->element) : -1);
+        frame.flags.push_back(is_hit ? 32 : 0);
+        for (Eigen::Index d = 0; d < 3; ++d)
+            frame.normal.push_back(is_hit ? answer.crossing->normal[d] : nan);
+    }
+    return frame;
+}
+
+} // namespace
+
+TEST_CASE("wrong isosurfaces are told from those that rounding excuses") {
+    constexpr std::uint32_t size = 40;
+    const Model model(bent_cube(Shape::hexahedron, 2, 2, quadratic_bend, [](const Vector& x) { return x.squaredNorm(); }));
+    IsosurfaceTracer tracer(model, {scalar_of_field(model.volume, 0), {0.5}});
+    const Camera camera = test_camera({2.5, 1.5, 1.2});
+    const IsosurfacePicture exact = draw_isosurface(model, tracer.isosurface(), camera, size, size);
+    const Frame right = frame_of(exact, model.volume, size);
+    const auto compared = [&](const Frame& frame, const IsosurfaceTolerance& tolerance) { return compare(tracer, exact, camera, frame, tolerance); };
+    const IsosurfaceComparison good = compared(right, float64_tolerance);
+    const std::size_t n_hits = good.n_hits;
+    CHECK(n_hits > 300);
+    CHECK(good.n_agree == size * size);
+    CHECK(good.depth_error == 0);
+    CHECK(good.normal_error == 0);
+    CHECK(good.n_other_element + good.n_wrong_masks == 0);
+
+    Frame rounded = right;
+    for (double& depth : rounded.depth)
+        depth = static_cast<float>(depth);
+    CHECK(compared(rounded, float32_tolerance).n_agree == size * size);
+    const IsosurfaceComparison coarse = compared(rounded, float64_tolerance);
+    // A depth that is off may still be within rounding of the surface where rays graze it, but only there.
+    CHECK(coarse.n_wrong + coarse.n_wrong_grazing > n_hits - 5);
+
+    Frame missing = right, flagged = right, invented = right, behind = right, tilted = right;
+    std::size_t n_grazing = 0, n_invented = 0;
+    for (std::size_t pixel = 0; pixel < right.depth.size(); ++pixel) {
+        const std::optional<Crossing>& crossing = exact.answers[pixel].crossing;
+        if (!crossing) {
+            if (++n_invented <= 10) {
+                invented.element[pixel] = 0;
+                invented.depth[pixel] = 2.5;
+            }
+            continue;
+        }
+        n_grazing += crossing->facing < grazing;
+        missing.element[pixel] = flagged.element[pixel] = -1;
+        flagged.flags[pixel] = 64;
+        // The far side of the surface, from within.
+        behind.depth[pixel] += 2 * crossing->facing / crossing->slope;
+        for (std::size_t d = 0; d < 3; ++d)
+            tilted.normal[3 * pixel + d] += d == 0 ? 1e-4 : 0;
+    }
+    for (const IsosurfaceTolerance& tolerance : {float32_tolerance, float64_tolerance}) {
+        const IsosurfaceComparison none = compared(missing, tolerance);
+        CHECK(none.n_wrong + none.n_wrong_grazing + none.n_rounding == n_hits);
+        CHECK(none.n_wrong >= n_hits - n_grazing - 2);
+        CHECK(none.n_wrong_masks == n_hits);
+        const IsosurfaceComparison said = compared(flagged, tolerance);
+        CHECK(said.n_wrong == 0);
+        CHECK(said.n_wrong_flagged + said.n_rounding == n_hits);
+        CHECK(compared(invented, tolerance).n_wrong + compared(invented, tolerance).n_wrong_grazing == 10);
+        CHECK(compared(behind, tolerance).n_wrong >= n_hits - n_grazing - 2);
+        CHECK(compared(tilted, tolerance).normal_error == Approx(1e-4));
+    }
+}
+
+TEST_CASE("a ray within rounding of a silhouette may be judged either way") {
+    // One cube with the field x^2 + y^2 + z^2, on rays along x at the height of the silhouette of radius 0.5 and a little beside.
+    const Model model(bent_cube(Shape::hexahedron, 1, 2, [](const Vector& x) { return x; }, [](const Vector& x) { return x.squaredNorm(); }));
+    IsosurfaceTracer tracer(model, {scalar_of_field(model.volume, 0), {0.25}});
+    IsosurfaceJudge single(tracer, float32_tolerance), twice(tracer, float64_tolerance);
+    const auto line = [](double height) { return Line{{-3, 0, height}, {1, 0, 0}}; };
+    const double nothing = std::nan("");
+    for (const double off : {1e-6, -1e-6}) {
+        CHECK(single.accepts(line(0.5 + off), nothing));
+        CHECK(single.accepts(line(0.5 + off), 3));
+        CHECK(twice.accepts(line(0.5 + off), nothing) == (off > 0));
+        CHECK_FALSE(twice.accepts(line(0.5 + off), 3));
+        CHECK(tracer.first(line(0.5 + off)).crossing.has_value() == (off < 0));
+    }
+    CHECK(tracer.first(line(0.51)).margin == Approx(0.0101 / tracer.range()));
+    for (const double off : {1e-3, -1e-3})
+        for (IsosurfaceJudge* judge : {&single, &twice}) {
+            CHECK(judge->accepts(line(0.5 + off), nothing) == (off > 0));
+            CHECK_FALSE(judge->accepts(line(0.5 + off), 3));
+        }
+    // In front of the far side there is the near one.
+    CHECK(twice.accepts(line(0.3), 3 - 0.4));
+    CHECK_FALSE(twice.accepts(line(0.3), 3 + 0.4));
+    // Tangent rays that pass the silhouette of an inner sphere: two roots a millionth apart are found.
+    const double height = 0.5 - 1e-12;
+    const std::optional<Crossing> crossing = tracer.first(line(height)).crossing;
+    REQUIRE(crossing);
+    CHECK(crossing->t == Approx(3 - std::sqrt(0.25 - height * height)).margin(1e-9));
+}
+
+TEST_CASE("each element of a discontinuous field is looked at by itself") {
+    // Two cubes along x with f = x - 0.2 and f = x + 0.2: no value -0.1 in the first, whose values end at -0.2 where it leaves.
+    VolumeData data;
+    const std::vector<Map> maps = boxes({-1, -1, -1}, {1, 1, 1}, {2, 1, 1});
+    for (std::size_t i = 0; i < 2; ++i)
+        data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 2), {maps[i]},
+                                          [i](const Vector& x) { return x.x() + (i == 0 ? -0.2 : 0.2); }, static_cast<std::int64_t>(7 - i)));
+    const Model model(data);
+    const Line line{{-3, 0.1, 0.2}, {1, 0, 0}};
+    const auto first = [&](const std::vector<double>& values, const std::vector<std::array<double, 4>>& clip = {}) {
+        return IsosurfaceTracer(model, {scalar_of_field(model.volume, 0), values, clip}).first(line).crossing;
+    };
+    CHECK_FALSE(first({-0.1}));
+    CHECK(first({-0.5})->t == Approx(2.7));
+    CHECK(first({0.5})->t == Approx(3.3));
+    CHECK(first({-0.5, 0.5})->value == 0);
+    CHECK(first({-0.5})->element == 0);
+    // Without x < 0 the first crossing is the other one.
+    CHECK(first({-0.5, 0.5}, {{1, 0, 0, 0}})->value == 1);
+    CHECK_FALSE(first({-0.5}, {{1, 0, 0, 0}}));
+    IsosurfaceTracer tracer(model, {scalar_of_field(model.volume, 0), {-0.1}});
+    CHECK(IsosurfaceJudge(tracer, float32_tolerance).accepts(line, std::nan("")));
+    CHECK_FALSE(IsosurfaceJudge(tracer, float32_tolerance).accepts(line, 3));
+
+    // Where they share a point the lowest number has it: that of the second, whatever their order.
+    for (ClassData& c : data.classes)
+        c.field_coefficients = Fit(c.field)([](const Vector& xi) { return xi.y(); });
+    const Model shared(data);
+    const auto crossing = IsosurfaceTracer(shared, {scalar_of_field(shared.volume, 0), {0.1}}).first({{0, -3, 0.2}, {0, 1, 0}}).crossing;
+    REQUIRE(crossing);
+    CHECK(shared.volume.number(crossing->element) == 6);
 }
 
 } // namespace elvis::oracle

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 
 namespace elvis::oracle {
@@ -140,14 +141,17 @@ Camera random_camera(Random& random, const Volume& volume, const Vector& centre,
     Camera camera;
     const Vector direction = random.direction();
     camera.look_at = array(centre + 0.05 * size * random.in_cube());
-    camera.eye = array(centre + random.between(0.7, 2) * size * direction);
+    const double distance = random.between(0.6, 2) * size;
+    camera.eye = array(centre + distance * direction);
+    // The ball around the volume, or a part of it, fills the picture.
+    camera.field_of_view = random.between(0.6, 1) * std::atan(0.5 * size / distance) * 360 / std::numbers::pi;
     if (random.one_in(8)) {
         const auto element = static_cast<std::size_t>(random.whole(0, static_cast<int>(volume.n_elements()) - 1));
         camera.eye = array(volume.position(element, random_xi(random, volume.shape(element))));
         camera.look_at = array(volume.position(element, random_xi(random, volume.shape(element))));
+        camera.field_of_view = random.between(50, 100);
     }
     camera.up = array(direction.unitOrthogonal());
-    camera.field_of_view = random.between(25, 70);
     camera.orthographic = random.one_in(6);
     camera.height = random.between(0.5, 1) * size;
     return camera;

@@ -79,6 +79,17 @@ bool may_meet(const SeenPatch& patch, const Matrix2& to_unit, double margin) {
     return lower.maxCoeff() <= margin && upper.minCoeff() >= -margin;
 }
 
+// Whether the line sees the patch edge on, thinner than `rounding`: then it runs in the face, and enters and leaves by other ones.
+bool is_edge_on(const SeenPatch& patch, double rounding) {
+    const Vector2 first = patch.points.front().head<2>();
+    Vector2 longest = Vector2::Zero();
+    for (const Vector& p : patch.points)
+        if ((p.head<2>() - first).squaredNorm() > longest.squaredNorm())
+            longest = p.head<2>() - first;
+    const Vector2 across = Vector2(-longest.y(), longest.x()).normalized();
+    return std::ranges::all_of(patch.points, [&](const Vector& p) { return std::abs(across.dot(p.head<2>() - first)) <= rounding; });
+}
+
 // Mean of the slopes of the control net in two directions.
 Matrix2 mean_slope(const SeenPatch& patch) {
     const auto corner = [&](std::size_t i, std::size_t j) -> Vector2 { return patch.at(i * patch.order[0], j * patch.order[1]).head<2>(); };
@@ -201,6 +212,8 @@ void RayParts::cross(const Face& face, const Line& line, double scale, std::vect
         stack.pop_back();
         if (!may_meet(patch, Matrix2::Identity(), rounding))
             continue;
+        if (is_edge_on(patch, 10 * rounding))
+            continue;
         const Matrix2 slope = mean_slope(patch);
         const Matrix2 to_unit = slope.inverse();
         const double size = slope.cwiseAbs().maxCoeff();
@@ -222,7 +235,7 @@ void RayParts::cross(const Face& face, const Line& line, double scale, std::vect
                 if (j > 0)
                     extent[1] = std::max(extent[1], static_cast<double>(patch.order[1]) * (patch.at(i, j) - patch.at(i, j - 1)).norm());
             }
-        // The line touches the face, or meets a corner to which it collapses.
+        // The line meets a corner to which the face collapses.
         if (std::max(extent[0], extent[1]) < 1e-13 * scale) {
             crossings.push_back(patch.at(0, 0).z());
             continue;
