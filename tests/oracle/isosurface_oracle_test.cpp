@@ -2,6 +2,7 @@
 #include "isosurface_compare.hpp"
 #include "meshes.hpp"
 #include "random_volumes.hpp"
+#include "root_finders.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -77,36 +78,24 @@ TEST_CASE("the oracle finds spheres where they are") {
     }
 }
 
-TEST_CASE("the oracle's ways to find roots agree", "[isosurface]") {
-    std::size_t n_hits = 0, n_rays = 0, n_failures = 0;
-    double worst = 0;
+TEST_CASE("the oracle's ways to find roots agree") {
+    FinderComparison all;
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         const RandomVolume random = random_volume(seed);
         const Model model(random.data);
-        IsosurfaceTracer tracer(model, {scalar_of_field(model.volume, 0), random.values, random.clip});
-        for (std::uint32_t pixel = 0; pixel < 100; ++pixel) {
-            const Line line = line_of(pixel_ray(random.camera, 10, 10, pixel % 10, pixel / 10));
-            const RayAnswer by_series = tracer.first(line);
-            ++n_rays;
-            n_hits += by_series.crossing.has_value();
-            for (const RootFinder finder : {RootFinder::samples, RootFinder::companion}) {
-                const RayAnswer other = tracer.first(line, finder);
-                CAPTURE(seed, pixel, random.description, static_cast<int>(finder), by_series.margin, other.margin);
-                REQUIRE(other.crossing.has_value() == by_series.crossing.has_value());
-                if (!other.crossing)
-                    continue;
-                CHECK(other.crossing->element == by_series.crossing->element);
-                const double slope = by_series.crossing->facing * by_series.crossing->slope;
-                const double off = std::abs(other.crossing->t - by_series.crossing->t);
-                worst = std::max(worst, off * std::min(1.0, slope / tracer.range() * model.diagonal) / model.diagonal);
-                CHECK(off * slope <= 1e-12 * tracer.range());
-            }
-        }
-        n_failures += tracer.n_failures();
+        const FinderComparison one =
+            compare_finders(model, {scalar_of_field(model.volume, 0), random.values, random.clip}, random.camera, 10, 10);
+        CAPTURE(seed, random.description);
+        CHECK(one.n_samples_differ == 0);
+        CHECK(one.n_companion_differ == 0);
+        CHECK(one.n_failures == 0);
+        all += one;
     }
-    WARN(n_hits << " hits of " << n_rays << " rays, apart by at most " << worst << " of the volume");
-    CHECK(n_hits > 500);
-    CHECK(n_failures == 0);
+    WARN(all.n_hits << " hits of " << all.n_rays << " rays, apart by at most " << all.samples_error << " and " << all.companion_error
+                    << " of the range");
+    CHECK(all.n_hits > 1000);
+    CHECK(all.samples_error < 1e-13);
+    CHECK(all.companion_error < 1e-13);
 }
 
 namespace {
