@@ -13,9 +13,7 @@ namespace {
 
 Surface surface_of(std::vector<double> values) {
     Surface surface;
-    Isosurfaces isosurfaces;
-    isosurfaces.values = std::move(values);
-    surface.geometry = isosurfaces;
+    surface.geometry = Isosurfaces{{}, std::move(values)};
     surface.colors.points = {{0, {0, 0, 0}}};
     return surface;
 }
@@ -67,7 +65,7 @@ SphereAccuracy measure_sphere(const Device& device, const RuntimeVolume& volume,
         const long double r2 = (ray.origin + middle * ray.direction).squaredNorm();
         const bool is_seen = r2 <= 1 && middle + std::sqrt(1 - r2) > 0;
         result.n_hits += is_hit;
-        result.n_flagged += (frame.flags[pixel] & 64) != 0;
+        result.n_flagged += (frame.flags[pixel] & pixel_flag::isosurface_undecided) != 0;
         result.n_missed += is_seen && r2 < 0.9999L && !is_hit;
         result.n_invented += (r2 > 1.0001L || (!is_seen && r2 < 0.9999L)) && is_hit;
         if (!is_hit)

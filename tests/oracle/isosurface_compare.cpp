@@ -9,9 +9,9 @@ namespace elvis::oracle {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t isosurface_hit = 32, isosurface_undecided = 64;
 // Bits by which a pixel says that what it shows may not be right.
-constexpr std::uint32_t doubt = isosurface_undecided | pixel_flag::newton_failure | pixel_flag::undecided | pixel_flag::work_limit;
+constexpr std::uint32_t doubt =
+    pixel_flag::isosurface_undecided | pixel_flag::newton_failure | pixel_flag::undecided | pixel_flag::work_limit;
 // Depths farther apart than this belong to different sheets of a surface.
 constexpr double same_sheet = 1e-3;
 
@@ -100,7 +100,7 @@ IsosurfaceComparison compare(IsosurfaceTracer& tracer, const IsosurfacePicture& 
         const double depth = is_hit ? frame.depth[pixel] : std::numeric_limits<double>::quiet_NaN();
         result.n_hits += crossing.has_value();
         result.n_flagged += is_flagged;
-        result.n_wrong_masks += ((frame.flags[pixel] & isosurface_hit) != 0) != is_hit;
+        result.n_wrong_masks += ((frame.flags[pixel] & pixel_flag::isosurface) != 0) != is_hit;
         if (!crossing && !is_hit) {
             ++result.n_agree;
             result.n_needless_flags += is_flagged;

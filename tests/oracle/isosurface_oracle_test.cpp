@@ -109,7 +109,7 @@ Frame frame_of(const IsosurfacePicture& exact, const Volume& volume, std::uint32
         const double nan = std::nan("");
         frame.depth.push_back(is_hit ? answer.crossing->t : nan);
         frame.element.push_back(is_hit ? volume.number(answer.crossing->element) : -1);
-        frame.flags.push_back(is_hit ? 32 : 0);
+        frame.flags.push_back(is_hit ? pixel_flag::isosurface : 0);
         for (Eigen::Index d = 0; d < 3; ++d)
             frame.normal.push_back(is_hit ? answer.crossing->normal[d] : nan);
     }
@@ -155,7 +155,7 @@ TEST_CASE("wrong isosurfaces are told from those that rounding excuses") {
         }
         n_grazing += crossing->facing < grazing;
         missing.element[pixel] = flagged.element[pixel] = -1;
-        flagged.flags[pixel] = 64;
+        flagged.flags[pixel] = pixel_flag::isosurface_undecided;
         // The far side of the surface, from within.
         behind.depth[pixel] += 2 * crossing->facing / crossing->slope;
         for (std::size_t d = 0; d < 3; ++d)
