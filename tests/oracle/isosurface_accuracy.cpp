@@ -64,10 +64,14 @@ SphereAccuracy measure_sphere(const Device& device, const RuntimeVolume& volume,
         const long double middle = -ray.origin.dot(ray.direction);
         const long double r2 = (ray.origin + middle * ray.direction).squaredNorm();
         const bool is_seen = r2 <= 1 && middle + std::sqrt(1 - r2) > 0;
+        const bool is_flagged = (frame.flags[pixel] & pixel_flag::isosurface_undecided) != 0;
+        const bool is_missed = is_seen && r2 < 0.9999L && !is_hit;
+        const bool is_invented = (r2 > 1.0001L || (!is_seen && r2 < 0.9999L)) && is_hit;
         result.n_hits += is_hit;
-        result.n_flagged += (frame.flags[pixel] & pixel_flag::isosurface_undecided) != 0;
-        result.n_missed += is_seen && r2 < 0.9999L && !is_hit;
-        result.n_invented += (r2 > 1.0001L || (!is_seen && r2 < 0.9999L)) && is_hit;
+        result.n_flagged += is_flagged;
+        result.n_missed += is_missed;
+        result.n_invented += is_invented;
+        result.n_wrong_flagged += is_flagged && (is_missed || is_invented);
         if (!is_hit)
             continue;
         const LongVector shown = ray.origin + static_cast<long double>(frame.depth[pixel]) * ray.direction;
@@ -79,9 +83,14 @@ SphereAccuracy measure_sphere(const Device& device, const RuntimeVolume& volume,
         }
         const bool is_inside = ray.origin.squaredNorm() < 1;
         const long double exact = is_inside ? middle + half : middle - half;
+        const auto off = static_cast<double>(std::abs(frame.depth[pixel] - exact));
+        if (is_flagged) {
+            result.n_wrong_flagged += off > 1e-3;
+            continue;
+        }
         const LongVector normal = (is_inside ? -1 : 1) * (ray.origin + exact * ray.direction);
         const LongVector drawn(frame.normal[3 * pixel], frame.normal[3 * pixel + 1], frame.normal[3 * pixel + 2]);
-        result.depth_error = std::max(result.depth_error, static_cast<double>(std::abs(frame.depth[pixel] - exact)));
+        result.depth_error = std::max(result.depth_error, off);
         result.normal_error = std::max(result.normal_error, static_cast<double>((drawn - normal).norm()));
     }
     return result;

@@ -34,7 +34,9 @@ struct SphereAccuracy {
     std::size_t n_hits = 0, n_flagged = 0;
     /** Rays at a distance r from the origin with r^2 < 0.9999 that show nothing, and with r^2 > 1.0001 that show something. */
     std::size_t n_missed = 0, n_invented = 0;
-    /** Where |normal . direction| >= 0.05. */
+    /** Flagged pixels among those, and others that show a point of another sheet. */
+    std::size_t n_wrong_flagged = 0;
+    /** Where |normal . direction| >= 0.05, but for flagged pixels. */
     double depth_error = 0, normal_error = 0;
     /** Elsewhere: | |x| - 1 | over the distance from the eye. */
     double grazing_error = 0;

@@ -35,7 +35,7 @@ TEST_CASE("the isosurface of the sphere field is the sphere") {
                 const bool is_single = precision == Precision::float32;
                 WARN(shape << (is_single ? ", float32: " : ", float64: ") << r.n_hits << " hits, depth error " << r.depth_error
                            << ", normal error " << r.normal_error << ", grazing " << r.grazing_error << ", " << r.n_missed << " missed, "
-                           << r.n_invented << " invented, " << r.n_flagged << " flagged");
+                           << r.n_invented << " invented, " << r.n_flagged << " flagged, " << r.n_wrong_flagged << " of them wrong");
                 CHECK(r.n_hits > 5000);
                 CHECK(r.n_missed == 0);
                 CHECK(r.n_invented == 0);
