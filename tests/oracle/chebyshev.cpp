@@ -6,13 +6,13 @@
 #include <cmath>
 #include <complex>
 #include <map>
+#include <mutex>
 #include <numbers>
 
 namespace elvis::oracle {
 namespace {
 
 struct Table {
-    std::vector<double> points;
     /** From values at the points to coefficients, and from coefficients to values at four times as many. */
     Eigen::MatrixXd to_coefficients, to_dense_values;
 };
@@ -27,8 +27,6 @@ Table make_table(std::size_t n) {
     const auto size = static_cast<Eigen::Index>(n) + 1;
     table.to_coefficients.resize(size, size);
     table.to_dense_values.resize(4 * size - 3, size);
-    for (std::size_t i = 0; i <= n; ++i)
-        table.points.push_back(-cosine(i, n));
     for (Eigen::Index k = 0; k < size; ++k) {
         const auto order = static_cast<std::size_t>(k);
         // T_k(-c) = (-1)^k T_k(c)
@@ -44,10 +42,27 @@ Table make_table(std::size_t n) {
     return table;
 }
 
-const Table& table_of(std::size_t n) {
-    thread_local std::map<std::size_t, Table> tables;
-    const auto known = tables.find(n);
-    return known != tables.end() ? known->second : tables.emplace(n, make_table(n)).first->second;
+std::vector<double> make_points(std::size_t n) {
+    std::vector<double> points;
+    for (std::size_t i = 0; i <= n; ++i)
+        points.push_back(-cosine(i, n));
+    return points;
+}
+
+// What `make` gives for n, made once for all threads.
+template <auto make>
+const auto& made_for(std::size_t n) {
+    using Item = decltype(make(n));
+    static std::mutex mutex;
+    static std::map<std::size_t, Item> items;
+    thread_local std::map<std::size_t, const Item*> known;
+    const Item*& item = known[n];
+    if (item == nullptr) {
+        const std::lock_guard lock(mutex);
+        const auto found = items.find(n);
+        item = found != items.end() ? &found->second : &items.emplace(n, make(n)).first->second;
+    }
+    return *item;
 }
 
 // Scales rows and columns by powers of two until their norms are alike, which leaves the eigenvalues as they are: a small leading
@@ -78,11 +93,11 @@ Eigen::Map<const Eigen::VectorXd> vector_of(std::span<const double> values) {
 
 } // namespace
 
-std::span<const double> lobatto_points(std::size_t n) { return table_of(n).points; }
+std::span<const double> lobatto_points(std::size_t n) { return made_for<make_points>(n); }
 
 ChebyshevSeries::ChebyshevSeries(std::span<const double> values) : m_coefficients(values.size()) {
     Eigen::Map<Eigen::VectorXd>(m_coefficients.data(), static_cast<Eigen::Index>(values.size())).noalias() =
-        table_of(values.size() - 1).to_coefficients * vector_of(values);
+        made_for<make_table>(values.size() - 1).to_coefficients * vector_of(values);
 }
 
 double ChebyshevSeries::operator()(double s) const {
@@ -102,7 +117,7 @@ double ChebyshevSeries::size() const { return vector_of(m_coefficients).cwiseAbs
 std::vector<double> ChebyshevSeries::dense_values() const {
     std::vector<double> values(4 * degree() + 1);
     Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())).noalias() =
-        table_of(degree()).to_dense_values * vector_of(m_coefficients);
+        made_for<make_table>(degree()).to_dense_values * vector_of(m_coefficients);
     return values;
 }
 

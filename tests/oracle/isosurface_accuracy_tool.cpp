@@ -18,6 +18,8 @@ struct Arguments {
     std::string device;
 };
 
+const char* name_of(Precision precision) { return precision == Precision::float64 ? "float64" : "float32"; }
+
 // What must hold in each precision.
 bool holds(const IsosurfaceComparison& comparison, Precision precision) {
     return comparison.n_wrong + comparison.n_wrong_masks + comparison.n_other_element == 0 &&
@@ -28,7 +30,8 @@ int run(const Arguments& arguments) {
     const Device device(arguments.device);
     std::vector<Precision> precisions;
     for (const std::string& name : arguments.precisions)
-        precisions.push_back(name == "float64" ? Precision::float64 : Precision::float32);
+        if (name != "none")
+            precisions.push_back(name == "float64" ? Precision::float64 : Precision::float32);
     std::vector<IsosurfaceComparison> sums(precisions.size());
     std::vector<double> milliseconds(precisions.size());
     FinderComparison finders;
@@ -43,7 +46,7 @@ int run(const Arguments& arguments) {
             const IsosurfaceComparison& comparison = one.comparisons[i];
             if (!holds(comparison, precisions[i]))
                 std::printf("seed %llu, %s: %s: %zu wrong, %zu grazing, %zu other elements; pixel %zu\n", static_cast<unsigned long long>(seed),
-                            arguments.precisions[i].c_str(), random.description.c_str(), comparison.n_wrong, comparison.n_wrong_grazing,
+                            name_of(precisions[i]), random.description.c_str(), comparison.n_wrong, comparison.n_wrong_grazing,
                             comparison.n_other_element, comparison.worst_pixel);
             sums[i] += comparison;
             milliseconds[i] += one.render_milliseconds[i];
@@ -63,7 +66,7 @@ int run(const Arguments& arguments) {
     for (std::size_t i = 0; i < precisions.size(); ++i) {
         const bool is_held = holds(sums[i], precisions[i]);
         is_good = is_good && is_held;
-        std::printf("%s, %llu fields, %.3g ms a picture: %s\n%s\n", arguments.precisions[i].c_str(),
+        std::printf("%s, %llu fields, %.3g ms a picture: %s\n%s\n", name_of(precisions[i]),
                     static_cast<unsigned long long>(arguments.count), milliseconds[i] / static_cast<double>(arguments.count),
                     is_held ? "good" : "WRONG", to_text(sums[i]).c_str());
     }
@@ -88,7 +91,8 @@ int main(int argc, char** argv) {
     app.add_option("--count", arguments.count, "Number of fields");
     app.add_option("--seed", arguments.seed, "Of the first field; the others follow");
     app.add_option("--size", arguments.size, "Side of the pictures in pixels")->check(CLI::PositiveNumber);
-    app.add_option("--precision", arguments.precisions, "float32, float64 or both")->check(CLI::IsMember({"float32", "float64"}));
+    app.add_option("--precision", arguments.precisions, "float32, float64 or both; none: the oracle alone")
+        ->check(CLI::IsMember({"float32", "float64", "none"}));
     app.add_option("--finder-stride", arguments.finder_stride, "The oracle's ways are compared on every so many rays; 0: not at all");
     app.add_option("--device", arguments.device, "Device by name or index");
     CLI11_PARSE(app, argc, argv);

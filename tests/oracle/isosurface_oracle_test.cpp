@@ -41,41 +41,50 @@ Camera test_camera(const Vector3& eye, double field_of_view = 40) {
 } // namespace
 
 TEST_CASE("the oracle finds spheres where they are") {
-    for (const Shape shape : {Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::tetrahedron}) {
-        const Model model(bent_cube(shape, 2, 2, [](const Vector& x) { return x; }, [](const Vector& x) { return x.squaredNorm(); }));
-        // From outside, and from within the inner sphere.
-        for (const Vector3& eye : {Vector3{2, 1.5, 1.2}, Vector3{0.1, -0.2, 0.15}}) {
-            const Camera camera = test_camera(eye, 70);
-            const IsosurfacePicture picture = draw_isosurface(model, {scalar_of_field(model.volume, 0), {0.25, 0.81}}, camera, 40, 40);
-            std::size_t n_wrong = 0, n_hits = 0;
-            double depth_error = 0, normal_error = 0;
-            for (std::uint32_t pixel = 0; pixel < 1600; ++pixel) {
-                const Line line = line_of(pixel_ray(camera, 40, 40, pixel % 40, pixel / 40));
-                double t = sphere_entry(line, 0.9);
-                const double inner = sphere_entry(line, 0.5);
-                const bool is_inner = std::isnan(t) || inner < t;
-                if (is_inner)
-                    t = inner;
-                const std::optional<Crossing>& crossing = picture.answers[pixel].crossing;
-                n_wrong += crossing.has_value() == std::isnan(t);
-                if (!crossing || std::isnan(t))
-                    continue;
-                ++n_hits;
-                n_wrong += crossing->value != (is_inner ? 0 : 1);
-                const Vector x = line.at(t);
-                depth_error = std::max(depth_error, std::abs(crossing->t - t) * crossing->facing);
-                // From outside normals point outwards.
-                const Vector normal = x.dot(line.direction) < 0 ? x.normalized() : Vector(-x.normalized());
-                normal_error = std::max(normal_error, (crossing->normal - normal).norm() * crossing->facing);
+    // As a field on straight elements; as a number derived from the place on strongly curved ones.
+    const Function square = [](const Vector& x) { return x.squaredNorm(); };
+    const auto bend = [](const Vector& x) { return quadratic_bend(0.8 * x); };
+    for (const Shape shape : {Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::tetrahedron})
+        for (const bool is_curved : {false, true}) {
+            const Model model(is_curved ? bent_cube(shape, 2, 1, bend, square)
+                                        : bent_cube(shape, 2, 2, [](const Vector& x) { return x; }, square));
+            const Scalar scalar = is_curved ? with_differences([](const Volume& volume, std::size_t element, const Vector& xi) {
+                return volume.position(element, xi).squaredNorm();
+            })
+                                            : scalar_of_field(model.volume, 0);
+            // From outside, and from within the inner sphere.
+            for (const Vector3& eye : {Vector3{2, 1.5, 1.2}, Vector3{0.1, -0.2, 0.15}}) {
+                const Camera camera = test_camera(eye, 40);
+                const IsosurfacePicture picture = draw_isosurface(model, {scalar, {0.16, 0.3}}, camera, 40, 40);
+                std::size_t n_wrong = 0, n_hits = 0;
+                double depth_error = 0, normal_error = 0;
+                for (std::uint32_t pixel = 0; pixel < 1600; ++pixel) {
+                    const Line line = line_of(pixel_ray(camera, 40, 40, pixel % 40, pixel / 40));
+                    double t = sphere_entry(line, std::sqrt(0.3));
+                    const double inner = sphere_entry(line, 0.4);
+                    const bool is_inner = std::isnan(t) || inner < t;
+                    if (is_inner)
+                        t = inner;
+                    const std::optional<Crossing>& crossing = picture.answers[pixel].crossing;
+                    n_wrong += crossing.has_value() == std::isnan(t);
+                    if (!crossing || std::isnan(t))
+                        continue;
+                    ++n_hits;
+                    n_wrong += crossing->value != (is_inner ? 0 : 1);
+                    const Vector x = line.at(t);
+                    depth_error = std::max(depth_error, std::abs(crossing->t - t) * crossing->facing);
+                    // From outside normals point outwards.
+                    const Vector normal = x.dot(line.direction) < 0 ? x.normalized() : Vector(-x.normalized());
+                    normal_error = std::max(normal_error, (crossing->normal - normal).norm() * crossing->facing);
+                }
+                CAPTURE(native::name(shape), is_curved, eye[0], n_hits);
+                CHECK(n_hits > 100);
+                CHECK(n_wrong == 0);
+                CHECK(depth_error < 1e-14);
+                CHECK(normal_error < (is_curved ? 1e-12 : 1e-13));
+                CHECK(picture.n_failures == 0);
             }
-            CAPTURE(native::name(shape), eye[0], n_hits);
-            CHECK(n_hits > 100);
-            CHECK(n_wrong == 0);
-            CHECK(depth_error < 1e-14);
-            CHECK(normal_error < 1e-13);
-            CHECK(picture.n_failures == 0);
         }
-    }
 }
 
 TEST_CASE("the oracle's ways to find roots agree") {
