@@ -42,14 +42,24 @@ Vector Volume::position(std::size_t element, const Vector& xi, Matrix* jacobian)
     return x;
 }
 
-std::vector<double> Volume::field(std::size_t element, const Vector& xi) const {
+double Volume::component(std::size_t element, const Vector& xi, std::size_t component, Vector* gradient) const {
     const ClassData& c = class_of(element);
     const std::size_t n = native::n_modes(c.field);
+    const std::size_t first = (m_elements[element].index * m_data.n_components + component) * n;
+    const auto coefficients = std::span(c.field_coefficients).subspan(first, n);
+    const native::Point point{xi.x(), xi.y(), xi.z()};
+    if (gradient == nullptr)
+        return native::evaluate(c.field, coefficients, point);
+    native::Point slope{};
+    const double value = native::evaluate(c.field, coefficients, point, slope);
+    *gradient = {slope[0], slope[1], slope[2]};
+    return value;
+}
+
+std::vector<double> Volume::field(std::size_t element, const Vector& xi) const {
     std::vector<double> components(m_data.n_components);
-    for (std::size_t i = 0; i < components.size(); ++i) {
-        const std::size_t first = (m_elements[element].index * components.size() + i) * n;
-        components[i] = native::evaluate(c.field, std::span(c.field_coefficients).subspan(first, n), {xi.x(), xi.y(), xi.z()});
-    }
+    for (std::size_t i = 0; i < components.size(); ++i)
+        components[i] = component(element, xi, i);
     if (m_data.transform != native::Transform::none) {
         Matrix jacobian;
         position(element, xi, &jacobian);

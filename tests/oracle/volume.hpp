@@ -52,6 +52,10 @@ public:
     /** All components of the field, in world directions. */
     std::vector<double> field(std::size_t element, const Vector& xi) const;
 
+    /** One component as it is stored, before any transform, and its gradient with respect to xi if wanted. */
+    double component(std::size_t element, const Vector& xi, std::size_t component, Vector* gradient = nullptr) const;
+    native::Transform transform() const { return m_data.transform; }
+
 private:
     struct Place {
         std::uint32_t element_class;

@@ -1,0 +1,75 @@
+// Isosurfaces drawn by the program: a sphere in closed form, random fields against the oracle.
+#include "isosurface_accuracy.hpp"
+#include "test_files.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace elvis::oracle {
+namespace {
+
+const Device& device() {
+    static const Device the_device;
+    return the_device;
+}
+
+Camera camera_at(const Vector3& eye, double field_of_view) {
+    Camera camera;
+    camera.eye = eye;
+    camera.up = {0.1, 0.2, 1};
+    camera.field_of_view = field_of_view;
+    return camera;
+}
+
+} // namespace
+
+TEST_CASE("the isosurface of the sphere field is the sphere") {
+    const TemporaryFile file("sphere.h5");
+    for (const std::string shape : {"hexahedron", "prism", "pyramid", "tetrahedron"}) {
+        generate(R"({"generator": 1, "mesh": "box", "shape": ")" + shape +
+                     R"(", "box": [[-1, -1, -2], [1, 1, 4]], "elements": [4, 4, 6], "order": 2, "geometry_order": 1, "field": "sphere"})",
+                 file.path());
+        const RuntimeVolume volume = open_volume(file.path());
+        for (const auto& [eye, field_of_view] : {std::pair(Vector3{3, 2, 2.5}, 35.0), std::pair(Vector3{0.1, -0.2, 0.15}, 80.0)})
+            for (const Precision precision : {Precision::float32, Precision::float64}) {
+                const SphereAccuracy r = measure_sphere(device(), volume, precision, camera_at(eye, field_of_view), 150);
+                const bool is_single = precision == Precision::float32;
+                WARN(shape << (is_single ? ", float32: " : ", float64: ") << r.n_hits << " hits, depth error " << r.depth_error
+                           << ", normal error " << r.normal_error << ", grazing " << r.grazing_error << ", " << r.n_missed << " missed, "
+                           << r.n_invented << " invented, " << r.n_flagged << " flagged, " << r.n_wrong_flagged << " of them wrong");
+                CHECK(r.n_hits > 5000);
+                CHECK(r.n_missed == 0);
+                CHECK(r.n_invented == 0);
+                CHECK(r.depth_error <= (is_single ? 1e-5 : 1e-12));
+                CHECK(r.normal_error <= (is_single ? 1e-5 : 1e-12));
+                CHECK(r.grazing_error <= (is_single ? 1e-6 : 1e-13));
+            }
+    }
+}
+
+TEST_CASE("isosurfaces of random fields are where the oracle finds them") {
+    const std::vector<Precision> precisions{Precision::float32, Precision::float64};
+    std::vector<IsosurfaceComparison> sums(precisions.size());
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const RandomVolume random = random_volume(seed);
+        const RandomAccuracy one = measure_random(device(), random, 40, precisions);
+        CAPTURE(seed, random.description);
+        CHECK(one.oracle_failures == 0);
+        for (std::size_t i = 0; i < precisions.size(); ++i) {
+            CAPTURE(i, to_text(one.comparisons[i]), one.comparisons[i].worst_pixel);
+            CHECK(one.comparisons[i].n_wrong == 0);
+            CHECK(one.comparisons[i].n_wrong_masks == 0);
+            CHECK(one.comparisons[i].n_other_element == 0);
+            sums[i] += one.comparisons[i];
+        }
+    }
+    for (std::size_t i = 0; i < precisions.size(); ++i) {
+        WARN((i == 0 ? "float32\n" : "float64\n") << to_text(sums[i]));
+        CHECK(sums[i].n_hits > 5000);
+    }
+    CHECK(sums[1].n_wrong_grazing == 0);
+    // Undecided pixels are honest, but few.
+    CHECK(sums[0].n_flagged < sums[0].n_pixels / 100);
+    CHECK(sums[1].n_flagged < sums[1].n_pixels / 1000);
+}
+
+} // namespace elvis::oracle
