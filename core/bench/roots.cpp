@@ -195,9 +195,9 @@ void bench_roots(const Device* device, std::uint64_t n_polynomials, const std::f
         report_as(false, bernstein_on_cpu<double>(polynomials), reference, Precision::float64);
         report_as(false, bernstein_on_cpu<float>(polynomials), reference, Precision::float32);
         if (device != nullptr) {
-            report_as(true, on_device<double>(*device, polynomials, false), on_device<double>(*device, polynomials, true),
+            report_as(true, on_device<double>(*device, polynomials, false), on_device<double>(*device, polynomials, false),
                       Precision::float64);
-            report_as(true, on_device<float>(*device, polynomials, false), on_device<float>(*device, polynomials, true),
+            report_as(true, on_device<float>(*device, polynomials, false), on_device<float>(*device, polynomials, false),
                       Precision::float32);
         }
     }

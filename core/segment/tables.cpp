@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <numbers>
 
 namespace elvis::segment {
@@ -115,15 +116,28 @@ SamplePlan make_plan(const std::vector<int>& degrees) {
     return plan;
 }
 
-std::string array(const std::string& name, const std::vector<double>& numbers) {
-    const std::string size = std::to_string(numbers.size());
-    std::string text = "const elvis_real " + name + "[" + size + "] = elvis_real[" + size + "](";
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        char number[48];
-        std::snprintf(number, sizeof(number), "%selvis_real(%.17eLF)", i == 0 ? "" : ", ", numbers[i]);
-        text += number;
+/** An array of arrays, whose sizes are given from the outermost to the innermost; the numbers of the innermost stand together. */
+std::string array(const std::string& name, const std::vector<int>& sizes, const std::vector<double>& numbers) {
+    std::string type = "elvis_real";
+    for (const int size : sizes) {
+        type.append("[").append(std::to_string(size)).append("]");
     }
-    return text + ");\n";
+    const std::function<std::string(std::size_t, std::size_t, std::size_t)> list = [&](std::size_t dimension, std::size_t first,
+                                                                                       std::size_t count) {
+        if (dimension == sizes.size()) {
+            char number[48];
+            std::snprintf(number, sizeof(number), "elvis_real(%.17eLF)", numbers[first]);
+            return std::string(number);
+        }
+        const auto size = static_cast<std::size_t>(sizes[dimension]);
+        std::string text = "{";
+        for (std::size_t i = 0; i < size; ++i) {
+            text.append(i == 0 ? "" : ", ").append(list(dimension + 1, first + i * (count / size), count / size));
+        }
+        return text.append("}");
+    };
+    std::string text = "const ";
+    return text.append(type).append(" ").append(name).append(" = ").append(list(0, 0, numbers.size())).append(";\n");
 }
 
 } // namespace
@@ -200,11 +214,13 @@ std::string segment_glsl(const SamplePlan& plan) {
     const std::string levels = std::to_string(n_levels);
     return "#define CORE_SEGMENT_DEGREE " + std::to_string(plan.degree) + "\n#define CORE_SEGMENT_LEVELS " + levels +
            "\nconst uint core_segment_degrees[" + levels + "] = uint[" + levels + "](" + degrees + ");\n" +
-           array("core_segment_parameters", plan.parameters) + array("core_segment_fits", fit) +
-           array("core_segment_checks", check) + array("core_segment_gains", gain) +
-           array("core_segment_bernstein", bernstein_of_chebyshev(plan.degree)) +
-           array("core_segment_growth", bernstein_growth(plan.degree)) +
-           array("core_segment_binomials", binomials(plan.degree));
+           array("core_segment_parameters", {size + n_checks}, plan.parameters) +
+           array("core_segment_fits", {n_levels, size, size}, fit) +
+           array("core_segment_checks", {n_levels, n_checks, size}, check) +
+           array("core_segment_gains", {n_levels, n_checks}, gain) +
+           array("core_segment_bernstein", {size, size}, bernstein_of_chebyshev(plan.degree)) +
+           array("core_segment_growth", {size}, bernstein_growth(plan.degree)) +
+           array("core_segment_binomials", {size}, binomials(plan.degree));
 }
 
 } // namespace elvis::segment

@@ -18,7 +18,7 @@ void main() {
         return;
     }
     core_polynomial chebyshev;
-    [[unroll]] for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
         chebyshev.c[k] = core_input[at * CORE_SEGMENT_SIZE + k];
     }
     elvis_real root_t = elvis_real(2), touch = elvis_real(2);

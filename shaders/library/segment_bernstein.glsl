@@ -16,11 +16,10 @@ struct core_polynomial {
 
 core_polynomial core_to_bernstein(core_polynomial chebyshev) {
     core_polynomial p;
-    [[unroll]] for (int j = 0; j < CORE_SEGMENT_SIZE; ++j) {
-        // Smallest first: coefficients of smooth functions decay.
+    for (int j = 0; j < CORE_SEGMENT_SIZE; ++j) {
         elvis_real sum = elvis_real(0);
-        [[unroll]] for (int k = CORE_SEGMENT_DEGREE; k >= 0; --k) {
-            sum += core_segment_bernstein[j * CORE_SEGMENT_SIZE + k] * chebyshev.c[k];
+        for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+            sum += core_segment_bernstein[j][k] * chebyshev.c[k];
         }
         p.c[j] = sum;
     }
@@ -32,7 +31,7 @@ core_polynomial core_to_bernstein(core_polynomial chebyshev) {
 // Casteljau, done twice, lose 3 of the largest coefficient each: they are convex combinations.
 elvis_real core_bernstein_rounding(core_polynomial chebyshev) {
     elvis_real sum = elvis_real(0);
-    [[unroll]] for (int k = CORE_SEGMENT_DEGREE; k >= 0; --k) {
+    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
         sum += core_segment_growth[k] * abs(chebyshev.c[k]);
     }
     return elvis_real(7 * CORE_SEGMENT_DEGREE + 2) * CORE_ROUNDOFF * sum;
@@ -40,7 +39,7 @@ elvis_real core_bernstein_rounding(core_polynomial chebyshev) {
 
 elvis_real core_least(core_polynomial p) {
     elvis_real least = p.c[0];
-    [[unroll]] for (int i = 1; i < CORE_SEGMENT_SIZE; ++i) {
+    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
         least = min(least, p.c[i]);
     }
     return least;
@@ -48,7 +47,7 @@ elvis_real core_least(core_polynomial p) {
 
 elvis_real core_most(core_polynomial p) {
     elvis_real most = p.c[0];
-    [[unroll]] for (int i = 1; i < CORE_SEGMENT_SIZE; ++i) {
+    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
         most = max(most, p.c[i]);
     }
     return most;
@@ -57,9 +56,10 @@ elvis_real core_most(core_polynomial p) {
 // Certain where coefficients do not turn round: those of the derivative are n times their differences.
 bool core_is_monotone(core_polynomial p) {
     bool falls = false, rises = false;
-    [[unroll]] for (int i = 0; i < CORE_SEGMENT_DEGREE; ++i) {
-        falls = falls || p.c[i + 1] < p.c[i];
-        rises = rises || p.c[i + 1] > p.c[i];
+    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+        const elvis_real left = p.c[max(i - 1, 0)];
+        falls = falls || p.c[i] < left;
+        rises = rises || p.c[i] > left;
     }
     return !(falls && rises);
 }
@@ -67,8 +67,8 @@ bool core_is_monotone(core_polynomial p) {
 // How often the coefficients of p - value change sign, zeros left out.
 uint core_variations(core_polynomial p, elvis_real value) {
     uint n = 0u;
-    bool was_below = p.c[0] < value, was_above = p.c[0] > value;
-    [[unroll]] for (int i = 1; i < CORE_SEGMENT_SIZE; ++i) {
+    bool was_below = false, was_above = false;
+    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
         const bool is_below = p.c[i] < value, is_above = p.c[i] > value;
         n += (was_below && is_above) || (was_above && is_below) ? 1u : 0u;
         was_below = is_below || (was_below && !is_above);
@@ -79,19 +79,25 @@ uint core_variations(core_polynomial p, elvis_real value) {
 
 // De Casteljau's triangle has the coefficients on [0, t] along one side and those on [t, 1] along the other.
 core_polynomial core_before(core_polynomial p, elvis_real t) {
-    [[unroll]] for (int stage = 1; stage < CORE_SEGMENT_SIZE; ++stage) {
-        [[unroll]] for (int i = CORE_SEGMENT_DEGREE; i >= 1; --i) {
-            p.c[i] = i >= stage ? p.c[i - 1] + t * (p.c[i] - p.c[i - 1]) : p.c[i];
+    for (int stage = 1; stage < CORE_SEGMENT_SIZE; ++stage) {
+        core_polynomial next;
+        for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+            const elvis_real left = p.c[max(i - 1, 0)];
+            next.c[i] = i >= stage ? left + t * (p.c[i] - left) : p.c[i];
         }
+        p = next;
     }
     return p;
 }
 
 core_polynomial core_after(core_polynomial p, elvis_real t) {
-    [[unroll]] for (int stage = 1; stage < CORE_SEGMENT_SIZE; ++stage) {
-        [[unroll]] for (int i = 0; i < CORE_SEGMENT_DEGREE; ++i) {
-            p.c[i] = i + stage < CORE_SEGMENT_SIZE ? p.c[i] + t * (p.c[i + 1] - p.c[i]) : p.c[i];
+    for (int stage = 1; stage < CORE_SEGMENT_SIZE; ++stage) {
+        core_polynomial next;
+        for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+            const elvis_real right = p.c[min(i + 1, CORE_SEGMENT_DEGREE)];
+            next.c[i] = i + stage < CORE_SEGMENT_SIZE ? p.c[i] + t * (right - p.c[i]) : p.c[i];
         }
+        p = next;
     }
     return p;
 }
@@ -105,10 +111,10 @@ core_polynomial core_cell_of(core_polynomial p, uint level, uint part) {
 // Horner's rule in t with (1 - t) carried along: no cancellation that the coefficients do not have.
 elvis_real core_bernstein_value(core_polynomial p, elvis_real t) {
     const elvis_real s = elvis_real(1) - t;
-    elvis_real power = elvis_real(1), sum = p.c[0];
-    [[unroll]] for (int i = 1; i < CORE_SEGMENT_SIZE; ++i) {
-        power *= t;
+    elvis_real power = elvis_real(1), sum = elvis_real(0);
+    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
         sum = sum * s + core_segment_binomials[i] * power * p.c[i];
+        power *= t;
     }
     return sum;
 }

@@ -58,7 +58,7 @@ struct core_fit {
 
 core_segment core_segment_begin() {
     core_segment segment;
-    [[unroll]] for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
+    for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
         segment.samples[i] = elvis_real(0);
     }
     segment.n_samples = 0u;
@@ -80,7 +80,7 @@ core_segment core_segment_half(core_segment whole, uint half_) {
 // Where the next sample is wanted.
 elvis_real core_segment_parameter(core_segment segment) {
     elvis_real t = elvis_real(0);
-    [[unroll]] for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
+    for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
         t = uint(i) == segment.n_samples ? core_segment_parameters[i] : t;
     }
     return t;
@@ -91,31 +91,31 @@ core_fit core_segment_fit(core_segment segment) {
     core_fit fit;
     elvis_real misfit = elvis_real(0);
     fit.degree = 0u;
-    [[unroll]] for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
         fit.chebyshev.c[k] = elvis_real(0);
     }
-    [[unroll]] for (int level = 0; level < CORE_SEGMENT_LEVELS; ++level) {
+    for (int level = 0; level < CORE_SEGMENT_LEVELS; ++level) {
         const uint degree = core_segment_degrees[level];
         const bool is_judged = segment.n_samples >= degree + 1u + uint(CORE_SEGMENT_CHECKS);
         core_polynomial candidate;
-        [[unroll]] for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+        for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
             elvis_real sum = elvis_real(0);
-            [[unroll]] for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
-                sum += core_segment_fits[(level * CORE_SEGMENT_SIZE + k) * CORE_SEGMENT_SIZE + i] * segment.samples[i];
+            for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+                sum += core_segment_fits[level][k][i] * segment.samples[i];
             }
             candidate.c[k] = sum;
         }
         elvis_real difference = elvis_real(0);
-        [[unroll]] for (int i = 0; i < CORE_SEGMENT_CHECKS; ++i) {
+        for (int i = 0; i < CORE_SEGMENT_CHECKS; ++i) {
             elvis_real value = elvis_real(0);
-            [[unroll]] for (int k = CORE_SEGMENT_DEGREE; k >= 0; --k) {
-                value += core_segment_checks[(level * CORE_SEGMENT_CHECKS + i) * CORE_SEGMENT_SIZE + k] * candidate.c[k];
+            for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+                value += core_segment_checks[level][i][k] * candidate.c[k];
             }
-            difference += core_segment_gains[level * CORE_SEGMENT_CHECKS + i] * abs(segment.samples[degree + 1u + uint(i)] - value);
+            difference += core_segment_gains[level][i] * abs(segment.samples[degree + 1u + uint(i)] - value);
         }
         const elvis_real last = abs(candidate.c[degree]) + abs(candidate.c[degree - 1u]);
         const elvis_real ratio = elvis_real(2) * difference < last ? difference / last : elvis_real(0.5LF);
-        [[unroll]] for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+        for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
             fit.chebyshev.c[k] = is_judged ? candidate.c[k] : fit.chebyshev.c[k];
         }
         misfit = is_judged ? difference / (elvis_real(1) - ratio) : misfit;
@@ -127,13 +127,13 @@ core_fit core_segment_fit(core_segment segment) {
 
 // `value` at core_segment_parameter(segment), with an absolute error of `sample_error` at most.
 void core_segment_add(inout core_segment segment, elvis_real value, elvis_real sample_error, elvis_real tolerance) {
-    [[unroll]] for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
+    for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
         segment.samples[i] = uint(i) == segment.n_samples ? value : segment.samples[i];
     }
     segment.n_samples += 1u;
     segment.sample_error = max(segment.sample_error, sample_error);
     bool is_decision = false;
-    [[unroll]] for (int level = 0; level < CORE_SEGMENT_LEVELS; ++level) {
+    for (int level = 0; level < CORE_SEGMENT_LEVELS; ++level) {
         is_decision = is_decision || segment.n_samples == core_segment_degrees[level] + 1u + uint(CORE_SEGMENT_CHECKS);
     }
     bool is_good = false;
