@@ -109,7 +109,7 @@ Crossing<Real> next_crossing(const Polynomial<Real>& bernstein, Real error, std:
             walk.go_on();
         }
         // A value met at the beginning of a cell belongs to the cell before.
-        const bool crosses = (from < 0 && to >= 0) || (from > 0 && to <= 0) || (from == 0 && here.part == 0);
+        const bool crosses = (from < 0 && to >= 0) || (from > 0 && to <= 0) || (from == 0 && to != 0 && here.part == 0);
         // Monotone, and stops within the error of the value, or starts there: the end of the segment, or where it may turn round.
         const bool stops = rises ? to < 0 : to > 0;
         if (!crosses && !is_small && !stops && here.part != 0) {

@@ -18,6 +18,9 @@ enum class FitStatus : std::uint32_t {
     not_finite = 3
 };
 
+/** From the last two coefficients to the two behind them; slower decay is none that one could count on. */
+template <class Real> constexpr Real slowest_decay = Real(0.75);
+
 template <class Real> struct Fit {
     /** In the basis T_k(2 t - 1), filled with zeros to the plan's degree. */
     Polynomial<Real> chebyshev;
@@ -29,6 +32,7 @@ template <class Real> struct Fit {
 template <class Real> class Segment {
 public:
     /** The plan must outlive it. */
+    explicit Segment(SamplePlan&&) = delete;
     explicit Segment(const SamplePlan& plan) : m_plan(&plan) { m_samples.resize(plan.parameters.size()); }
 
     FitStatus status() const { return m_status; }
@@ -43,7 +47,7 @@ public:
         m_sample_error = std::max(m_sample_error, sample_error);
         m_status = m_n_samples == m_samples.size() ? FitStatus::split : FitStatus::wants;
         for (const Level& level : m_plan->levels) {
-            if (m_n_samples == static_cast<std::size_t>(level.degree + 1 + n_checks) && fit(level).error <= tolerance) {
+            if (m_n_samples == static_cast<std::size_t>(level.n_samples) && fit(level).error <= tolerance) {
                 m_status = FitStatus::done;
             }
         }
@@ -57,7 +61,7 @@ public:
         Fit<Real> best;
         best.chebyshev.degree = m_plan->degree;
         for (const Level& level : m_plan->levels) {
-            if (m_n_samples >= static_cast<std::size_t>(level.degree + 1 + n_checks)) {
+            if (m_n_samples >= static_cast<std::size_t>(level.n_samples)) {
                 best = fit(level);
             }
         }
@@ -75,28 +79,32 @@ public:
     }
 
 private:
+    Real product(const std::vector<double>& row) const {
+        Real sum = 0;
+        for (std::size_t i = 0; i < m_samples.size(); ++i) {
+            sum += static_cast<Real>(row[i]) * m_samples[i];
+        }
+        return sum;
+    }
+
     Fit<Real> fit(const Level& level) const {
-        const auto own = static_cast<std::size_t>(level.degree + 1);
         Fit<Real> fit;
         fit.degree = level.degree;
         fit.chebyshev.degree = m_plan->degree;
-        for (std::size_t k = 0; k < own; ++k) {
-            for (std::size_t i = 0; i < own; ++i) {
-                fit.chebyshev.c[k] += static_cast<Real>(level.fit[k * own + i]) * m_samples[i];
-            }
+        // Of the coefficient at hand, and together with the one before.
+        Real size = 0, last = 0;
+        for (int k = 0; k <= level.degree; ++k) {
+            fit.chebyshev[k] = product(level.fit[static_cast<std::size_t>(k)]);
+            last = size + std::abs(fit.chebyshev[k]);
+            size = std::abs(fit.chebyshev[k]);
         }
-        Real difference = 0;
-        for (std::size_t i = 0; i < n_checks; ++i) {
-            Real value = 0;
-            for (std::size_t k = own; k-- > 0;) {
-                value += static_cast<Real>(level.check[i * own + k]) * fit.chebyshev.c[k];
-            }
-            difference += static_cast<Real>(level.gain[i]) * std::abs(m_samples[own + i] - value);
+        Real misfit = 0;
+        for (const std::vector<double>& row : level.misfit) {
+            misfit += std::abs(product(row));
         }
-        const Real last = std::abs(fit.chebyshev.c[own - 1]) + std::abs(fit.chebyshev.c[own - 2]);
-        const Real ratio = 2 * difference < last ? difference / last : Real(0.5);
+        const Real ratio = std::min(misfit < last ? misfit / last : Real(1), slowest_decay<Real>);
         // Lebesgue constant: at most 1 + 2 / pi log(n + 1) (Trefethen, theorem 15.2).
-        fit.error = difference / (1 - ratio) + Real(2.75) * m_sample_error + bernstein_rounding(fit.chebyshev);
+        fit.error = misfit / (1 - ratio) + Real(2.75) * m_sample_error + bernstein_rounding(fit.chebyshev);
         return fit;
     }
 

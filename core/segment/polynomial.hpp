@@ -59,7 +59,7 @@ template <class Real> Polynomial<Real> to_bernstein(const Polynomial<Real>& cheb
     const std::vector<Real>& matrix = BernsteinTables<Real>::of(n).matrix;
     Polynomial<Real> p{n, {}};
     for (int j = 0; j <= n; ++j) {
-        for (int k = n; k >= 0; --k) {
+        for (int k = 0; k <= n; ++k) {
             p[j] += matrix[static_cast<std::size_t>(j * (n + 1) + k)] * chebyshev[k];
         }
     }
@@ -70,7 +70,7 @@ template <class Real> Polynomial<Real> to_bernstein(const Polynomial<Real>& cheb
 template <class Real> Real bernstein_rounding(const Polynomial<Real>& chebyshev) {
     const std::vector<Real>& growth = BernsteinTables<Real>::of(chebyshev.degree).growth;
     Real sum = 0;
-    for (int k = chebyshev.degree; k >= 0; --k) {
+    for (int k = 0; k <= chebyshev.degree; ++k) {
         sum += growth[static_cast<std::size_t>(k)] * std::abs(chebyshev[k]);
     }
     return static_cast<Real>(7 * chebyshev.degree + 2) * roundoff<Real> * sum;

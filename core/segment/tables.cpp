@@ -49,13 +49,13 @@ std::vector<Angle> nodes(int degree) {
     return result;
 }
 
-/** One near the middle, where the first neglected term is largest, and one towards the other end, where others may be. */
+/** Halfway between nodes: one near the middle, where the first neglected term is largest, and one towards the other end. */
 std::array<Angle, n_checks> checks(int degree) {
     return {Angle{2 * ((degree - 1) / 2) + 1, 2 * degree}, Angle{2 * (3 * degree / 4) + 1, 2 * degree}};
 }
 
 /** Largest value on the segment of the polynomial that is 1 at one check point and 0 at the other and at all nodes. */
-double largest_correction(const std::vector<Angle>& nodes, const Angle& one, const Angle& other) {
+Number largest_correction(const std::vector<Angle>& nodes, const Angle& one, const Angle& other) {
     const auto zeros = [&](Number t) {
         Number product = t - other.parameter();
         for (const Angle& node : nodes) {
@@ -69,33 +69,45 @@ double largest_correction(const std::vector<Angle>& nodes, const Angle& one, con
     for (int i = 0; i <= n_points; ++i) {
         largest = std::max(largest, std::abs(zeros(static_cast<Number>(i) / n_points)));
     }
-    return static_cast<double>(largest / std::abs(zeros(one.parameter())));
+    return largest / std::abs(zeros(one.parameter()));
 }
 
-Level make_level(int degree, const std::vector<Angle>& samples) {
+Level make_level(int degree, const std::vector<Angle>& samples, const std::array<Angle, n_checks>& points) {
+    const std::vector<Angle> own = nodes(degree);
+    const auto column = [&](const Angle& angle) {
+        return static_cast<std::size_t>(std::find(samples.begin(), samples.end(), angle) - samples.begin());
+    };
     Level level;
     level.degree = degree;
-    const std::vector<Angle> own(samples.begin(), samples.begin() + degree + 1);
     for (int k = 0; k <= degree; ++k) {
         const Number scale = static_cast<Number>(2 - (k == 0 ? 1 : 0) - (k == degree ? 1 : 0)) / static_cast<Number>(degree);
+        level.fit.emplace_back(samples.size(), 0.0);
         for (std::size_t i = 0; i < own.size(); ++i) {
             const bool is_end = i < 2;
-            level.fit.push_back(static_cast<double>((is_end ? scale / 2 : scale) * own[i].chebyshev(k)));
+            level.fit.back()[column(own[i])] = static_cast<double>((is_end ? scale / 2 : scale) * own[i].chebyshev(k));
+            level.n_samples = std::max(level.n_samples, static_cast<int>(column(own[i])) + 1);
         }
     }
-    const std::array<Angle, n_checks> points = checks(degree);
-    for (const Angle& point : points) {
-        for (int k = 0; k <= degree; ++k) {
-            level.check.push_back(static_cast<double>(point.chebyshev(k)));
+    for (std::size_t i = 0; i < n_checks; ++i) {
+        const Number gain = largest_correction(own, points[i], points[n_checks - 1 - i]);
+        std::vector<double>& row = level.misfit[i];
+        row.resize(samples.size());
+        for (std::size_t sample = 0; sample < samples.size(); ++sample) {
+            Number value = 0;
+            for (int k = 0; k <= degree; ++k) {
+                value += level.fit[static_cast<std::size_t>(k)][sample] * points[i].chebyshev(k);
+            }
+            row[sample] = static_cast<double>(-gain * value);
         }
+        row[column(points[i])] = static_cast<double>(gain);
+        level.n_samples = std::max(level.n_samples, static_cast<int>(column(points[i])) + 1);
     }
-    level.gain = {largest_correction(own, points[0], points[1]), largest_correction(own, points[1], points[0])};
     return level;
 }
 
-SamplePlan make_plan(const std::vector<int>& degrees) {
+SamplePlan make_plan(const std::vector<std::pair<int, std::array<Angle, n_checks>>>& degrees) {
     SamplePlan plan;
-    plan.degree = degrees.back();
+    plan.degree = degrees.back().first;
     std::vector<Angle> samples;
     const auto add = [&](const auto& angles) {
         for (const Angle& angle : angles) {
@@ -104,11 +116,12 @@ SamplePlan make_plan(const std::vector<int>& degrees) {
             }
         }
     };
-    for (const int degree : degrees) {
+    for (const auto& [degree, points] : degrees) {
         add(nodes(degree));
-        assert(samples.size() == static_cast<std::size_t>(degree + 1));
-        plan.levels.push_back(make_level(degree, samples));
-        add(checks(degree));
+        add(points);
+    }
+    for (const auto& [degree, points] : degrees) {
+        plan.levels.push_back(make_level(degree, samples, points));
     }
     for (const Angle& angle : samples) {
         plan.parameters.push_back(static_cast<double>(angle.parameter()));
@@ -142,18 +155,11 @@ std::string array(const std::string& name, const std::vector<int>& sizes, const 
 
 } // namespace
 
-SamplePlan nested_plan(int degree) {
-    assert(degree == 2 || degree == 4 || degree == 8);
-    std::vector<int> degrees;
-    for (int n = 2; n <= degree; n *= 2) {
-        degrees.push_back(n);
-    }
-    return make_plan(degrees);
-}
+SamplePlan nested_plan() { return make_plan({{8, checks(8)}}); }
 
 SamplePlan fixed_plan(int degree) {
     assert(degree >= 2 && degree <= max_degree);
-    return make_plan({degree});
+    return make_plan({{degree, checks(degree)}});
 }
 
 std::vector<double> binomials(int n) {
@@ -194,30 +200,31 @@ std::vector<double> bernstein_growth(int n) {
 }
 
 std::string segment_glsl(const SamplePlan& plan) {
-    // Rows of lower degrees are filled with zeros, so that one loop serves all.
-    const int size = plan.degree + 1;
-    const int n_levels = static_cast<int>(plan.levels.size());
-    std::vector<double> fit(at(n_levels, size * size, 0), 0.0), check(at(n_levels, n_checks * size, 0), 0.0), gain;
-    std::string degrees;
-    for (int l = 0; l < n_levels; ++l) {
-        const Level& level = plan.levels[static_cast<std::size_t>(l)];
-        const int own = level.degree + 1;
-        for (int row = 0; row < own; ++row) {
-            std::copy_n(&level.fit[at(row, own, 0)], own, &fit[at(l * size + row, size, 0)]);
+    const int size = plan.degree + 1, n_levels = static_cast<int>(plan.levels.size());
+    const int n_samples = static_cast<int>(plan.parameters.size());
+    std::vector<double> fits, misfits;
+    std::string degrees, counts;
+    for (const Level& level : plan.levels) {
+        for (const std::vector<double>& row : level.fit) {
+            fits.insert(fits.end(), row.begin(), row.end());
         }
-        for (int row = 0; row < n_checks; ++row) {
-            std::copy_n(&level.check[at(row, own, 0)], own, &check[at(l * n_checks + row, size, 0)]);
+        // Lower degrees are filled with zeros, so that one loop serves all.
+        fits.resize(fits.size() + static_cast<std::size_t>((plan.degree - level.degree) * n_samples), 0.0);
+        for (const std::vector<double>& row : level.misfit) {
+            misfits.insert(misfits.end(), row.begin(), row.end());
         }
-        gain.insert(gain.end(), level.gain.begin(), level.gain.end());
-        degrees += (l == 0 ? "" : ", ") + std::to_string(level.degree) + "u";
+        const char* const separator = degrees.empty() ? "" : ", ";
+        degrees.append(separator).append(std::to_string(level.degree)).append("u");
+        counts.append(separator).append(std::to_string(level.n_samples)).append("u");
     }
     const std::string levels = std::to_string(n_levels);
     return "#define CORE_SEGMENT_DEGREE " + std::to_string(plan.degree) + "\n#define CORE_SEGMENT_LEVELS " + levels +
-           "\nconst uint core_segment_degrees[" + levels + "] = uint[" + levels + "](" + degrees + ");\n" +
-           array("core_segment_parameters", {size + n_checks}, plan.parameters) +
-           array("core_segment_fits", {n_levels, size, size}, fit) +
-           array("core_segment_checks", {n_levels, n_checks, size}, check) +
-           array("core_segment_gains", {n_levels, n_checks}, gain) +
+           "\n#define CORE_SEGMENT_CHECKS " + std::to_string(n_checks) + "\n#define CORE_SEGMENT_SAMPLES " +
+           std::to_string(n_samples) + "\nconst uint core_segment_degrees[" + levels + "] = {" + degrees +
+           "};\nconst uint core_segment_counts[" + levels + "] = {" + counts + "};\n" +
+           array("core_segment_parameters", {n_samples}, plan.parameters) +
+           array("core_segment_fits", {n_levels, size, n_samples}, fits) +
+           array("core_segment_misfits", {n_levels, n_checks, n_samples}, misfits) +
            array("core_segment_bernstein", {size, size}, bernstein_of_chebyshev(plan.degree)) +
            array("core_segment_growth", {size}, bernstein_growth(plan.degree)) +
            array("core_segment_binomials", {size}, binomials(plan.degree));

@@ -6,8 +6,8 @@
  * A field along a segment, t in [0, 1], is sampled at the Chebyshev-Lobatto nodes t = (1 - cos(pi j / n)) / 2 of a degree n, whose
  * interpolant has the Chebyshev coefficients (Trefethen, Approximation Theory and Approximation Practice, chapters 3 and 4)
  *     c_k = (2 - [k = 0] - [k = n]) / n  sum over j of w_j f(t_j) cos(pi j k / n),   w = 1/2 at both ends, else 1.
- * It is judged at two points halfway (in the angle) between nodes, where the first neglected terms are largest. They are nodes of
- * degree 2 n: if the degree is raised, no sample was in vain.
+ * It is judged at two points between nodes. Where the degree may be raised they are nodes of a higher one, so that no sample is in
+ * vain, but none of the next: at the nodes of degree 2 n, T_(4 n - k) is T_k, and a field of that kind would look like a good fit.
  */
 #pragma once
 
@@ -21,18 +21,18 @@ namespace elvis::segment {
 constexpr int max_degree = 13;
 constexpr int n_checks = 2;
 
-/** One degree of the plan. Its nodes are the first degree + 1 samples, its check points the next n_checks. */
+/** One degree of the plan: rows of numbers that all samples are multiplied with, zero for those that are of no use to it. */
 struct Level {
     int degree = 0;
-    /** Coefficient k is the sum over i of fit[k (degree + 1) + i] sample[i]. */
-    std::vector<double> fit;
-    /** T_k at check point i: check[i (degree + 1) + k]. */
-    std::vector<double> check;
+    /** It can be judged when that many samples are there. */
+    int n_samples = 0;
+    /** The Chebyshev coefficients, 0 .. degree. */
+    std::vector<std::vector<double>> fit;
     /**
-     * The polynomial of degree + 2 through nodes and check points differs from the interpolant by at most the sum over i of
-     * gain[i] |misfit at check point i|.
+     * The polynomial of degree + 2 through nodes and check points differs from the interpolant by at most the sum of these, without
+     * their signs: each is the misfit at a check point times the largest value of the polynomial that is 1 there and 0 at the others.
      */
-    std::array<double, n_checks> gain{};
+    std::array<std::vector<double>, n_checks> misfit;
 };
 
 /** Where to sample, in which order, and after which samples to judge. */
@@ -44,8 +44,8 @@ struct SamplePlan {
     std::vector<Level> levels;
 };
 
-/** Degrees 2, 4, 8 up to `degree`, each reusing the samples of the one before. The third sample is at 1/2. */
-SamplePlan nested_plan(int degree);
+/** Degrees 2, 4 and 8, judged after 5, 7 and 11 samples. The third sample is at 1/2. */
+SamplePlan nested_plan();
 /** This degree alone, 2 to max_degree. */
 SamplePlan fixed_plan(int degree);
 

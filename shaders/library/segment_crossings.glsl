@@ -119,7 +119,7 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
 
         // A value met at the beginning of a cell belongs to the cell before.
         const elvis_real zero = elvis_real(0);
-        const bool crosses = (from < zero && to >= zero) || (from > zero && to <= zero) || (from == zero && part == 0u);
+        const bool crosses = (from < zero && to >= zero) || (from > zero && to <= zero) || (from == zero && to != zero && part == 0u);
         // Monotone, and stops within E of the value, or starts there: the end of the segment, or where it may turn round.
         const bool stops = rises ? to < zero : to > zero;
         const bool touches = is_small || stops || part == 0u;
@@ -144,7 +144,7 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
             core_walk_on(walk);
         }
     }
-    const elvis_real size = elvis_real(1) / elvis_real(1u << level);
+    const elvis_real size = crossing.kind == CORE_CROSSING_NONE ? elvis_real(0) : elvis_real(1) / elvis_real(1u << level);
     for (uint turn = 0u; turn < (is_polished ? 1u : 0u); ++turn) {
         crossing.t = core_polish(core_cell_of(bernstein, level, part), core_level_value(crossing.index));
     }

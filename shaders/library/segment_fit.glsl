@@ -12,10 +12,10 @@
 // for one fixed degree leave one decision, done or split.
 //
 // Error estimate: E = misfit + tail + rounding.
-//   misfit    The interpolant p_n is compared with the field at two points between the nodes; the polynomial of degree n + 2 through
-//             these as well differs from p_n by at most gain_0 |misfit_0| + gain_1 |misfit_1|.
+//   misfit    The interpolant p_n is compared with the field at two points between the nodes. This bounds the difference from the
+//             polynomial of degree n + 2 through these as well.
 //   tail      What comes after that, if terms go on to decay as they do: a geometric series with the ratio of this difference to
-//             the last two coefficients of p_n, two degrees before. A ratio above 1/2 is no decay and counts as 1/2: then the
+//             the last two coefficients of p_n, two degrees before. A ratio above 3/4 is no decay and counts as 3/4: then the
 //             difference itself says how large the error is, not how it goes on.
 //   rounding  Of the samples, times the Lebesgue constant of the nodes, and of the arithmetic (core_bernstein_rounding).
 // It is an estimate: a field may do anything between samples. It is tested on families of analytic functions
@@ -27,15 +27,14 @@
 #include "library/finite.glsl"
 #include "library/segment_bernstein.glsl"
 
-#define CORE_SEGMENT_CHECKS 2
-#define CORE_SEGMENT_SAMPLES (CORE_SEGMENT_SIZE + CORE_SEGMENT_CHECKS)
-
 #define CORE_SEGMENT_WANTS 0u
 #define CORE_SEGMENT_DONE 1u
 // Not good enough: halve the segment, or go on with the fit and its error.
 #define CORE_SEGMENT_SPLIT 2u
 // A sample was NaN or infinite.
 #define CORE_SEGMENT_NOT_FINITE 3u
+
+#define CORE_SEGMENT_SLOWEST_DECAY elvis_real(0.75LF)
 
 // Of Chebyshev-Lobatto nodes at most 1 + 2 / pi log(n + 1) (Trefethen, theorem 15.2), which is 2.7 for degree 13.
 #define CORE_SEGMENT_LEBESGUE elvis_real(2.75LF)
@@ -89,39 +88,36 @@ elvis_real core_segment_parameter(core_segment segment) {
 // The highest degree that the samples allow to judge.
 core_fit core_segment_fit(core_segment segment) {
     core_fit fit;
-    elvis_real misfit = elvis_real(0);
+    elvis_real error = elvis_real(0);
     fit.degree = 0u;
     for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
         fit.chebyshev.c[k] = elvis_real(0);
     }
     for (int level = 0; level < CORE_SEGMENT_LEVELS; ++level) {
+        const bool is_judged = segment.n_samples >= core_segment_counts[level];
         const uint degree = core_segment_degrees[level];
-        const bool is_judged = segment.n_samples >= degree + 1u + uint(CORE_SEGMENT_CHECKS);
-        core_polynomial candidate;
+        elvis_real last = elvis_real(0);
         for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
             elvis_real sum = elvis_real(0);
-            for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+            for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
                 sum += core_segment_fits[level][k][i] * segment.samples[i];
             }
-            candidate.c[k] = sum;
+            fit.chebyshev.c[k] = is_judged ? sum : fit.chebyshev.c[k];
+            last += uint(k) == degree || uint(k) + 1u == degree ? abs(sum) : elvis_real(0);
         }
-        elvis_real difference = elvis_real(0);
-        for (int i = 0; i < CORE_SEGMENT_CHECKS; ++i) {
-            elvis_real value = elvis_real(0);
-            for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
-                value += core_segment_checks[level][i][k] * candidate.c[k];
+        elvis_real misfit = elvis_real(0);
+        for (int check = 0; check < CORE_SEGMENT_CHECKS; ++check) {
+            elvis_real sum = elvis_real(0);
+            for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
+                sum += core_segment_misfits[level][check][i] * segment.samples[i];
             }
-            difference += core_segment_gains[level][i] * abs(segment.samples[degree + 1u + uint(i)] - value);
+            misfit += abs(sum);
         }
-        const elvis_real last = abs(candidate.c[degree]) + abs(candidate.c[degree - 1u]);
-        const elvis_real ratio = elvis_real(2) * difference < last ? difference / last : elvis_real(0.5LF);
-        for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
-            fit.chebyshev.c[k] = is_judged ? candidate.c[k] : fit.chebyshev.c[k];
-        }
-        misfit = is_judged ? difference / (elvis_real(1) - ratio) : misfit;
+        const elvis_real ratio = min(misfit < last ? misfit / last : elvis_real(1), CORE_SEGMENT_SLOWEST_DECAY);
+        error = is_judged ? misfit / (elvis_real(1) - ratio) : error;
         fit.degree = is_judged ? degree : fit.degree;
     }
-    fit.error = misfit + CORE_SEGMENT_LEBESGUE * segment.sample_error + core_bernstein_rounding(fit.chebyshev);
+    fit.error = error + CORE_SEGMENT_LEBESGUE * segment.sample_error + core_bernstein_rounding(fit.chebyshev);
     return fit;
 }
 
@@ -134,7 +130,7 @@ void core_segment_add(inout core_segment segment, elvis_real value, elvis_real s
     segment.sample_error = max(segment.sample_error, sample_error);
     bool is_decision = false;
     for (int level = 0; level < CORE_SEGMENT_LEVELS; ++level) {
-        is_decision = is_decision || segment.n_samples == core_segment_degrees[level] + 1u + uint(CORE_SEGMENT_CHECKS);
+        is_decision = is_decision || segment.n_samples == core_segment_counts[level];
     }
     bool is_good = false;
     for (uint turn = 0u; turn < (is_decision ? 1u : 0u); ++turn) {
