@@ -85,10 +85,11 @@ Crossing<Real> next_crossing(const Polynomial<Real>& bernstein, Real error, std:
         const Polynomial<Real> cell = cell_of(bernstein, here.level, here.part);
         const Real first = cell[0], last = cell[cell.degree];
         const auto [least, most] = range(cell);
-        const auto below = std::lower_bound(values.begin(), values.end(), least - error);
-        const auto above = std::upper_bound(values.begin(), values.end(), most + error);
+        // NaN has no value below.
+        const auto below = std::partition_point(values.begin(), values.end(), [&](Real v) { return v < least - error; });
+        const auto above = std::partition_point(values.begin(), values.end(), [&](Real v) { return v <= most + error; });
         const auto n_below = static_cast<std::uint32_t>(below - values.begin());
-        const auto n_reached = static_cast<std::uint32_t>(std::max(above - below, std::ptrdiff_t{0}));
+        const auto n_reached = static_cast<std::uint32_t>(above - below);
         if (here.rank >= n_reached) {
             walk.go_on();
             continue;

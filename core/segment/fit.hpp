@@ -18,7 +18,8 @@ enum class FitStatus : std::uint32_t {
     not_finite = 3
 };
 
-/** From the last two coefficients to the two behind them; slower decay is none that one could count on. */
+/** From the last two coefficients to the two behind them. Faster decay is not believed, slower decay is none. */
+template <class Real> constexpr Real fastest_decay = Real(0.25);
 template <class Real> constexpr Real slowest_decay = Real(0.75);
 
 template <class Real> struct Fit {
@@ -102,7 +103,7 @@ private:
         for (const std::vector<double>& row : level.misfit) {
             misfit += std::abs(product(row));
         }
-        const Real ratio = std::min(misfit < last ? misfit / last : Real(1), slowest_decay<Real>);
+        const Real ratio = std::clamp(misfit < last ? misfit / last : Real(1), fastest_decay<Real>, slowest_decay<Real>);
         // Lebesgue constant: at most 1 + 2 / pi log(n + 1) (Trefethen, theorem 15.2).
         fit.error = misfit / (1 - ratio) + Real(2.75) * m_sample_error + bernstein_rounding(fit.chebyshev);
         return fit;

@@ -6,8 +6,8 @@
  * A field along a segment, t in [0, 1], is sampled at the Chebyshev-Lobatto nodes t = (1 - cos(pi j / n)) / 2 of a degree n, whose
  * interpolant has the Chebyshev coefficients (Trefethen, Approximation Theory and Approximation Practice, chapters 3 and 4)
  *     c_k = (2 - [k = 0] - [k = n]) / n  sum over j of w_j f(t_j) cos(pi j k / n),   w = 1/2 at both ends, else 1.
- * It is judged at two points between nodes. Where the degree may be raised they are nodes of a higher one, so that no sample is in
- * vain, but none of the next: at the nodes of degree 2 n, T_(4 n - k) is T_k, and a field of that kind would look like a good fit.
+ * It is judged at two points between nodes, which are nodes of none of the degrees: at the nodes of degree 2 n, T_(4 n - k) is T_k,
+ * and a field of that kind would look like a good fit.
  */
 #pragma once
 

@@ -15,8 +15,8 @@
 //   misfit    The interpolant p_n is compared with the field at two points between the nodes. This bounds the difference from the
 //             polynomial of degree n + 2 through these as well.
 //   tail      What comes after that, if terms go on to decay as they do: a geometric series with the ratio of this difference to
-//             the last two coefficients of p_n, two degrees before. A ratio above 3/4 is no decay and counts as 3/4: then the
-//             difference itself says how large the error is, not how it goes on.
+//             the last two coefficients of p_n, two degrees before. A ratio below 1/4 is not believed, as two points do not see all;
+//             one above 3/4 is no decay, and the difference itself says how large the error is, not how it goes on.
 //   rounding  Of the samples, times the Lebesgue constant of the nodes, and of the arithmetic (core_bernstein_rounding).
 // It is an estimate: a field may do anything between samples. It is tested on families of analytic functions
 // (tests/segment/fit_test.cpp).
@@ -34,6 +34,7 @@
 // A sample was NaN or infinite.
 #define CORE_SEGMENT_NOT_FINITE 3u
 
+#define CORE_SEGMENT_FASTEST_DECAY elvis_real(0.25LF)
 #define CORE_SEGMENT_SLOWEST_DECAY elvis_real(0.75LF)
 
 // Of Chebyshev-Lobatto nodes at most 1 + 2 / pi log(n + 1) (Trefethen, theorem 15.2), which is 2.7 for degree 13.
@@ -113,7 +114,7 @@ core_fit core_segment_fit(core_segment segment) {
             }
             misfit += abs(sum);
         }
-        const elvis_real ratio = min(misfit < last ? misfit / last : elvis_real(1), CORE_SEGMENT_SLOWEST_DECAY);
+        const elvis_real ratio = clamp(misfit < last ? misfit / last : elvis_real(1), CORE_SEGMENT_FASTEST_DECAY, CORE_SEGMENT_SLOWEST_DECAY);
         error = is_judged ? misfit / (elvis_real(1) - ratio) : error;
         fit.degree = is_judged ? degree : fit.degree;
     }
