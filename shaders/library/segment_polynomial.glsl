@@ -5,8 +5,14 @@
 //   segment_fit.glsl         samples to Chebyshev coefficients, one sample at a time, and the error estimate
 //   segment_crossings.glsl   where the polynomial takes given values, in order
 //
-// Before it stand the tables for a degree (core/segment/tables.hpp), as literals. Loops over them and over coefficients have
-// constant bounds, so that compilers unroll them and coefficients live in registers.
+// Before it stand the tables of a plan, as literals: segment_glsl(plan) of core/segment/tables.hpp. The CPU's twin is core/segment.
+//
+// Loops run over whole arrays, from 0 to their length, and stages have arrays of their own: that is what makes Mesa unroll them all, so
+// that coefficients live in registers. Loops over parts of an array leave it in memory: 950 instead of 25 core-nanoseconds for
+// de Casteljau's triangle of degree 8.
+//
+// In single precision stay at degree 8 or below and halve the segment instead: the Bernstein coefficients of T_n reach 46, 184, 733,
+// 2927 at n = 6, 8, 10, 12.
 
 #ifndef CORE_SEGMENT_POLYNOMIAL
 #define CORE_SEGMENT_POLYNOMIAL
