@@ -110,17 +110,16 @@ nlohmann::ordered_json run_roots(const Arguments& arguments) {
                         {"bernstein_nanoseconds", result.bernstein_nanoseconds},
                         {"colleague_nanoseconds", result.colleague_nanoseconds}});
         if (!arguments.json) {
-            std::printf("degree %2d %-6s %s  %6llu of %6llu have a root; missed %llu and %llu, false %llu and %llu, earlier %llu, "
-                        "touching %4llu; error %.1e; %6.0f and %6.0f ns\n",
-                        result.degree, place, precision, static_cast<unsigned long long>(result.n_with_root),
-                        static_cast<unsigned long long>(result.n_polynomials),
-                        static_cast<unsigned long long>(result.bernstein_missed),
-                        static_cast<unsigned long long>(result.colleague_missed),
-                        static_cast<unsigned long long>(result.bernstein_false),
-                        static_cast<unsigned long long>(result.colleague_false),
-                        static_cast<unsigned long long>(result.n_earlier),
-                        static_cast<unsigned long long>(result.n_touching), result.bernstein_error,
-                        result.bernstein_nanoseconds, result.colleague_nanoseconds);
+            std::printf(
+                "degree %2d %-6s %s  %6llu of %6llu have a root; missed %llu and %llu, false %llu and %llu, earlier %llu, "
+                "touching %4llu; error %.1e; %6.0f and %6.0f ns\n",
+                result.degree, place, precision, static_cast<unsigned long long>(result.n_with_root),
+                static_cast<unsigned long long>(result.n_polynomials), static_cast<unsigned long long>(result.bernstein_missed),
+                static_cast<unsigned long long>(result.colleague_missed),
+                static_cast<unsigned long long>(result.bernstein_false),
+                static_cast<unsigned long long>(result.colleague_false), static_cast<unsigned long long>(result.n_earlier),
+                static_cast<unsigned long long>(result.n_touching), result.bernstein_error, result.bernstein_nanoseconds,
+                result.colleague_nanoseconds);
             std::fflush(stdout);
         }
     });
@@ -245,7 +244,9 @@ void run(const Arguments& arguments) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure speed and memory on scenes that anyone can repeat");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("suite", arguments->suite, "unit, cut-plane, boundary, hierarchy, jacobian, roots, all of these, or surfaces")
+    command
+        ->add_option("suite", arguments->suite,
+                     "unit, cut-plane, boundary, hierarchy, jacobian, roots, all of these, or surfaces")
         ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "jacobian", "roots", "surfaces", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
@@ -254,7 +255,8 @@ void add_bench(CLI::App& app) {
     command->add_option("--orders", arguments->orders, "Orders of the field")->delimiter(',');
     command->add_option("--sizes", arguments->sizes, "Sides of the picture in pixels")->delimiter(',');
     command->add_option("--jacobians", arguments->n_jacobians, "Elements of the suite jacobian")->check(CLI::PositiveNumber);
-    command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")->check(CLI::PositiveNumber);
+    command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
+        ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
     command->add_option("--output", arguments->output, "Folder for the CSV file and the plots of the suite surfaces");
     command->callback([arguments, command] {

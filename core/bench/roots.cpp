@@ -35,7 +35,8 @@ struct Answers {
     double nanoseconds = 0;
 };
 
-/** How far the root of a polynomial in this precision may lie from the true one, where p changes its sign over this distance. */
+/** How far the root of a polynomial in this precision may lie from the true one, where p changes its sign over this distance.
+ */
 double reach(Precision precision) { return precision == Precision::float64 ? 1e-7 : 1e-3; }
 
 /** Coefficients that single precision holds, so that all solve the same problem. */
@@ -59,7 +60,9 @@ std::vector<Polynomial<double>> random_polynomials(int degree, std::uint64_t cou
 bool crosses_near(const Polynomial<double>& p, double t, double distance) {
     Polynomial<long double> exact{p.degree, {}};
     std::copy(p.c.begin(), p.c.end(), exact.c.begin());
-    const auto at = [&](double x) { return segment::chebyshev_value(exact, static_cast<long double>(std::clamp(x, 0.0, 1.0))); };
+    const auto at = [&](double x) {
+        return segment::chebyshev_value(exact, static_cast<long double>(std::clamp(x, 0.0, 1.0)));
+    };
     return at(t - distance) * at(t + distance) <= 0;
 }
 
@@ -133,7 +136,8 @@ Answers on_device(const Device& device, const std::vector<Polynomial<double>>& p
     // Drivers compile at the first dispatch.
     run(1);
     Answers result;
-    result.nanoseconds = n_lanes * run(static_cast<std::uint32_t>(polynomials.size())) / static_cast<double>(polynomials.size());
+    result.nanoseconds =
+        n_lanes * run(static_cast<std::uint32_t>(polynomials.size())) / static_cast<double>(polynomials.size());
     const std::vector<Real> found = output.read_items<Real>(n_answer * polynomials.size());
     for (std::size_t i = 0; i < polynomials.size(); ++i) {
         const Real* const answer = &found[n_answer * i];

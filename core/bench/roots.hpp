@@ -16,7 +16,8 @@ struct RootsResult {
     Precision precision = Precision::float64;
     bool on_device = false;
     std::uint64_t n_polynomials = 0;
-    /** Polynomials of which a true evaluation confirms a root that the colleague matrix gives (in double precision, on the CPU). */
+    /** Polynomials of which a true evaluation confirms a root that the colleague matrix gives (in double precision, on the
+     * CPU). */
     std::uint64_t n_with_root = 0;
     /** Those whose first such root each method did not find; eigenvalues that did not converge count, too. */
     std::uint64_t bernstein_missed = 0, colleague_missed = 0;
@@ -33,8 +34,9 @@ struct RootsResult {
 };
 
 /**
- * `n_polynomials` in all, of degrees 2 to 12 in turn, with Chebyshev coefficients a r^k, a uniform in [-1, 1], r in [0.3, 1] for each
- * polynomial. Calls `report` for every degree, on the CPU and on the device in both precisions (the device may be null).
+ * `n_polynomials` in all, of degrees 2 to 12 in turn, with Chebyshev coefficients a r^k, a uniform in [-1, 1], r in [0.3, 1]
+ * for each polynomial. Calls `report` for every degree, on the CPU and on the device in both precisions (the device may be
+ * null).
  */
 void bench_roots(const Device* device, std::uint64_t n_polynomials, const std::function<void(const RootsResult&)>& report);
 

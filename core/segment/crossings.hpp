@@ -1,7 +1,7 @@
 /**
  * @file crossings.hpp
- * Where a polynomial takes given values, in order along the segment: the CPU's twin of shaders/library/segment_crossings.glsl, where
- * the method is explained.
+ * Where a polynomial takes given values, in order along the segment: the CPU's twin of shaders/library/segment_crossings.glsl,
+ * where the method is explained.
  */
 #pragma once
 
@@ -111,17 +111,18 @@ Crossing<Real> next_crossing(const Polynomial<Real>& bernstein, Real error, std:
         }
         // A value met at the beginning of a cell belongs to the cell before.
         const bool crosses = (from < 0 && to >= 0) || (from > 0 && to <= 0) || (from == 0 && to != 0 && here.part == 0);
-        // Monotone, and stops within the error of the value, or starts there: the end of the segment, or where it may turn round.
+        // Monotone, and stops within the error of the value, or starts there: the end of the segment, or where it may turn
+        // round.
         const bool stops = rises ? to < 0 : to > 0;
         if (!crosses && !is_small && !stops && here.part != 0) {
             continue;
         }
         const Real in_cell = crosses ? polish(cell, value) : is_small ? Real(0.5) : stops ? Real(1) : Real(0);
         const Real size = 1 / static_cast<Real>(1u << here.level);
-        return {!crosses ? CrossingKind::touch : is_clear ? CrossingKind::verified : CrossingKind::probable,
-                index,
-                (static_cast<Real>(here.part) + in_cell) * size,
-                static_cast<Real>(here.part) * size,
+        return {!crosses   ? CrossingKind::touch
+                : is_clear ? CrossingKind::verified
+                           : CrossingKind::probable,
+                index, (static_cast<Real>(here.part) + in_cell) * size, static_cast<Real>(here.part) * size,
                 static_cast<Real>(here.part + 1) * size};
     }
     return {};

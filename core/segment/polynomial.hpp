@@ -36,8 +36,8 @@ template <class Real> struct BernsteinTables {
         static const std::vector<BernsteinTables> all = [] {
             std::vector<BernsteinTables> tables;
             for (int n = 0; n <= max_degree; ++n) {
-                tables.push_back({n, rounded(bernstein_of_chebyshev(n)), rounded(bernstein_growth(n)),
-                                  rounded(segment::binomials(n))});
+                tables.push_back(
+                    {n, rounded(bernstein_of_chebyshev(n)), rounded(bernstein_growth(n)), rounded(segment::binomials(n))});
             }
             return tables;
         }();

@@ -50,8 +50,9 @@ std::vector<Angle> nodes(int degree) {
 }
 
 /**
- * Halfway between nodes, on both sides of the middle, close to 5/16 and 11/16 of the half circle: of all pairs those whose misfit tells
- * most surely how large the error is elsewhere, be it in the middle or towards an end (tests/segment/fit_test.cpp).
+ * Halfway between nodes, on both sides of the middle, close to 5/16 and 11/16 of the half circle: of all pairs those whose
+ * misfit tells most surely how large the error is elsewhere, be it in the middle or towards an end
+ * (tests/segment/fit_test.cpp).
  */
 std::array<Angle, n_checks> checks(int degree) {
     const int gap = std::min((10 * degree + 8) / 32, (degree - 2) / 2);
@@ -133,7 +134,8 @@ SamplePlan make_plan(const std::vector<std::pair<int, std::array<Angle, n_checks
     return plan;
 }
 
-/** An array of arrays, whose sizes are given from the outermost to the innermost; the numbers of the innermost stand together. */
+/** An array of arrays, whose sizes are given from the outermost to the innermost; the numbers of the innermost stand together.
+ */
 std::string array(const std::string& name, const std::vector<int>& sizes, const std::vector<double>& numbers) {
     std::string type = "elvis_real";
     for (const int size : sizes) {
@@ -160,7 +162,8 @@ std::string array(const std::string& name, const std::vector<int>& sizes, const 
 } // namespace
 
 SamplePlan nested_plan() {
-    // Those of degree 8 serve all: no node of any, and never more than a third of a gap from where the first neglected term is largest.
+    // Those of degree 8 serve all: no node of any, and never more than a third of a gap from where the first neglected term is
+    // largest.
     return make_plan({{2, checks(8)}, {4, checks(8)}, {8, checks(8)}});
 }
 
@@ -186,7 +189,8 @@ std::vector<double> bernstein_of_chebyshev(int n) {
             // Whole numbers below 2^53: exact.
             double sum = 0;
             for (int i = std::max(0, j + k - n); i <= std::min(j, k); ++i) {
-                sum += ((k - i) % 2 == 0 ? 1 : -1) * doubled[static_cast<std::size_t>(2 * i)] * rest[static_cast<std::size_t>(j - i)];
+                sum += ((k - i) % 2 == 0 ? 1 : -1) * doubled[static_cast<std::size_t>(2 * i)] *
+                       rest[static_cast<std::size_t>(j - i)];
             }
             matrix[at(j, n + 1, k)] = sum / row[static_cast<std::size_t>(j)];
         }

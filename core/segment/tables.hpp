@@ -1,13 +1,13 @@
 /**
  * @file tables.hpp
- * What the segment polynomial knows beforehand: where to sample, and how samples become coefficients. Computed once, here, for the
- * functions on the CPU and for those on the device.
+ * What the segment polynomial knows beforehand: where to sample, and how samples become coefficients. Computed once, here, for
+ * the functions on the CPU and for those on the device.
  *
- * A field along a segment, t in [0, 1], is sampled at the Chebyshev-Lobatto nodes t = (1 - cos(pi j / n)) / 2 of a degree n, whose
- * interpolant has the Chebyshev coefficients (Trefethen, Approximation Theory and Approximation Practice, chapters 3 and 4)
- *     c_k = (2 - [k = 0] - [k = n]) / n  sum over j of w_j f(t_j) cos(pi j k / n),   w = 1/2 at both ends, else 1.
- * It is judged at two points between nodes, which are nodes of none of the degrees: at the nodes of degree 2 n, T_(4 n - k) is T_k,
- * and a field of that kind would look like a good fit.
+ * A field along a segment, t in [0, 1], is sampled at the Chebyshev-Lobatto nodes t = (1 - cos(pi j / n)) / 2 of a degree n,
+ * whose interpolant has the Chebyshev coefficients (Trefethen, Approximation Theory and Approximation Practice, chapters 3 and
+ * 4) c_k = (2 - [k = 0] - [k = n]) / n  sum over j of w_j f(t_j) cos(pi j k / n),   w = 1/2 at both ends, else 1. It is judged
+ * at two points between nodes, which are nodes of none of the degrees: at the nodes of degree 2 n, T_(4 n - k) is T_k, and a
+ * field of that kind would look like a good fit.
  */
 #pragma once
 
@@ -29,8 +29,9 @@ struct Level {
     /** The Chebyshev coefficients, 0 .. degree. */
     std::vector<std::vector<double>> fit;
     /**
-     * The polynomial of degree + 2 through nodes and check points differs from the interpolant by at most the sum of these, without
-     * their signs: each is the misfit at a check point times the largest value of the polynomial that is 1 there and 0 at the others.
+     * The polynomial of degree + 2 through nodes and check points differs from the interpolant by at most the sum of these,
+     * without their signs: each is the misfit at a check point times the largest value of the polynomial that is 1 there and 0
+     * at the others.
      */
     std::array<std::vector<double>, n_checks> misfit;
 };

@@ -143,7 +143,8 @@ TEMPLATE_TEST_CASE("Crossings of random polynomials are those of dense samples",
         const TestType rounding = bernstein_rounding(chebyshev);
         const std::vector<TestType> values{TestType(-0.25), 0, TestType(0.5)};
         const auto found = all_crossings(to_bernstein(chebyshev), rounding, values);
-        const auto& last = std::adjacent_find(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.t > b.t; });
+        const auto& last =
+            std::adjacent_find(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.t > b.t; });
         CHECK(last == found.end());
         // Samples that are certainly on both sides have a crossing between them.
         constexpr int n_samples = 256;

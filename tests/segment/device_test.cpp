@@ -24,7 +24,8 @@ constexpr std::uint32_t n_trials = 512;
 constexpr std::uint32_t group_size = 64;
 constexpr std::size_t n_crossings = 12;
 
-template <class Real> std::vector<Real> run(const std::string& text, const SamplePlan& plan, const std::vector<Real>& given, std::size_t n_results) {
+template <class Real>
+std::vector<Real> run(const std::string& text, const SamplePlan& plan, const std::vector<Real>& given, std::size_t n_results) {
     KernelRequest request;
     request.name = request.kernel = "segment test";
     request.kernel_text = R"(
@@ -94,7 +95,7 @@ void main() {
 
 constexpr const char* fit_kernel = R"(
 void main() {
-    const uint i = gl_GlobalInvocationID.x, size = CORE_SEGMENT_SIZE, to = i * (size + 3u);
+    const uint i = gl_GlobalInvocationID.x, size = CORE_SEGMENT_SIZE, to = i * (size + 4u);
     core_segment segment = core_segment_begin();
     while (segment.status == CORE_SEGMENT_WANTS) {
         const elvis_real t = core_segment_parameter(segment);
@@ -108,6 +109,7 @@ void main() {
     results[to + size] = fit.error;
     results[to + size + 1u] = elvis_real(segment.status);
     results[to + size + 2u] = elvis_real(segment.n_samples);
+    results[to + size + 3u] = elvis_real(fit.degree);
 }
 )";
 
@@ -171,6 +173,19 @@ TEMPLATE_TEST_CASE("The Bernstein form on the device is that on the CPU", "", fl
 TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, double) {
     const std::vector<TestType> values{TestType(-0.25), 0, TestType(0.5)};
     const std::size_t n_results = 4 * n_crossings + 1;
+    constexpr TestType nan = std::numeric_limits<TestType>::quiet_NaN(), small = 4 * roundoff<TestType>;
+    const std::vector<std::array<TestType, max_degree + 1>> special{
+        {nan, nan, nan},
+        // Constant; stops just below a value, just above; starts there; touches in the middle, nearly.
+        {TestType(0.5)},
+        {-small, TestType(0.5)},
+        {small, TestType(0.5)},
+        {1 + small, TestType(0.5)},
+        {1 - small, TestType(0.5)},
+        {TestType(0.125), 0, TestType(0.125)},
+        {TestType(0.125) + small, 0, TestType(0.125)},
+        {TestType(0.125) - small, 0, TestType(0.125)},
+    };
     double worst = 0, worst_root = 0;
     std::size_t n_found = 0, n_differing = 0, n_roots = 0;
     for (const int degree : {2, 5, 8}) {
@@ -179,10 +194,8 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
         std::vector<Polynomial<TestType>> polynomials;
         for (std::uint32_t i = 0; i < n_trials; ++i) {
             polynomials.push_back(random.chebyshev<TestType>(degree));
-            if (i == 0) {
-                polynomials.back().c.fill(std::numeric_limits<TestType>::quiet_NaN());
-            } else if (i == 1) {
-                polynomials.back().c = {TestType(0.5)};
+            if (i < special.size()) {
+                polynomials.back().c = special[i];
             }
             given.insert(given.end(), polynomials.back().c.begin(), polynomials.back().c.begin() + degree + 1);
         }
@@ -190,6 +203,11 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
         CHECK(results[0] == 0);
         CHECK(results[n_results] == 3);
         CHECK(results[n_results + 1] == 2);
+        // After crossings of -0.25 and 0 comes the end.
+        CHECK(results[2 * n_results + 8] == 3);
+        CHECK(results[2 * n_results + 10] == 1);
+        CHECK(results[4 * n_results] == 3);
+        CHECK(results[4 * n_results + 2] == 0);
         for (std::uint32_t i = 1; i < n_trials; ++i) {
             const Polynomial<TestType> p = to_bernstein(polynomials[i]);
             Walk walk;
@@ -214,19 +232,19 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
             const std::vector<double> roots = roots_by_colleague(exact, 0.5);
             const auto root = static_cast<double>(results[i * n_results + 4 * n_crossings]);
             REQUIRE(root != 3);
-            if (!roots.empty() && root <= 1) {
+            if (i >= special.size() && !roots.empty() && root <= 1) {
                 n_roots += 1;
                 const double value = std::abs(chebyshev_value(exact, root) - 0.5);
                 worst_root = std::max(worst_root, value);
-            } else if (i > 1) {
+            } else if (i >= special.size()) {
                 n_differing += roots.empty() == (root > 1) ? 0 : 1;
             }
         }
     }
     std::cout << "crossings, device and CPU, " << name<TestType>() << ": " << n_found << ", " << n_differing
               << " polynomials of other cells or kinds; largest difference " << worst
-              << " of the stated rounding, in the polynomial's value; colleague matrix: " << n_roots << " roots, largest residual "
-              << worst_root << '\n';
+              << " of the stated rounding, in the polynomial's value; colleague matrix: " << n_roots
+              << " roots, largest residual " << worst_root << '\n';
     CHECK(n_found > n_trials);
     CHECK(n_differing <= 3);
     CHECK(worst < 1);
@@ -236,11 +254,12 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
 
 TEMPLATE_TEST_CASE("Fits on the device are those on the CPU", "", float, double) {
     const SamplePlan plan = nested_plan();
-    const std::size_t n_results = 8 + 4;
+    constexpr std::size_t n_results = 9 + 4;
     test::Random random(10);
     std::vector<TestType> given;
     for (std::uint32_t i = 0; i < n_trials; ++i) {
-        const double steep = random.between(-2, 2), frequency = random.between(0, i % 2 == 0 ? 12 : 3), phase = random.between(0, 6);
+        const double steep = random.between(-2, 2), frequency = random.between(0, i % 2 == 0 ? 12 : 3),
+                     phase = random.between(0, 6);
         // Now and then a sample is divided by zero.
         const double pole = i % 8 == 0 ? plan.parameters[i / 8 % plan.parameters.size()] : -1;
         for (const double number : {steep, frequency, phase, pole}) {
@@ -267,15 +286,17 @@ TEMPLATE_TEST_CASE("Fits on the device are those on the CPU", "", float, double)
             continue;
         }
         if (segment.status() != FitStatus::not_finite) {
+            CHECK(result[12] == static_cast<TestType>(fit.degree));
             for (int k = 0; k <= 8; ++k) {
                 worst = std::max(worst, static_cast<double>(std::abs(result[k] - fit.chebyshev[k])));
             }
             worst_error = std::max(worst_error, static_cast<double>(std::abs(result[9] - fit.error)));
         }
     }
-    std::cout << "fits, device and CPU, " << name<TestType>() << ": " << n_status[1] << " done, " << n_status[2] << " to split, "
-              << n_status[3] << " not finite; " << n_differing << " differ in status; largest difference of coefficients " << worst
-              << ", of error estimates " << worst_error << '\n';
+    std::cout << "fits, device and CPU, " << name<TestType>() << ": " << n_status[1] << " done, " << n_status[2]
+              << " to split, " << n_status[3] << " not finite; " << n_differing
+              << " differ in status; largest difference of coefficients " << worst << ", of error estimates " << worst_error
+              << '\n';
     CHECK(n_status[1] > n_trials / 8);
     CHECK(n_status[2] > n_trials / 8);
     CHECK(n_status[3] > n_trials / 20);

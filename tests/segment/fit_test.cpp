@@ -50,7 +50,10 @@ TEST_CASE("A plan's degree is reproduced exactly, and no further degree is asked
         const SamplePlan plan = degree <= 8 ? nested_plan() : fixed_plan(degree);
         const auto segment = sampled<double>(Segment<double>(plan), field, 0, 1e-9);
         CHECK(segment.status() == FitStatus::done);
-        CHECK(segment.n_samples() == (degree <= 2 ? 5u : degree <= 4 ? 7u : degree <= 8 ? 11u : static_cast<unsigned>(degree + 3)));
+        CHECK(segment.n_samples() == (degree <= 2   ? 5u
+                                      : degree <= 4 ? 7u
+                                      : degree <= 8 ? 11u
+                                                    : static_cast<unsigned>(degree + 3)));
         const Fit<double> fit = segment.fit();
         CHECK(fit.error < 1e-9);
         for (int k = 0; k <= plan.degree; ++k) {
@@ -64,8 +67,8 @@ TEST_CASE("Every fixed degree reproduces polynomials of that degree") {
     for (int degree = 2; degree <= max_degree; ++degree) {
         const auto p = random.chebyshev<double>(degree);
         const SamplePlan plan = fixed_plan(degree);
-        const auto segment =
-            sampled<double>(Segment<double>(plan), [&](double t) { return chebyshev_value(p, t); }, 0, 1e-9);
+        const auto segment = sampled<double>(
+            Segment<double>(plan), [&](double t) { return chebyshev_value(p, t); }, 0, 1e-9);
         CHECK(segment.status() == FitStatus::done);
         for (int k = 0; k <= degree; ++k) {
             CHECK(segment.fit().chebyshev[k] == Approx(p[k]).margin(1e-14));
@@ -142,8 +145,7 @@ const std::vector<Family>& families() {
              const double a = random.between(-0.5, 1.5), b = random.between(0.1, 1);
              return [a, b](double t) { return std::tanh((t - a) / b); };
          }},
-        {"sqrt(t + a)",
-         [](test::Random& random) -> Field {
+        {"sqrt(t + a)", [](test::Random& random) -> Field {
              const double a = std::pow(10, random.between(-3, 0));
              return [a](double t) { return std::sqrt(t + a); };
          }}};
@@ -173,8 +175,8 @@ template <class Real> Estimates judge(const Family& family, const SamplePlan& pl
             const double middle = (lower + upper) / 2;
             (point < middle ? upper : lower) = middle;
             segment = sampled<Real>(
-                segment.half(point < middle ? 0 : 1), [&](double t) { return field(lower + (upper - lower) * t); }, sample_error,
-                tolerance);
+                segment.half(point < middle ? 0 : 1), [&](double t) { return field(lower + (upper - lower) * t); },
+                sample_error, tolerance);
         }
         REQUIRE(segment.status() == FitStatus::done);
         const Fit<Real> fit = segment.fit();
@@ -198,8 +200,9 @@ TEMPLATE_TEST_CASE("Error estimates hold for analytic functions", "", float, dou
     std::cout << "error estimates, degrees 2, 4, 8, " << (sizeof(TestType) == 8 ? "float64" : "float32") << '\n';
     for (const Family& family : families()) {
         const Estimates found = judge<TestType>(family, plan);
-        std::cout << "  " << family.name << ": exceeded in " << found.n_exceeded << " of " << found.n << ", at most " << found.worst
-                  << " times; typically " << found.slack << " times the error; " << found.n_samples << " samples\n";
+        std::cout << "  " << family.name << ": exceeded in " << found.n_exceeded << " of " << found.n << ", at most "
+                  << found.worst << " times; typically " << found.slack << " times the error; " << found.n_samples
+                  << " samples\n";
         INFO(family.name);
         // Random polynomials of degree 9 to 12 that do not decay are the worst: eleven samples can miss what they have beyond.
         CHECK(found.n_exceeded <= found.n / 100);

@@ -31,8 +31,9 @@ TEMPLATE_TEST_CASE("Bases agree within the stated rounding", "", float, double) 
             for (const double s : {0.0, 0.1, 0.5, 0.77, 1.0}) {
                 const auto x = static_cast<TestType>(s);
                 const auto in_cell = (part + static_cast<long double>(x)) / (1u << level);
-                const auto error = std::max(std::abs(bernstein_value(p, x) - chebyshev_value(exact, static_cast<long double>(x))),
-                                            std::abs(bernstein_value(cell, x) - chebyshev_value(exact, in_cell)));
+                const auto error =
+                    std::max(std::abs(bernstein_value(p, x) - chebyshev_value(exact, static_cast<long double>(x))),
+                             std::abs(bernstein_value(cell, x) - chebyshev_value(exact, in_cell)));
                 worst = std::max(worst, static_cast<double>(error) / rounding);
             }
         }
