@@ -2,6 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/bench/bench.hpp>
+#include <core/bench/roots.hpp>
 #include <core/bench/surfaces.hpp>
 
 #include <nlohmann/json.hpp>
@@ -23,6 +24,7 @@ struct Arguments {
     /** Which of these the user has named, for the suite that has other defaults. */
     bool names_elements = false, names_orders = false, names_sizes = false;
     std::uint64_t n_jacobians = 1000000;
+    std::uint64_t n_polynomials = 1000000;
     std::string output;
     bool json = false;
 };
@@ -79,6 +81,48 @@ nlohmann::ordered_json run_jacobian(const Arguments& arguments) {
             }
         }
     }
+    return list;
+}
+
+nlohmann::ordered_json run_roots(const Arguments& arguments) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    const Device device(arguments.device);
+    if (!arguments.json) {
+        std::printf("First roots on [0, 1] of %llu random polynomials, by the Bernstein form and by the colleague matrix\n"
+                    "times in ns: of a core, for 8 polynomials on the device, for one on the CPU\n",
+                    static_cast<unsigned long long>(arguments.n_polynomials));
+    }
+    bench_roots(&device, arguments.n_polynomials, [&](const RootsResult& result) {
+        const char* const precision = result.precision == Precision::float64 ? "float64" : "float32";
+        const char* const place = result.on_device ? "device" : "cpu";
+        list.push_back({{"degree", result.degree},
+                        {"place", place},
+                        {"precision", precision},
+                        {"n_polynomials", result.n_polynomials},
+                        {"n_with_root", result.n_with_root},
+                        {"bernstein_missed", result.bernstein_missed},
+                        {"colleague_missed", result.colleague_missed},
+                        {"n_earlier", result.n_earlier},
+                        {"bernstein_false", result.bernstein_false},
+                        {"colleague_false", result.colleague_false},
+                        {"n_touching", result.n_touching},
+                        {"bernstein_error", result.bernstein_error},
+                        {"bernstein_nanoseconds", result.bernstein_nanoseconds},
+                        {"colleague_nanoseconds", result.colleague_nanoseconds}});
+        if (!arguments.json) {
+            std::printf(
+                "degree %2d %-6s %s  %6llu of %6llu have a root; missed %llu and %llu, false %llu and %llu, earlier %llu, "
+                "touching %4llu; error %.1e; %6.0f and %6.0f ns\n",
+                result.degree, place, precision, static_cast<unsigned long long>(result.n_with_root),
+                static_cast<unsigned long long>(result.n_polynomials), static_cast<unsigned long long>(result.bernstein_missed),
+                static_cast<unsigned long long>(result.colleague_missed),
+                static_cast<unsigned long long>(result.bernstein_false),
+                static_cast<unsigned long long>(result.colleague_false), static_cast<unsigned long long>(result.n_earlier),
+                static_cast<unsigned long long>(result.n_touching), result.bernstein_error, result.bernstein_nanoseconds,
+                result.colleague_nanoseconds);
+            std::fflush(stdout);
+        }
+    });
     return list;
 }
 
@@ -152,6 +196,9 @@ void run(const Arguments& arguments) {
     if (all || arguments.suite == "jacobian") {
         root["jacobian"] = run_jacobian(arguments);
     }
+    if (all || arguments.suite == "roots") {
+        root["roots"] = run_roots(arguments);
+    }
     if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary" ||
         arguments.suite == "surfaces") {
         const PluginRegistry registry;
@@ -197,8 +244,10 @@ void run(const Arguments& arguments) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure speed and memory on scenes that anyone can repeat");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("suite", arguments->suite, "unit, cut-plane, boundary, hierarchy, jacobian, all of these, or surfaces")
-        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "jacobian", "surfaces", "all"}))
+    command
+        ->add_option("suite", arguments->suite,
+                     "unit, cut-plane, boundary, hierarchy, jacobian, roots, all of these, or surfaces")
+        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "jacobian", "roots", "surfaces", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
@@ -206,6 +255,8 @@ void add_bench(CLI::App& app) {
     command->add_option("--orders", arguments->orders, "Orders of the field")->delimiter(',');
     command->add_option("--sizes", arguments->sizes, "Sides of the picture in pixels")->delimiter(',');
     command->add_option("--jacobians", arguments->n_jacobians, "Elements of the suite jacobian")->check(CLI::PositiveNumber);
+    command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
+        ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
     command->add_option("--output", arguments->output, "Folder for the CSV file and the plots of the suite surfaces");
     command->callback([arguments, command] {
