@@ -244,7 +244,7 @@ void main() {
             const elvis_real wider = elvis_real(4) * crossing.half_width;
             const bool is_flat = is_short && !is_done_with && !is_found && !is_part && wider > elvis_real(1.5LF) * wide &&
                                  wider * speed < CORE_WIDEST;
-            const bool is_stuck = is_short && !is_flat && (piece.radius <= max(CORE_NARROW, elvis_real(2) * wide * speed) || moves >= CORE_MAX_MOVES) && !ends_here;
+            const bool is_stuck = is_active && is_short && !is_done_with && !is_flat && (piece.radius <= max(CORE_NARROW, elvis_real(2) * wide * speed) || moves >= CORE_MAX_MOVES) && !ends_here;
 
             const elvis_real t = middle + crossing.s;
             const bool is_behind_start = t > ray.least_t + ray.widths_behind * crossing.half_width && t > ray.least_t;
@@ -267,9 +267,6 @@ void main() {
             n_crossings += takes ? 1u : 0u;
             n_outside += is_active && is_empty ? 1u : 0u;
             n_excluded += is_active && !is_empty && crossing.is_excluded ? 1u : 0u;
-            const bool is_open = is_active && !is_done_with && (is_stuck || is_broken);
-            n_undecided += is_open ? 1u : 0u;
-            flags |= is_open ? (is_nan ? CORE_FLAG_NAN : CORE_FLAG_ISOSURFACE_UNDECIDED) : 0u;
             const bool rests_on_estimates = is_active && core_is_model_estimated(safe_element);
             flags |= rests_on_estimates ? CORE_FLAG_ESTIMATED : 0u;
 
@@ -291,6 +288,9 @@ void main() {
             moves = moves_on && !is_flat ? moves + 1u : 0u;
             wide = is_flat ? wider : goes_on ? elvis_real(0) : wide;
             const bool has_more = new_a < last && new_a < new_b && new_a <= best_t + best_slack;
+            const bool is_open = is_active && (is_stuck || (is_broken && (!is_done_with || has_more)));
+            n_undecided += is_open ? 1u : 0u;
+            flags |= is_open ? (is_nan ? CORE_FLAG_NAN : CORE_FLAG_ISOSURFACE_UNDECIDED) : 0u;
             element = is_over || (goes_on && !has_more) ? CORE_NO_ELEMENT : element;
             a = new_a;
             b = max(new_b, new_a);
