@@ -43,9 +43,6 @@ const Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::
     return *buffer;
 }
 
-/** Of a core_hit_point. */
-std::size_t point_bytes(Precision precision) { return precision == Precision::float64 ? 32 : 16; }
-
 } // namespace
 
 const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device, Role role, bool has_one_isovalue) {
@@ -95,7 +92,8 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                            {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"},
                            {"CORE_LEAF_WORD", "index"},
-                           {"CORE_TESTS_LEVELS", "1"}};
+                           {"CORE_TESTS_LEVELS", "1"},
+                           {"CORE_CLASS", std::to_string(index) + "u"}};
         request.bindings = {{0, BindingType::uniform_buffer}};
         for (std::uint32_t binding = 1; binding <= 3; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
@@ -126,7 +124,6 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
     const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
     const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
-    const Buffer& points = provide(m_points, m_device, layer.n_pixels() * point_bytes(m_precision));
     const Buffer& bending = provide(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
     const Buffer& isovalues = provide(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
     write_reals(isovalues, m_precision, m_values);
@@ -135,7 +132,7 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
-                                                   &tiles,   &isovalues,     &beyond,        &points,        &bending};
+                                                   &tiles,   &isovalues,     &beyond,        target.places,  &bending};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
         if (m_level_set.n_elements(kernels.element_class) == 0) {

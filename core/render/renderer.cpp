@@ -63,7 +63,9 @@ struct FieldPasses {
     std::optional<CutPlanePass> cut_planes, cut_planes_with_lines;
     std::map<FaceGeometry, FacePass> faces;
     std::optional<SurfacePass> cut_shapes;
-    std::optional<LinePass> lines_on_faces, lines_on_shapes;
+    std::map<FaceGeometry, LinePass> lines_on_faces;
+    /** By SurfaceSolver::quadric_rows(). */
+    std::map<std::uint32_t, LinePass> lines_on_shapes;
     std::optional<IsosurfacePass> isosurfaces;
     std::optional<PointValuePass> point_values;
 };
@@ -102,6 +104,8 @@ struct Renderer::Impl {
     RendererTimes times;
     /** Kept from frame to frame: fresh memory costs a page fault for each page. */
     std::unique_ptr<Layer> layer;
+    /** Of the layer's pixels, for lines. */
+    std::optional<Buffer> places;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
         : device(on), volume(of), precision(with), control(task), data(on, of, with, task), color_pass(on, with),
@@ -117,7 +121,8 @@ struct Renderer::Impl {
     CutPlanePass& cut_plane_pass(bool with_lines);
     void follow_geometry();
     FacePass& face_pass(const FaceGeometry& faces);
-    LinePass& line_pass(bool on_faces);
+    const FaceSet& face_set(const FaceGeometry& faces);
+    LinePass& line_pass(const Surface& surface);
     IsosurfacePass& isosurface_pass(const Isosurfaces& wanted);
     void draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
                           const LayerTarget& target, FrameCounts& counts);
@@ -168,13 +173,18 @@ CutPlanePass& Renderer::Impl::cut_plane_pass(bool with_lines) {
 }
 
 /** Of surfaces other than planes. */
-LinePass& Renderer::Impl::line_pass(bool on_faces) {
-    std::optional<LinePass>& pass = on_faces ? current->lines_on_faces : current->lines_on_shapes;
-    if (!pass) {
-        data.provide_derivative_bounds();
-        pass.emplace(device, volume, data, on_faces);
+LinePass& Renderer::Impl::line_pass(const Surface& surface) {
+    data.provide_derivative_bounds();
+    if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+        const std::uint32_t rows = solvers.at(solver_key(*shape)).quadric_rows();
+        return current->lines_on_shapes.try_emplace(rows, device, volume, data, nullptr, rows).first->second;
     }
-    return *pass;
+    if (std::holds_alternative<Isosurfaces>(surface.geometry)) {
+        return current->lines_on_shapes.try_emplace(0, device, volume, data, nullptr, 0).first->second;
+    }
+    follow_geometry();
+    const FaceGeometry faces = *face_geometry(surface);
+    return current->lines_on_faces.try_emplace(faces, device, volume, data, &face_set(faces), 0).first->second;
 }
 
 /** Drops what belongs to another shape of the elements. */
@@ -182,6 +192,7 @@ void Renderer::Impl::follow_geometry() {
     if (data.geometry_version() != faces_version) {
         for (auto& [key, of_field] : passes) {
             of_field.faces.clear();
+            of_field.lines_on_faces.clear();
         }
         face_sets.clear();
         edge_sets.clear();
@@ -209,15 +220,19 @@ const EdgeSet& Renderer::Impl::edge_set(const FaceGeometry& faces) {
     return found->second;
 }
 
+const FaceSet& Renderer::Impl::face_set(const FaceGeometry& faces) {
+    auto set = face_sets.find(faces);
+    if (set == face_sets.end()) {
+        set = face_sets.try_emplace(faces, device, volume, data, chosen_faces(faces), control).first;
+    }
+    return set->second;
+}
+
 FacePass& Renderer::Impl::face_pass(const FaceGeometry& faces) {
     follow_geometry();
     auto found = current->faces.find(faces);
     if (found == current->faces.end()) {
-        auto set = face_sets.find(faces);
-        if (set == face_sets.end()) {
-            set = face_sets.try_emplace(faces, device, volume, data, chosen_faces(faces), control).first;
-        }
-        found = current->faces.try_emplace(faces, device, volume, data, set->second).first;
+        found = current->faces.try_emplace(faces, device, volume, data, face_set(faces)).first;
     }
     return found->second;
 }
@@ -261,7 +276,7 @@ void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& 
     }
     if (surface.has_lines() && !std::holds_alternative<CutPlane>(surface.geometry) &&
         !std::holds_alternative<WireFrame>(surface.geometry)) {
-        line_pass(face_geometry(surface).has_value());
+        line_pass(surface).provide(surface.contours && !surface.contours->values.empty());
     }
     times.compile_milliseconds += milliseconds_since(start);
 }
@@ -324,10 +339,12 @@ void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface
     pass.draw(rays, first, target, counts);
     const ShownComponent component = fields.component(surface.field);
     if (surface.field != wanted.field) {
-        current->point_values->draw(pass.points(), first, component, target, counts);
+        current->point_values->draw(component, target, counts);
     }
     if (surface.has_lines()) {
-        line_pass(false).draw(rays, component, line_request(surface, offset_of(surface)), &pass.bending(), target, counts);
+        // No quadric: the frame stands for its rows.
+        line_pass(surface).draw(rays, component, line_request(surface, offset_of(surface)), &pass.bending(), &pass.frame(), target,
+                                counts);
     }
 }
 
@@ -339,13 +356,13 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     constexpr std::uint32_t first = 1;
     const LineRequest lines = line_request(surface, offset_of(surface));
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
-        cut_plane_pass(surface.has_lines()).draw(rays, first, component, lines, surface.outside.has_value(), target,
-                                                         counts);
+        cut_plane_pass(surface.has_lines()).draw(rays, first, component, lines, surface.outside.has_value(), target, counts);
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
         current->cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, surface.outside.has_value(),
                                   target, counts);
         if (surface.has_lines()) {
-            line_pass(false).draw(rays, component, lines, &current->cut_shapes->bending(), target, counts);
+            line_pass(surface).draw(rays, component, lines, &current->cut_shapes->bending(),
+                                    &solvers.at(solver_key(*shape)).rows(), target, counts);
         }
     } else if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
         draw_isosurfaces(request, surface, *isosurfaces, target, counts);
@@ -357,7 +374,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
         if (surface.has_lines()) {
-            line_pass(true).draw(rays, component, lines, nullptr, target, counts);
+            line_pass(surface).draw(rays, component, lines, nullptr, nullptr, target, counts);
         }
     }
 }
@@ -374,7 +391,16 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     std::uint32_t n_wanted = 1;
     for (std::uint32_t round = 0; n_wanted > 0 && round < max_rounds; ++round) {
         layer->marks.fill(0);
-        draw_geometry(request, surface, {*layer, beyond, request.with_buffers || is_lit(request, surface) || surface.has_lines()}, frame.counts);
+        const bool wants_places =
+            (surface.has_lines() && !is_plane) || std::holds_alternative<Isosurfaces>(surface.geometry);
+        if (wants_places && (!places || places->bytes() != layer->n_pixels() * place_bytes(precision))) {
+            places.reset();
+            places.emplace(device, layer->n_pixels() * place_bytes(precision));
+        }
+        draw_geometry(request, surface,
+                      {*layer, beyond, request.with_buffers || is_lit(request, surface) || surface.has_lines(),
+                       wants_places ? &*places : nullptr},
+                      frame.counts);
         color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags,
                         is_lit(request, surface) ? &*request.lighting : nullptr);
         n_wanted =

@@ -23,7 +23,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/face_tiles.glsl"
 #include "library/hierarchy.glsl"
 #include "library/samples.glsl"
-#include "library/hit_point.glsl"
+#include "library/place.glsl"
 #include "library/pixel_ray.glsl"
 #include "library/linearization.glsl"
 
@@ -35,7 +35,7 @@ layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_ma
 layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(set = 0, binding = 6, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
-layout(set = 0, binding = 8, std430) writeonly buffer core_points_block { core_hit_point core_points[]; };
+layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
 // An upper bound of the surface's normal curvatures, without sign.
 layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
 layout(push_constant) uniform core_parameters {
@@ -321,10 +321,7 @@ void main() {
             core_normals[3u * pixel] = size * normal.x;
             core_normals[3u * pixel + 1u] = size * normal.y;
             core_normals[3u * pixel + 2u] = size * normal.z;
-            core_points[pixel].x = best_x;
-            core_points[pixel].y = best_y;
-            core_points[pixel].z = best_z;
-            core_points[pixel].element = best_element;
+            core_places[pixel] = core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS);
             core_bending[pixel] = core_is_finite(best_bend) ? min(best_bend, CORE_FAR) : CORE_FAR;
         }
         row += 1u;
