@@ -20,6 +20,7 @@ enum Count : std::size_t { evaluations, excluded, outside, undecided, inner_tile
 
 struct TilesParameters {
     std::uint32_t tiles_a_row, n_tiles;
+    std::uint32_t n_isovalues;
 };
 
 struct Parameters {
@@ -139,7 +140,7 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
             continue;
         }
         m_counts.fill(0);
-        const TilesParameters of_tiles{tiles_a_row, n_tiles};
+        const TilesParameters of_tiles{tiles_a_row, n_tiles, static_cast<std::uint32_t>(m_values.size())};
         const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &m_counts, &isovalues};
         kernels.provide(m_device, Role::tiles, m_values.size() == 1)
             .dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));
