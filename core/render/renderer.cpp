@@ -113,6 +113,7 @@ struct Renderer::Impl {
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
     }
 
+    FrameRequest with_offsets(FrameRequest request);
     void keep_fields(const FrameRequest& request);
     void select(const FieldChoice& field, std::uint32_t time_step);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
@@ -147,6 +148,12 @@ void Renderer::Impl::check(const FrameRequest& request) const {
     }
     if (request.surfaces.empty()) {
         throw Error("picture", "has nothing to show");
+    }
+    for (const Surface& surface : request.surfaces) {
+        const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry);
+        if (isosurfaces && (isosurfaces->values.empty() || !std::is_sorted(isosurfaces->values.begin(), isosurfaces->values.end()))) {
+            throw Error("isosurface", "needs values, in ascending order");
+        }
     }
     for (const Surface& surface : request.surfaces) {
         const auto* wires = std::get_if<WireFrame>(&surface.geometry);
@@ -279,6 +286,19 @@ void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& 
         line_pass(surface).provide(surface.contours && !surface.contours->values.empty());
     }
     times.compile_milliseconds += milliseconds_since(start);
+}
+
+/** Level sets are found with the digits that differences from their values have. */
+FrameRequest Renderer::Impl::with_offsets(FrameRequest request) {
+    for (Surface& surface : request.surfaces) {
+        if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+            const double middle = 0.5 * (isosurfaces->values.front() + isosurfaces->values.back());
+            const bool is_own_color = surface.field == isosurfaces->field;
+            isosurfaces->field = fields.about(isosurfaces->field, middle, request.time_step);
+            surface.field = is_own_color ? isosurfaces->field : surface.field;
+        }
+    }
+    return request;
 }
 
 /** Drops what the frame's surfaces do not need. */
@@ -478,9 +498,10 @@ FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_st
     return m_impl->fields.range(field, time_step, certainty);
 }
 
-Frame Renderer::render(const FrameRequest& request) {
+Frame Renderer::render(const FrameRequest& wanted) {
     Impl& impl = *m_impl;
-    impl.check(request);
+    impl.check(wanted);
+    const FrameRequest request = impl.with_offsets(wanted);
     Frame frame;
     frame.width = request.width;
     frame.height = request.height;
