@@ -250,7 +250,7 @@ void core_open_box(inout core_walk walk) {
 void core_settle(inout core_walk walk, uint word, uint link, elvis_real enter, elvis_real enter_error, elvis_real leave,
                  elvis_real leave_error) {
     const uint element = word & ~(CORE_ESTIMATED_PART | CORE_DOUBTFUL_PART);
-    const bool is_joined = abs(enter - walk.done) <= enter_error + walk.done_error;
+    const bool is_joined = abs(enter - walk.done) <= elvis_real(2) * (enter_error + walk.done_error);
     const bool is_hidden = leave - walk.done <= leave_error + walk.done_error;
     // Found by the hierarchy, too.
     const bool is_again = is_hidden && element == walk.element;
@@ -311,7 +311,8 @@ void core_take_part(inout core_walk walk, bool is_found) {
         core_queue_root(walk);
     }
     const float first = min(min(core_first_box(walk), core_first_waiting(walk)), walk.lost);
-    const bool is_first = is_found && float(walk.part.enter) < first;
+    // One segment a turn.
+    const bool is_first = is_found && walk.state == CORE_WALK_SEEKS && float(walk.part.enter) < first;
     for (uint turn = 0u; turn < (is_first ? 1u : 0u); ++turn) {
         core_settle(walk, word, leave_link, walk.part.enter, walk.part.enter_error, walk.part.leave, walk.part.leave_error);
     }
