@@ -109,6 +109,23 @@ TEST_CASE("a ray in a face that elements share has one segment", "[segments]") {
     CHECK(list[1].leave == Approx(2));
 }
 
+TEST_CASE("elements without the wanted values are passed over", "[segments]") {
+    const TemporaryFile file("skipped.h5");
+    write_volume(file.path(), hexahedra(boxes({0, 0, 0}, {8, 1, 1}, {8, 1, 1})));
+    const RuntimeVolume volume = open_volume(file.path());
+    DeviceVolume data(device(), volume, Precision::float32, nullptr);
+    data.select(0, 0, {0.0});
+    const SegmentPass pass(device(), volume, data, SegmentPass::SkippedField{});
+    const SegmentRay ray = near_centre({-10, 0.3, 0.4}, {0, 0.3, 0.4}, data.centre(), Precision::float32);
+    SegmentCounts counts;
+    const std::vector<Segment> list = pass.lists(std::span(&ray, 1), counts, {3.2, 4.5}).front();
+    REQUIRE(list.size() == 2);
+    CHECK(list[0].element == 3);
+    CHECK(list[1].element == 4);
+    CHECK(list[0].leave == list[1].enter);
+    CHECK(counts.evaluations < 10);
+}
+
 TEST_CASE("an element is entered and left twice through the same face", "[segments]") {
     // The lower face is an arch, 0.5 high at x = 0: the ray at 0.2 misses what is below it.
     const Map arch = [](const Vector& xi) -> Vector {
