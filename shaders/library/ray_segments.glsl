@@ -1,14 +1,14 @@
 // A ray's segments: its parts inside of elements, front to back, without overlaps. Where elements overlap, the one entered first owns
 // the ray to its exit, and of the others counts what is left beyond it.
 //
-//     core_walk walk = core_begin_walk(ray, from, to);
+//     core_walk walk = core_begin_walk(ray, from, from_error, to);
 //     while (walk.state != CORE_WALK_DONE && turns are left) {
 //         core_walk_turn(walk);
 //         if walk.state == CORE_WALK_SEGMENT: walk.element has the ray from walk.enter to walk.leave
 //     }
 //
-// or core_next_segment in place of the turns up to the next segment. A turn evaluates one mapping, whatever element its lane is at;
-// a kernel that has more to do with segments does it in the same loop, so that its lanes do not wait for each other.
+// A turn evaluates one mapping, whatever element its lane is at; a kernel that has more to do with segments does it in the same loop,
+// so that its lanes do not wait for each other.
 //
 // Boxes of the hierarchy wait in a queue in the order in which the ray enters them, and parts that were found until nothing can come
 // before them. Both have a bounded size: what does not fit, the farthest, is dropped, and the search starts again from
