@@ -186,9 +186,9 @@ void main() {
             const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
             const elvis_real middle = elvis_real(0.5LF) * (a + b);
             const elvis_vec3 step = middle * ray.direction;
-            const elvis_real error = ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_largest(shift) + core_largest(step));
+            const elvis_real error = ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(step));
             const core_frame frame = core_frame_at(position, jacobian, error);
-            const elvis_real speed = core_largest(core_to_xi(frame, ray.direction));
+            const elvis_real speed = core_max_norm(core_to_xi(frame, ray.direction));
             const elvis_real shortest = CORE_FLOOR * CORE_NARROW / speed;
             const elvis_real half_width = elvis_real(0.5LF) * (b - a);
             const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
@@ -202,7 +202,7 @@ void main() {
             n_evaluations += is_active ? 1u : 0u;
             used += 1u;
 
-            const bool is_nan = is_active && !core_is_finite(value + core_largest(position));
+            const bool is_nan = is_active && !core_is_finite(value + core_max_norm(position));
             const bool is_empty = piece.low > piece.high;
             const bool is_done_with = is_empty || crossing.is_excluded;
 
@@ -216,7 +216,7 @@ void main() {
             const bool is_found = piece.is_known && from >= -reach && to <= reach &&
                                   speed * bend_here * piece.radius < abs(piece.slope);
             const elvis_vec3 to_root = piece.q + crossing.s * piece.w;
-            const elvis_real distance = core_largest(to_root);
+            const elvis_real distance = core_max_norm(to_root);
             // J^-T times the gradient in xi.
             const elvis_vec3 gradient = model.slope.x * frame.row0 + model.slope.y * frame.row1 + model.slope.z * frame.row2;
             const elvis_real inverse_size = sqrt(dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2));
@@ -225,7 +225,7 @@ void main() {
             const elvis_real change = bend_here * distance;
             const bool is_at_root = (change * inverse_size <= CORE_NORMAL_ERROR * size &&
                                      change * distance * speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
-                                    distance <= elvis_real(4) * core_largest(frame.xi_error) ||
+                                    distance <= elvis_real(4) * core_max_norm(frame.xi_error) ||
                                     // Rounding is most of the error: nothing more is to be had.
                                     (bend_here * piece.radius * piece.radius <= piece.error &&
                                      distance <= (moves < 3u ? elvis_real(0.0625LF) : elvis_real(1)) * speed * crossing.half_width);
@@ -243,7 +243,7 @@ void main() {
             const bool ends_here = is_active && !is_done_with && is_found;
             const bool takes = ends_here && is_at_root;
             const bool is_broken = is_nan || (is_active && used >= CORE_MOST_EVALUATIONS);
-            const bool is_far = core_largest(piece.q) > elvis_real(0.5LF) * max(half_width, shortest) * speed;
+            const bool is_far = core_max_norm(piece.q) > elvis_real(0.5LF) * max(half_width, shortest) * speed;
             const elvis_real wider = elvis_real(4) * crossing.half_width;
             const bool is_flat = is_short && !is_done_with && !is_found && !is_cut && wider > elvis_real(1.5LF) * wide &&
                                  wider * speed < CORE_WIDEST;

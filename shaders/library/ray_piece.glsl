@@ -20,10 +20,10 @@ struct core_piece {
     bool is_known;
 };
 
-elvis_real core_largest(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+elvis_real core_max_norm(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
 elvis_real core_piece_radius(core_piece piece) {
-    return max(core_largest(piece.q + piece.low * piece.w), core_largest(piece.q + piece.high * piece.w));
+    return max(core_max_norm(piece.q + piece.low * piece.w), core_max_norm(piece.q + piece.high * piece.w));
 }
 
 // The piece from -half_width to half_width, cut by the faces. `offset`: of the middle from the image of xi.
@@ -34,7 +34,7 @@ core_piece core_piece_in_element(elvis_vec3 xi, core_frame frame, elvis_vec3 off
     piece.w = core_to_xi(frame, direction);
     piece.low = -half_width;
     piece.high = half_width;
-    const elvis_real rounding = core_largest(frame.xi_error);
+    const elvis_real rounding = core_max_norm(frame.xi_error);
     // What is left is nearer, and so better known: a second time.
     for (int turn = 0; turn < 2; ++turn) {
         const elvis_real step = core_piece_radius(piece);
