@@ -60,8 +60,11 @@ core_piece core_piece_in_element(elvis_vec3 xi, core_frame frame, elvis_vec3 off
 
 void core_piece_take_field(inout core_piece piece, uint element, elvis_vec3 xi, out core_model model, out elvis_real value) {
     core_patch region;
-    region.corner0 = region.corner2 = piece.q + piece.low * piece.w;
-    region.corner1 = region.corner3 = piece.q + piece.high * piece.w;
+    region.corner0 = piece.q + piece.low * piece.w;
+    region.corner1 = piece.q + piece.high * piece.w;
+    // Two would do, but estimates look at all four (library/estimated_model.glsl).
+    region.corner2 = piece.q + elvis_real(0.5LF) * piece.low * piece.w;
+    region.corner3 = piece.q + elvis_real(0.5LF) * piece.high * piece.w;
     region.beyond = piece.beyond;
     region.radius = piece.radius;
     model = core_shown_model(element, xi, region, value);
