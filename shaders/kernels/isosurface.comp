@@ -82,6 +82,14 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #define CORE_NARROW elvis_real(2e-3LF)
 #endif
 #define CORE_WIDEST elvis_real(0.25LF)
+// From here on the remainder of a model tells second derivatives, not rounding.
+#define CORE_WIDE_ENOUGH (elvis_real(8) * CORE_NARROW)
+// Steps to the root that are small whatever is known of derivatives.
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_LAST_STEP elvis_real(1e-6LF)
+#else
+#define CORE_LAST_STEP elvis_real(2e-3LF)
+#endif
 // Pieces are not made shorter than this part of that.
 #define CORE_FLOOR elvis_real(0.25LF)
 
@@ -119,7 +127,8 @@ void main() {
         // The nearest crossing so far; of another class, its depth.
         elvis_real best_t = CORE_FAR, best_slack = elvis_real(0), best_x = x, best_y = x, best_z = x, best_isovalue = x;
         elvis_real normal_x = x, normal_y = x, normal_z = x;
-        // Bound of the field's second derivatives in the element, and of the surface's curvature at the best crossing.
+        // Bound of the field's second derivatives, from the last piece that was long enough for it, and of the surface's curvature at
+        // the best crossing.
         elvis_real bend = CORE_FAR, best_bend = CORE_FAR;
         uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
         const bool was_hit = core_marks[pixel].owner != 0u;
@@ -210,7 +219,7 @@ void main() {
             // if its slope along the ray surely keeps its sign. The part may reach beyond a face by what rounding makes of it: then
             // the root is what decides.
             const elvis_real from = crossing.s - crossing.half_width, to = crossing.s + crossing.half_width;
-            bend = min(bend, elvis_real(2) * model.remainder / (piece.radius * piece.radius));
+            bend = piece.radius > CORE_WIDE_ENOUGH ? elvis_real(2) * model.remainder / (piece.radius * piece.radius) : bend;
             // Of the field along curves that are straight in the world: the mapping's own bending counts, too.
             const elvis_real bend_here = bend + elvis_real(2) * curvature * core_model_norm1(model.slope);
             const bool is_found = piece.is_known && from >= -reach && to <= reach &&
@@ -219,11 +228,14 @@ void main() {
             const elvis_real distance = core_max_norm(to_root);
             // J^-T times the gradient in xi.
             const elvis_vec3 gradient = model.slope.x * frame.row0 + model.slope.y * frame.row1 + model.slope.z * frame.row2;
-            const elvis_real inverse_size = sqrt(dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2));
+            // At least the spectral norm of J^-1: the square root of the largest sums of rows and columns.
+            const elvis_vec3 columns = abs(frame.row0) + abs(frame.row1) + abs(frame.row2);
+            const elvis_real rows = max(max(core_model_norm1(frame.row0), core_model_norm1(frame.row1)), core_model_norm1(frame.row2));
+            const elvis_real inverse_size = sqrt(core_max_norm(columns) * rows);
             const elvis_real size = length(gradient);
             // From xi to the root the gradient changes by this much at most, and the line's root is wrong by half the product.
             const elvis_real change = bend_here * distance;
-            const bool is_at_root = (change * inverse_size <= CORE_NORMAL_ERROR * size &&
+            const bool is_at_root = (distance <= CORE_LAST_STEP && change * inverse_size <= CORE_NORMAL_ERROR * size &&
                                      change * distance * speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
                                     distance <= elvis_real(4) * core_max_norm(frame.xi_error) ||
                                     // Rounding is most of the error: nothing more is to be had.
