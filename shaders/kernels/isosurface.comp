@@ -67,7 +67,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 // Evaluations in one element, beyond which the rest of it is left undecided.
 #define CORE_MOST_EVALUATIONS 200u
 // Times the mapping is linearized anew nearer to the piece before it is halved.
-#define CORE_MAX_MOVES 6u
+#define CORE_MAX_MOVES 8u
 
 // Error of the unit normal that is left.
 #if ELVIS_REAL_IS_DOUBLE
@@ -212,7 +212,18 @@ void main() {
             used += 1u;
 
             const bool is_nan = is_active && !core_is_finite(value + core_max_norm(position));
-            const bool is_empty = piece.low > piece.high;
+            // The point of the element that is nearest to the piece's middle, as predicted.
+            elvis_real near_x = x + clamp(piece.q.x, elvis_real(-4), elvis_real(4));
+            elvis_real near_y = y + clamp(piece.q.y, elvis_real(-4), elvis_real(4));
+            elvis_real near_z = z + clamp(piece.q.z, elvis_real(-4), elvis_real(4));
+            core_project(near_x, near_y, near_z);
+            const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
+            const elvis_real extent = max(half_width, shortest) * speed;
+            const bool is_far = move > elvis_real(0.25LF) * extent && move > elvis_real(16) * CORE_ROUNDOFF;
+            // The bound says nothing far away from a curved element: see core_is_clear_of.
+            const bool is_clear = !is_far && curvature < elvis_real(1e6LF) &&
+                                  piece.clearance > elvis_real(0.5LF) * extent + elvis_real(8) * move;
+            const bool is_empty = piece.low > piece.high || is_clear;
             const bool is_done_with = is_empty || crossing.is_excluded;
 
             // Where the field surely takes the isovalue: at both ends of the part it lies on different sides. It does so once only
@@ -255,7 +266,6 @@ void main() {
             const bool ends_here = is_active && !is_done_with && is_found;
             const bool takes = ends_here && is_at_root;
             const bool is_broken = is_nan || (is_active && used >= CORE_MOST_EVALUATIONS);
-            const bool is_far = core_max_norm(piece.q) > elvis_real(0.5LF) * max(half_width, shortest) * speed;
             const elvis_real wider = elvis_real(4) * crossing.half_width;
             const bool is_flat = is_short && !is_done_with && !is_found && !is_cut && wider > elvis_real(1.5LF) * wide &&
                                  wider * speed < CORE_WIDEST;
@@ -309,12 +319,18 @@ void main() {
             element = is_over || (goes_on && !has_more) ? CORE_NO_ELEMENT : element;
             a = new_a;
             b = max(new_b, new_a);
-            // The point of the element that is nearest to its middle.
+            // The point of the element that is nearest to its middle. Whole steps may go to and fro in a strongly curved element.
             const elvis_real to_middle = elvis_real(0.5LF) * (a + b) - middle;
-            x += core_is_finite(piece.q.x + piece.w.x) ? clamp(piece.q.x + to_middle * piece.w.x, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            y += core_is_finite(piece.q.y + piece.w.y) ? clamp(piece.q.y + to_middle * piece.w.y, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            z += core_is_finite(piece.q.z + piece.w.z) ? clamp(piece.q.z + to_middle * piece.w.z, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            core_project(x, y, z);
+            const elvis_vec3 ahead = piece.q + to_middle * piece.w;
+            const bool is_usable = core_is_finite(ahead.x + ahead.y + ahead.z);
+            elvis_real next_x = x + (is_usable ? clamp(ahead.x, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            elvis_real next_y = y + (is_usable ? clamp(ahead.y, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            elvis_real next_z = z + (is_usable ? clamp(ahead.z, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            core_project(next_x, next_y, next_z);
+            const elvis_real share = moves > CORE_MAX_MOVES / 2u ? elvis_real(0.5LF) : elvis_real(1);
+            x += share * (next_x - x);
+            y += share * (next_y - y);
+            z += share * (next_z - z);
         }
         const bool is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
         flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;

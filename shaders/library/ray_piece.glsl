@@ -14,6 +14,8 @@ struct core_piece {
     elvis_vec3 q, w;
     // What is left of the piece; low > high: nothing.
     elvis_real low, high;
+    // By how much at least all of the piece violates one face, as predicted; negative if it does not.
+    elvis_real clearance;
     // Largest offset from xi of what is left, in the maximum norm, and what the linearization leaves out there.
     elvis_real radius, beyond;
     elvis_real value, slope, error;
@@ -35,6 +37,12 @@ core_piece core_piece_in_element(elvis_vec3 xi, core_frame frame, elvis_vec3 off
     piece.low = -half_width;
     piece.high = half_width;
     const elvis_real rounding = core_max_norm(frame.xi_error);
+    piece.clearance = -CORE_UNKNOWN;
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        piece.clearance = max(piece.clearance, dot(constraint.xyz, xi + piece.q) + constraint.w -
+                                                   half_width * abs(dot(constraint.xyz, piece.w)));
+    }
     // What is left is nearer, and so better known: a second time.
     for (int turn = 0; turn < 2; ++turn) {
         const elvis_real step = core_piece_radius(piece);
