@@ -248,7 +248,7 @@ void main() {
             const elvis_real change = bend_here * distance;
             const bool is_at_root = (distance <= CORE_LAST_STEP && change * inverse_size <= CORE_NORMAL_ERROR * size &&
                                      change * distance * speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
-                                    distance <= elvis_real(4) * core_max_norm(frame.xi_error) ||
+                                    distance <= core_max_norm(frame.xi_error) ||
                                     // Rounding is most of the error: nothing more is to be had.
                                     (bend_here * piece.radius * piece.radius <= piece.error &&
                                      distance <= (moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * speed * crossing.half_width);
