@@ -58,7 +58,7 @@ struct SegmentsResult {
     std::uint32_t size = 0;
     Precision precision = Precision::float32;
     double milliseconds = 0;
-    std::uint64_t n_segments = 0, n_overlaps = 0, n_failures = 0;
+    std::uint64_t n_segments = 0, n_overlaps = 0, n_failures = 0, n_breaks = 0;
     /** Evaluations of the mapping; turns of the traversal's loop. */
     double evaluations_a_segment = 0, turns_a_segment = 0;
 };

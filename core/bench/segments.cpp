@@ -64,6 +64,7 @@ void bench_segments(const Device& device, const PluginRegistry& registry, const 
                     result.n_segments = counts.segments;
                     result.n_overlaps = counts.overlaps;
                     result.n_failures = counts.failures;
+                    result.n_breaks = counts.breaks;
                     result.evaluations_a_segment =
                         static_cast<double>(counts.evaluations) / static_cast<double>(counts.segments);
                     result.turns_a_segment = static_cast<double>(counts.turns) / static_cast<double>(counts.segments);

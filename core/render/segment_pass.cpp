@@ -17,8 +17,8 @@ constexpr std::size_t rays_a_batch = 1u << 17;
 constexpr std::uint32_t capacity = 32;
 /** Turns of a ray in a dispatch: with all loops inside below where drivers end them. */
 constexpr std::uint32_t turns_a_dispatch = 1000;
-constexpr std::size_t n_counts = 7;
-constexpr std::size_t place_of_open_rays = 5;
+constexpr std::size_t n_counts = 8;
+constexpr std::uint32_t most_rounds = 1000;
 constexpr std::uint32_t estimated_part = 0x80000000u;
 
 /** Of the volume's size: how far ends may be off, with room for rounding below 1e-6 and 1e-13. */
@@ -80,19 +80,22 @@ SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, cons
         if (info.n_elements == 0) {
             continue;
         }
+        ElementLinks links = make_element_links(device, volume, index, data.hierarchy(index), {}, m_precision);
         KernelRequest request;
         request.name = "segments of element class " + std::to_string(index);
         request.kernel = "kernels/segments.comp";
         request.precision = m_precision;
         request.instances = {data.instance(index)};
         request.buffers = data.host_buffers(index);
+        request.buffers.push_back({"core_links", links.links.get()});
+        request.buffers.push_back({"core_node_marks", links.node_marks.get()});
         request.bindings = {{0, BindingType::uniform_buffer},
                             {1, BindingType::storage_buffer},
                             {2, BindingType::storage_buffer},
                             {3, BindingType::storage_buffer},
                             {4, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(Parameters);
-        m_kernels.push_back({std::make_unique<ComposedKernel>(device, request), info.first_element});
+        m_kernels.push_back({std::move(links), std::make_unique<ComposedKernel>(device, request), info.first_element});
     }
     double square = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -129,7 +132,11 @@ void finish(std::span<const SegmentRay> rays, const Buffer& ray_buffer, const Bu
     }
     write_reals(ray_buffer, precision, numbers);
     states.write_items(std::span<const RayState<Real>>(start));
-    for (bool is_open = true; is_open;) {
+    for (std::uint32_t round = 0, n_open = 1; n_open > 0; ++round) {
+        if (round == most_rounds) {
+            counts.failures += n_open;
+            break;
+        }
         count_buffer.fill(0);
         run();
         const std::vector<std::uint32_t> found = count_buffer.read_items<std::uint32_t>(n_counts);
@@ -139,7 +146,8 @@ void finish(std::span<const SegmentRay> rays, const Buffer& ray_buffer, const Bu
         counts.failures += found[3];
         counts.estimated += found[4];
         counts.turns += found[6];
-        is_open = found[place_of_open_rays] > 0;
+        counts.breaks += found[7];
+        n_open = found[5];
         take();
     }
 }

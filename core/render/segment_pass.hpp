@@ -6,6 +6,7 @@
 
 #include <core/render/frame.hpp>
 #include <core/volume/device_volume.hpp>
+#include <core/volume/element_links.hpp>
 
 #include <array>
 #include <cstdint>
@@ -44,6 +45,8 @@ struct SegmentCounts {
     std::uint64_t overlaps = 0, failures = 0, estimated = 0;
     /** Turns of all invocations; dispatches. */
     std::uint64_t turns = 0, dispatches = 0;
+    /** Chains of neighbours that had to be taken up again by the hierarchy. */
+    std::uint64_t breaks = 0;
     double milliseconds = 0;
 };
 
@@ -60,6 +63,7 @@ public:
 
 private:
     struct ClassKernel {
+        ElementLinks links;
         std::unique_ptr<ComposedKernel> kernel;
         std::uint64_t first_element = 0;
     };

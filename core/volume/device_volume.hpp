@@ -82,6 +82,8 @@ public:
      * elements (shaders/library/linearization.glsl).
      */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
+    /** Of the class's elements. */
+    const Hierarchy& hierarchy(std::uint32_t element_class) const { return m_classes[element_class].hierarchy; }
 
     /**
      * Makes bounds of the selected fields and their derivatives in every element, if they are not there yet. For kernels that
@@ -118,6 +120,7 @@ private:
     };
     struct ClassData {
         Snippet snippet;
+        Hierarchy hierarchy;
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
         std::unique_ptr<RecordBuffer> elements;

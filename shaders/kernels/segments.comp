@@ -29,7 +29,7 @@ struct core_segment {
 };
 // Capacity of them a ray; with capacity 0 one, that has the sum of the lengths as `enter`.
 layout(set = 0, binding = 3, std430) buffer core_segments_block { core_segment core_segments[]; };
-// Segments, evaluations, overlaps, failures, estimated segments, rays that are not over, turns.
+// Segments, evaluations, overlaps, failures, estimated segments, rays that are not over, turns, breaks of chains.
 layout(set = 0, binding = 4, std430) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_parameters {
     uint core_first_ray, core_n_rays;
@@ -49,6 +49,7 @@ void main() {
     ray.direction = row1.xyz;
     ray.error = elvis_real(0);
     ray.speed = length(ray.direction);
+    ray.reach = elvis_real(1);
     ray.tolerance = core_centre.w / ray.speed;
     core_walk walk = core_begin_walk(ray, state.done, state.done_error, row1.w);
     const bool is_open = is_ray && state.is_over == 0u;
@@ -83,7 +84,7 @@ void main() {
     const uint all_segments = subgroupAdd(is_open ? n_segments : 0u), all_evaluations = subgroupAdd(is_open ? walk.n_evaluations : 0u);
     const uint all_overlaps = subgroupAdd(is_open ? walk.n_overlaps : 0u), all_failures = subgroupAdd(is_open ? walk.n_failures : 0u);
     const uint all_estimated = subgroupAdd(is_open ? n_estimated : 0u), all_left = subgroupAdd(is_left ? 1u : 0u);
-    const uint all_turns = subgroupAdd(is_open ? n_turns : 0u);
+    const uint all_turns = subgroupAdd(is_open ? n_turns : 0u), all_breaks = subgroupAdd(is_open ? walk.n_breaks : 0u);
     if (subgroupElect()) {
         atomicAdd(core_counts[0], all_segments);
         atomicAdd(core_counts[1], all_evaluations);
@@ -92,5 +93,6 @@ void main() {
         atomicAdd(core_counts[4], all_estimated);
         atomicAdd(core_counts[5], all_left);
         atomicAdd(core_counts[6], all_turns);
+        atomicAdd(core_counts[7], all_breaks);
     }
 }

@@ -35,6 +35,8 @@ struct core_walk_ray {
     elvis_real error;
     // Parameters closer than this are the same: the distance that ends may be off, over the direction's length.
     elvis_real tolerance, speed;
+    // Parameters within which the whole volume lies.
+    elvis_real reach;
 };
 
 struct core_part {
@@ -45,6 +47,8 @@ struct core_part {
     // Known to be inside from an earlier turn; empty if from > to.
     elvis_real known_from, known_to;
     elvis_real enter, enter_error, leave, leave_error;
+    // CORE_NO_FACE where they are not known.
+    int enter_face, leave_face;
     // Where the search goes on after the part, if before `last`.
     elvis_real resume;
     // The last prediction, from which the next point comes.
@@ -58,19 +62,19 @@ elvis_vec3 core_part_target(core_walk_ray ray, uint element, elvis_real t) {
     return (CORE_CENTRE - elvis_origin(element)) + (ray.origin + t * ray.direction);
 }
 
-// Starts with what lies in [begin, end]. False if the ray surely misses the element there.
-bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_real end, out core_part part) {
+// Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
+// at `begin`, if it is in it after that at all.
+bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_part part) {
     const core_linearization linearization = core_fetch_linearization(element);
     const bool is_linearized = linearization.exponents != 0u;
     const elvis_vec3 first = core_part_target(ray, element, begin);
-    const elvis_vec3 second = first + (end - begin) * ray.direction;
+    const elvis_vec3 second = first + ray.reach * ray.direction;
     const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(first)));
     const elvis_vec3 there = elvis_vec3(core_linear_inverse(linearization, vec3(second)));
-    const elvis_real length = max(end - begin, elvis_real(1e-30LF));
     const elvis_real curvature = elvis_real(core_curvature(linearization.exponents));
     core_ray_model model;
     model.at = here;
-    model.slope = (there - here) / length;
+    model.slope = (there - here) / ray.reach;
     model.anchor = begin;
     model.step = model.noise = elvis_vec3(0);
     // Points of the shape are no farther away than its radius, wherever they are predicted.
@@ -83,7 +87,7 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     part.is_estimated = !is_linearized || curvature > elvis_real(1e6LF);
     part.has_failed = false;
     part.curvature = part.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
-    part.is_inside = is_sure && clip.sure_from <= begin;
+    part.is_inside = is_sure && (is_entered || clip.sure_from <= begin);
     part.last = clip.possible_to;
     part.begin = part.is_inside ? clip.sure_to : clip.possible_from;
     part.end = is_sure && !part.is_inside ? clip.sure_from : clip.possible_to;
@@ -91,6 +95,7 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     part.known_from = is_sure ? clip.sure_from : elvis_real(3e38LF);
     part.known_to = is_sure ? clip.sure_to : elvis_real(-3e38LF);
     part.enter = begin;
+    part.enter_face = part.leave_face = CORE_NO_FACE;
     part.enter_error = part.leave = part.leave_error = part.resume = elvis_real(0);
     const elvis_vec3 middle = CORE_CENTROID;
     part.x = is_linearized ? here.x : middle.x;
@@ -122,6 +127,7 @@ void core_seek_entry(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool i
     const bool is_over = is_nothing || is_left_out;
     part.enter = is_found ? clamp(clip.from, clip.possible_from, clip.sure_from) : part.enter;
     part.enter_error = is_found ? error : part.enter_error;
+    part.enter_face = is_found ? clip.from_face : part.enter_face;
     part.is_inside = is_found;
     part.begin = is_found ? part.known_to : is_nothing ? end : is_left_out ? open_end : clip.possible_from;
     const bool is_bounded = part.known_to == clip.sure_to && clip.possible_to < end;
@@ -146,6 +152,7 @@ bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is
     const bool is_over = is_contradicted || is_last || is_found || is_short;
     part.leave = is_contradicted ? begin : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
     part.leave_error = is_found ? error : ray.tolerance;
+    part.leave_face = is_found ? clip.to_face : CORE_NO_FACE;
     part.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
     part.begin = is_all_inside ? end : open_begin;
     part.end = is_all_inside ? part.last : is_shrunk ? open_end : elvis_real(0.5LF) * (open_begin + open_end);
