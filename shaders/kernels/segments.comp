@@ -71,10 +71,12 @@ void main() {
         n_segments += is_segment ? 1u : 0u;
     }
     const bool is_cut_short = core_has_driver_given_up(core_zero);
+    for (uint turn = 0u; turn < (is_ray ? 1u : 0u); ++turn) {
+        core_states[index].n_segments = is_open ? n_segments : 0u;
+    }
     for (uint turn = 0u; turn < (is_open ? 1u : 0u); ++turn) {
         core_states[index].done = walk.done;
         core_states[index].done_error = walk.done_error;
-        core_states[index].n_segments = n_segments;
         core_states[index].is_over = walk.state == CORE_WALK_DONE && !is_cut_short ? 1u : 0u;
         for (uint second = 0u; second < (core_capacity == 0u ? 1u : 0u); ++second) {
             core_segments[index].enter += sum;

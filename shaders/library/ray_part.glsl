@@ -194,9 +194,9 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     clip.possible_to = is_sound ? clip.possible_to : part.end;
 
     const bool was_inside = part.is_inside;
-    const core_root_error error = core_root_error_at(model, frame, curvature, was_inside ? clip.to_face : clip.from_face,
-                                                     was_inside ? clip.to : clip.from);
-    const bool is_exact = error.distance <= ray.tolerance * ray.speed;
+    const int face = was_inside ? clip.to_face : clip.from_face;
+    const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
+    const bool is_exact = face >= 0 && error.distance <= ray.tolerance * ray.speed;
     core_part entered = part, left = part;
     core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, entered);
     const bool has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, left);
