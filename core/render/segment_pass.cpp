@@ -18,7 +18,7 @@ constexpr std::uint32_t capacity = 32;
 /** Turns of a ray in a dispatch: with all loops inside below where drivers end them. */
 constexpr std::uint32_t turns_a_dispatch = 1000;
 constexpr std::size_t n_counts = 8;
-constexpr std::uint32_t most_rounds = 1000;
+constexpr std::uint32_t most_rounds = 64;
 constexpr std::uint32_t estimated_part = 0x80000000u;
 
 /** Of the volume's size: how far ends may be off, with room for rounding below 1e-6 and 1e-13. */
@@ -80,7 +80,8 @@ SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, cons
         if (info.n_elements == 0) {
             continue;
         }
-        ElementLinks links = make_element_links(device, volume, index, data.hierarchy(index), {}, m_precision);
+        ElementLinks links = make_element_links(device, volume, index, data.hierarchy(index), data.curvatures(index), {},
+                                                m_precision);
         KernelRequest request;
         request.name = "segments of element class " + std::to_string(index);
         request.kernel = "kernels/segments.comp";

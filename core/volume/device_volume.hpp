@@ -84,6 +84,8 @@ public:
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
     /** Of the class's elements. */
     const Hierarchy& hierarchy(std::uint32_t element_class) const { return m_classes[element_class].hierarchy; }
+    /** Of the mapping of each element of the class (shaders/library/prediction.glsl), once a field is selected. */
+    std::span<const float> curvatures(std::uint32_t element_class) const { return m_classes[element_class].curvatures; }
 
     /**
      * Makes bounds of the selected fields and their derivatives in every element, if they are not there yet. For kernels that

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t no_link = 0xffffffffu;
 constexpr std::uint32_t faces_a_record = 8;
+constexpr std::uint32_t place_of_curvature = 7;
 constexpr std::uint32_t words_a_node = 4;
 constexpr std::uint64_t faces_a_block = 1u << 16;
 
@@ -49,9 +50,13 @@ std::vector<std::uint32_t> links_of(const RuntimeVolume& volume, const ClassInfo
 } // namespace
 
 ElementLinks make_element_links(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
-                                const Hierarchy& hierarchy, std::span<const double> ranges, Precision precision) {
+                                const Hierarchy& hierarchy, std::span<const float> curvatures,
+                                std::span<const double> ranges, Precision precision) {
     const ClassInfo& info = volume.classes()[element_class];
-    const std::vector<std::uint32_t> links = links_of(volume, info);
+    std::vector<std::uint32_t> links = links_of(volume, info);
+    for (std::uint64_t element = 0; element < info.n_elements; ++element) {
+        links[faces_a_record * element + place_of_curvature] = std::bit_cast<std::uint32_t>(curvatures[element]);
+    }
     ElementLinks result;
     result.links = std::make_unique<RecordBuffer>(device, RecordKind::uint, precision, info.n_elements, faces_a_record);
     result.links->write_uints(0, links);

@@ -14,7 +14,8 @@
 namespace elvis {
 
 struct ElementLinks {
-    /** For each element, by local face, the neighbour's position in the class; all bits where there is none, or in another class. */
+    /** For each element, by local face, the neighbour's position in the class; all bits where there is none, or in another class;
+     *  last the bits of its mapping's curvature. */
     std::unique_ptr<RecordBuffer> links;
     /** For each node: range of the field, as bits of floats, and 1 if an element has a face without such a neighbour. */
     std::unique_ptr<RecordBuffer> node_marks;
@@ -25,6 +26,7 @@ struct ElementLinks {
  * none.
  */
 ElementLinks make_element_links(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
-                                const Hierarchy& hierarchy, std::span<const double> ranges, Precision precision);
+                                const Hierarchy& hierarchy, std::span<const float> curvatures,
+                                std::span<const double> ranges, Precision precision);
 
 } // namespace elvis

@@ -10,7 +10,7 @@
 // The first split comes from the linearized mapping without any evaluation (library/linearization.glsl); it dismisses most elements
 // that are missed.
 //
-// The kernel brings CORE_CENTRE, the world's coordinates of the hierarchies' origin, and the buffer core_elements.
+// The kernel brings CORE_CENTRE, the world's coordinates of the hierarchies' origin, and the buffers core_elements and core_links.
 
 #include "library/linearization.glsl"
 #include "library/ray_model.glsl"
@@ -18,11 +18,13 @@
 // The linearized mapping keeps this many digits of coordinates in the element.
 #define CORE_START_ERROR elvis_real(1e-2LF)
 
-// Elements of unknown curvature, and those that take too many turns, are looked at with this bound or a part of it: their parts are
+// Elements of larger or unknown curvature, and those that take too many turns, are looked at with this bound or a part of it: their parts are
 // estimated.
-#define CORE_ASSUMED_CURVATURE elvis_real(2)
-#define CORE_CERTAIN_TURNS 16u
-#define CORE_PART_TURNS 48u
+#define CORE_ASSUMED_CURVATURE elvis_real(4)
+// In the record of core_links, behind the faces.
+#define CORE_LINKS_CURVATURE 7u
+#define CORE_CERTAIN_TURNS 64u
+#define CORE_PART_TURNS 128u
 
 #define CORE_PART_OPEN 0u
 #define CORE_PART_FOUND 1u
@@ -71,7 +73,7 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     const elvis_vec3 second = first + ray.reach * ray.direction;
     const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(first)));
     const elvis_vec3 there = elvis_vec3(core_linear_inverse(linearization, vec3(second)));
-    const elvis_real curvature = elvis_real(core_curvature(linearization.exponents));
+    const elvis_real curvature = elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)));
     core_ray_model model;
     model.at = here;
     model.slope = (there - here) / ray.reach;
@@ -84,7 +86,7 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     const bool is_sure = is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
 
     part.element = element;
-    part.is_estimated = !is_linearized || curvature > elvis_real(1e6LF);
+    part.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
     part.has_failed = false;
     part.curvature = part.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
     part.is_inside = is_sure && (is_entered || clip.sure_from <= begin);
@@ -131,7 +133,9 @@ void core_seek_entry(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool i
     part.is_inside = is_found;
     part.begin = is_found ? part.known_to : is_nothing ? end : is_left_out ? open_end : clip.possible_from;
     const bool is_bounded = part.known_to == clip.sure_to && clip.possible_to < end;
-    part.end = is_found ? (is_bounded ? clip.possible_to : part.last) : is_over ? part.last : is_shrunk ? open_end : middle;
+    // Twice as far as what was decided.
+    const elvis_real farther = min(part.last, end + elvis_real(2) * (end - begin));
+    part.end = is_found ? (is_bounded ? clip.possible_to : part.last) : is_over ? farther : is_shrunk ? open_end : middle;
     part.next = is_found || is_over || !is_sure || !is_shrunk ? elvis_real(0.5LF) * (part.begin + part.end)
                                                               : clamp(clip.from, part.begin, part.end);
 }
@@ -147,16 +151,23 @@ bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is
     const bool is_found = is_continued && !is_all_inside && (is_exact || clip.possible_to - clip.sure_to <= ray.tolerance);
     const elvis_real open_begin = is_continued ? clip.sure_to : begin;
     const elvis_real open_end = is_continued ? clip.possible_to : min(clip.possible_to, elvis_real(0.5LF) * (begin + end));
-    const bool is_short = !is_all_inside && open_end - open_begin <= ray.tolerance;
+    // Too short to matter, and not decided: as predicted.
+    const bool is_short = !is_all_inside && !is_found && open_end - open_begin <= ray.tolerance;
+    const elvis_real middle = elvis_real(0.5LF) * (open_begin + open_end);
+    const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < part.last;
     const bool is_shrunk = open_end - open_begin <= elvis_real(0.5LF) * (end - begin);
-    const bool is_over = is_contradicted || is_last || is_found || is_short;
+    const bool is_over = is_contradicted || is_last || is_found || (is_short && !is_passed);
     part.leave = is_contradicted ? begin : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
     part.leave_error = is_found ? error : ray.tolerance;
-    part.leave_face = is_found ? clip.to_face : CORE_NO_FACE;
+    part.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
     part.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
-    part.begin = is_all_inside ? end : open_begin;
-    part.end = is_all_inside ? part.last : is_shrunk ? open_end : elvis_real(0.5LF) * (open_begin + open_end);
-    part.next = is_continued && is_shrunk && !is_all_inside ? clamp(clip.to, part.begin, part.end)
+    part.begin = is_all_inside ? end : is_passed ? open_end : open_begin;
+    // Twice as far as what was decided.
+    part.end = is_all_inside ? min(part.last, end + elvis_real(2) * (end - begin))
+               : is_passed   ? min(part.last, open_end + elvis_real(2) * ray.tolerance)
+               : is_shrunk   ? open_end
+                             : middle;
+    part.next = is_continued && is_shrunk && !is_all_inside && !is_passed ? clamp(clip.to, part.begin, part.end)
                                                              : elvis_real(0.5LF) * (part.begin + part.end);
     return is_over;
 }
@@ -166,7 +177,9 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const uint element = is_active ? part.element : 0u;
     const elvis_real since = part.next - part.anchor;
     elvis_real x = part.x + since * part.slope_x, y = part.y + since * part.slope_y, z = part.z + since * part.slope_z;
+    const elvis_vec3 predicted = elvis_vec3(x, y, z);
     core_project(x, y, z);
+    const bool was_outside = x != predicted.x || y != predicted.y || z != predicted.z;
     elvis_vec3 position;
     elvis_mat3 jacobian;
     elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
@@ -184,10 +197,16 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const bool is_certain = part.turns <= CORE_CERTAIN_TURNS;
     part.is_estimated = part.is_estimated || !is_certain;
     const elvis_real curvature = is_certain ? part.curvature
-                                 : min(part.curvature, CORE_ASSUMED_CURVATURE) *
-                                       (part.turns <= 2u * CORE_CERTAIN_TURNS ? elvis_real(0.125LF) : elvis_real(0.015625LF));
+                                 : part.curvature *
+                                       (part.turns < 96u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
     const elvis_real step = max(core_model_step(model, part.begin), core_model_step(model, part.end));
-    core_ray_clip clip = core_clip_ray(model, core_prediction_error(curvature, step), part.begin, part.end);
+    // Far from a curved element the bound says nothing; there, two predictions that agree do, as in library/newton.glsl.
+    const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);
+    const elvis_real along = max(max(slope.x, slope.y), slope.z) * (part.end - part.begin);
+    const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
+    const elvis_real bound = core_prediction_error(curvature, step);
+    core_ray_clip clip =
+        core_clip_ray(model, was_outside && part.turns > 1u ? min(bound, agreed) : bound, part.begin, part.end);
     const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
     // Where nothing is known, anything is possible.
     clip.possible_from = is_sound ? clip.possible_from : part.begin;

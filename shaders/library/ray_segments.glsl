@@ -24,7 +24,7 @@
 // where a chain breaks because a ray runs through an edge. What several chains and boxes find settles as above.
 //
 // The kernel brings what library/ray_part.glsl needs and the buffers core_nodes; core_links, the neighbour in the same class or
-// CORE_NO_LINK for each local face of an element; and core_node_marks (range of the field in the node, as bits of floats; whether
+// CORE_NO_LINK for each local face of an element, then its curvature; and core_node_marks (range of the field in the node, as bits of floats; whether
 // it has an element with an open face). With CORE_SKIPS_RANGES nodes whose field cannot be in walk.wanted are passed over as if
 // they were not there, and every other element is looked for in the hierarchy.
 
@@ -71,8 +71,9 @@ struct core_walk {
     bool has_next;
     elvis_real next_begin, next_error, next_end;
     core_part part;
-    // Evaluations of the mapping, parts hidden by others, parts given up, chains broken.
-    uint n_evaluations, n_overlaps, n_failures, n_breaks;
+    // Evaluations of the mapping, parts hidden by others, parts given up, chains broken, searches
+    // taken up again behind a part.
+    uint n_evaluations, n_overlaps, n_failures, n_breaks, n_resumed;
 };
 
 // Of a walk; here, because copies of arrays are not free. Both descend: the next one is the last.
@@ -105,7 +106,7 @@ vec2 core_walk_box(core_walk walk, uint index, core_node node) {
     const bool is_around = enter - slack <= walk.search_at && walk.search_at <= leave + slack;
     is_met = is_met && (marks.z != 0u || is_around);
 #endif
-    return is_met ? vec2(max(enter - slack, float(walk.done)), leave + slack) : vec2(CORE_NEVER, -CORE_NEVER);
+    return is_met ? vec2(enter - slack, leave + slack) : vec2(CORE_NEVER, -CORE_NEVER);
 }
 
 void core_queue(inout core_walk walk, float at, uint node) {
@@ -203,7 +204,7 @@ core_walk core_begin_walk(core_walk_ray ray, elvis_real from, elvis_real from_er
     walk.next_element = 0u;
     walk.box = CORE_NO_LINK;
     walk.next_begin = walk.next_error = walk.next_end = elvis_real(0);
-    walk.n_evaluations = walk.n_overlaps = walk.n_failures = walk.n_breaks = 0u;
+    walk.n_evaluations = walk.n_overlaps = walk.n_failures = walk.n_breaks = walk.n_resumed = 0u;
     walk.part.element = 0u;
     walk.part.next = walk.part.anchor = walk.part.x = walk.part.y = walk.part.z = elvis_real(0);
     walk.part.slope_x = walk.part.slope_y = walk.part.slope_z = elvis_real(0);
@@ -295,11 +296,14 @@ void core_take_part(inout core_walk walk, bool is_found) {
     const bool is_missed = is_chained && (!is_found || walk.part.enter > walk.next_begin + walk.next_error + walk.part.enter_error);
     const bool is_unknown = is_found && walk.part.leave_face < 0 && CORE_SKIPS_RANGES == 0;
     const elvis_real break_at = is_missed ? walk.next_begin : walk.part.leave;
-    const bool is_broken = (is_missed || is_unknown) && float(break_at) > walk.search_at;
+    // So far apart at least that their number is bounded.
+    const float progress = float(walk.ray.tolerance) * exp2(float(min(walk.n_breaks + walk.n_resumed, 20u)));
+    const bool is_broken = (is_missed || is_unknown) && float(break_at) > walk.search_at + progress;
     for (uint turn = 0u; turn < (is_found && !is_chained && walk.part.resume < walk.part.last ? 1u : 0u); ++turn) {
         // Rounded up, so that it is not the same part again.
-        const float resume = float(walk.part.resume);
+        const float resume = max(float(walk.part.resume), float(walk.next_begin) + progress);
         core_queue(walk, resume + 2.0 * CORE_FLOAT_ROUNDOFF * abs(resume), walk.box);
+        walk.n_resumed += 1u;
     }
     for (uint turn = 0u; turn < (is_broken ? 1u : 0u); ++turn) {
         walk.n_breaks += 1u;
