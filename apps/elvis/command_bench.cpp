@@ -178,6 +178,34 @@ nlohmann::ordered_json run_surfaces(const Arguments& arguments, const Device& de
     return list;
 }
 
+nlohmann::ordered_json run_segments(const Arguments& arguments, const Device& device, const PluginRegistry& registry,
+                                    const BenchFolder& folder, double unit) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    bench_segments(device, registry, folder, arguments.elements, arguments.sizes, [&](const SegmentsResult& result) {
+        const char* precision = result.precision == Precision::float64 ? "float64" : "float32";
+        list.push_back({{"elements_a_side", result.elements_a_side},
+                        {"size", result.size},
+                        {"precision", precision},
+                        {"milliseconds", result.milliseconds},
+                        {"n_segments", result.n_segments},
+                        {"evaluations_a_segment", result.evaluations_a_segment},
+                        {"turns_a_segment", result.turns_a_segment},
+                        {"n_overlaps", result.n_overlaps},
+                        {"n_failures", result.n_failures},
+                        {"n_breaks", result.n_breaks}});
+        if (!arguments.json) {
+            std::printf("%2u^3  %4u^2  %s  %8.1f ms %9.3g U   %llu segments, each %.2f evaluations, %.2f turns; %llu overlaps, "
+                        "%llu failures, %llu chains broken\n",
+                        result.elements_a_side, result.size, precision, result.milliseconds, 1e6 * result.milliseconds / unit,
+                        static_cast<unsigned long long>(result.n_segments), result.evaluations_a_segment,
+                        result.turns_a_segment, static_cast<unsigned long long>(result.n_overlaps),
+                        static_cast<unsigned long long>(result.n_failures), static_cast<unsigned long long>(result.n_breaks));
+            std::fflush(stdout);
+        }
+    });
+    return list;
+}
+
 void run(const Arguments& arguments) {
     nlohmann::ordered_json root;
     const bool all = arguments.suite == "all";
@@ -200,7 +228,7 @@ void run(const Arguments& arguments) {
         root["roots"] = run_roots(arguments);
     }
     if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary" ||
-        arguments.suite == "surfaces") {
+        arguments.suite == "segments" || arguments.suite == "surfaces") {
         const PluginRegistry registry;
         const BenchFolder folder(arguments.data);
         const Device device(arguments.device);
@@ -229,6 +257,9 @@ void run(const Arguments& arguments) {
         };
         measure(BenchView::cut_plane, "cut-plane", "cut_plane");
         measure(BenchView::boundary, "boundary", "boundary");
+        if (all || arguments.suite == "segments") {
+            root["segments"] = run_segments(arguments, device, registry, folder, unit);
+        }
         // Minutes, and no part of "all".
         if (arguments.suite == "surfaces") {
             root["surfaces"] = run_surfaces(arguments, device, registry, folder, unit);
@@ -246,8 +277,8 @@ void add_bench(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     command
         ->add_option("suite", arguments->suite,
-                     "unit, cut-plane, boundary, hierarchy, jacobian, roots, all of these, or surfaces")
-        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "hierarchy", "jacobian", "roots", "surfaces", "all"}))
+                     "unit, cut-plane, boundary, segments, hierarchy, jacobian, roots, all of these, or surfaces")
+        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "segments", "hierarchy", "jacobian", "roots", "surfaces", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");

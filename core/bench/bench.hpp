@@ -52,6 +52,20 @@ void bench_surface(const Device& device, const PluginRegistry& registry, const B
                    const std::vector<std::uint32_t>& sizes, double unit_nanoseconds,
                    const std::function<void(const SurfaceResult&)>& report);
 
+/** All segments of all rays of the waves picture: traversal alone, no field. */
+struct SegmentsResult {
+    std::uint32_t elements_a_side = 0;
+    std::uint32_t size = 0;
+    Precision precision = Precision::float32;
+    double milliseconds = 0;
+    std::uint64_t n_segments = 0, n_overlaps = 0, n_failures = 0, n_breaks = 0;
+    /** Evaluations of the mapping; turns of the traversal's loop. */
+    double evaluations_a_segment = 0, turns_a_segment = 0;
+};
+void bench_segments(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
+                    const std::vector<std::uint32_t>& elements_a_side, const std::vector<std::uint32_t>& sizes,
+                    const std::function<void(const SegmentsResult&)>& report);
+
 struct HierarchyResult {
     std::uint64_t n_items = 0;
     double wall_milliseconds = 0;

@@ -85,9 +85,9 @@ void DeviceVolume::build_class(std::uint32_t element_class, const std::vector<do
     ClassData data;
     data.snippet = m_volume.snippet(element_class);
     if (info.n_elements > 0) {
-        const Hierarchy hierarchy(std::span<const double>(boxes).subspan(6 * info.first_element, 6 * info.n_elements),
-                                  m_centre);
-        const std::span<const HierarchyNode> nodes = hierarchy.nodes();
+        data.hierarchy =
+            Hierarchy(std::span<const double>(boxes).subspan(6 * info.first_element, 6 * info.n_elements), m_centre);
+        const std::span<const HierarchyNode> nodes = data.hierarchy.nodes();
         data.nodes = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, nodes.size(), 8);
         std::vector<std::uint32_t> words(8 * nodes.size());
         std::memcpy(words.data(), nodes.data(), nodes.size_bytes());

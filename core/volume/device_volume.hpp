@@ -82,6 +82,10 @@ public:
      * elements (shaders/library/linearization.glsl).
      */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
+    /** Of the class's elements. */
+    const Hierarchy& hierarchy(std::uint32_t element_class) const { return m_classes[element_class].hierarchy; }
+    /** Of the mapping of each element of the class (shaders/library/prediction.glsl), once a field is selected. */
+    std::span<const float> curvatures(std::uint32_t element_class) const { return m_classes[element_class].curvatures; }
 
     /**
      * Makes bounds of the selected fields and their derivatives in every element, if they are not there yet. For kernels that
@@ -118,6 +122,7 @@ private:
     };
     struct ClassData {
         Snippet snippet;
+        Hierarchy hierarchy;
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
         std::unique_ptr<RecordBuffer> elements;

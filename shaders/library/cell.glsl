@@ -11,6 +11,7 @@
 //
 // and otherwise it is open. Faces in which the surface lies do not bound anything on it: they are left out.
 
+#include "library/element_frame.glsl"
 #include "library/model.glsl"
 #include "library/prediction.glsl"
 #include "library/shape_region.glsl"
@@ -78,34 +79,6 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
     }
     cell.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
                       (is_outside0 || is_outside1 || is_outside2 || is_outside3);
-}
-
-// J^-1 by rows, and what positions lose by rounding as coordinates, as in library/newton.glsl.
-struct core_frame {
-    elvis_vec3 row0, row1, row2;
-    elvis_vec3 xi_error;
-    bool is_sound;
-};
-
-// `position_error`: of the cell's corners, beyond the rounding of the mapping.
-core_frame core_frame_at(elvis_vec3 position, elvis_mat3 jacobian, elvis_real position_error) {
-    const elvis_vec3 cofactors0 = cross(jacobian[1], jacobian[2]);
-    const elvis_vec3 cofactors1 = cross(jacobian[2], jacobian[0]);
-    const elvis_vec3 cofactors2 = cross(jacobian[0], jacobian[1]);
-    const elvis_real inverse_determinant = elvis_real(1) / dot(jacobian[0], cofactors0);
-    core_frame frame;
-    frame.row0 = inverse_determinant * cofactors0;
-    frame.row1 = inverse_determinant * cofactors1;
-    frame.row2 = inverse_determinant * cofactors2;
-    const elvis_vec3 extent = abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2]) + abs(position);
-    const elvis_vec3 error = elvis_real(4) * CORE_ROUNDOFF * extent + position_error;
-    frame.xi_error = elvis_vec3(dot(abs(frame.row0), error), dot(abs(frame.row1), error), dot(abs(frame.row2), error));
-    frame.is_sound = core_is_finite(inverse_determinant);
-    return frame;
-}
-
-elvis_vec3 core_to_xi(core_frame frame, elvis_vec3 x) {
-    return elvis_vec3(dot(frame.row0, x), dot(frame.row1, x), dot(frame.row2, x));
 }
 
 // `corners`: relative to the image of xi. `own_face`: as in core_judge_faces.

@@ -1,0 +1,103 @@
+// A ray in one element, to first order: the reference coordinates of its points as predicted by a Newton step from one point of the
+// element, how far off they may be (library/prediction.glsl), and what the faces, which are linear in them, make of that:
+//
+//   possible   the ray may be inside: outside of this interval it surely violates a face
+//   sure       it surely is: every face is kept by more than the error
+//   from, to   where it enters and leaves as predicted
+//
+// All within the interval that the error was bounded on.
+
+#include "library/element_frame.glsl"
+#include "library/prediction.glsl"
+#include "library/shape_region.glsl"
+
+#define CORE_NO_FACE -1
+
+// No point of the shape is farther from its centroid, in the maximum norm.
+#if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
+#define CORE_SHAPE_RADIUS elvis_real(1)
+#elif ELVIS_SHAPE == ELVIS_SHAPE_PRISM
+#define CORE_SHAPE_RADIUS (elvis_real(4) / elvis_real(3))
+#else
+#define CORE_SHAPE_RADIUS elvis_real(1.5LF)
+#endif
+
+struct core_ray_model {
+    // Prediction at the parameter `anchor`, and how it changes with it.
+    elvis_vec3 at, slope;
+    elvis_real anchor;
+    // From the point that the prediction was made from.
+    elvis_vec3 step;
+    // Rounding of the coordinates.
+    elvis_vec3 noise;
+};
+
+// Length of the step that leads to the prediction at t.
+elvis_real core_model_step(core_ray_model model, elvis_real t) {
+    const elvis_vec3 step = abs(model.step + (t - model.anchor) * model.slope);
+    return max(max(step.x, step.y), step.z);
+}
+
+// Newton's method surely converges from there (Kantorovich), so that what is predicted inside exists.
+bool core_is_near(elvis_real curvature, elvis_real step) { return elvis_real(4) * curvature * step < elvis_real(1); }
+
+struct core_ray_clip {
+    elvis_real possible_from, possible_to, sure_from, sure_to, from, to;
+    // The faces that bound from and to; CORE_NO_FACE where the interval does.
+    int from_face, to_face;
+};
+
+// Within [begin, end], where predictions are off by at most `error`. A face that the ray runs along within rounding does not bound
+// it: rays in a face that two elements share lie in both.
+core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real begin, elvis_real end) {
+    const elvis_real low = begin - model.anchor, high = end - model.anchor;
+    const elvis_real tiny = elvis_real(1e-30LF);
+    core_ray_clip clip = core_ray_clip(low, high, low, high, low, high, CORE_NO_FACE, CORE_NO_FACE);
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        const elvis_vec3 size = abs(constraint.xyz);
+        const elvis_real noise = dot(size, model.noise);
+        const elvis_real slope = dot(constraint.xyz, model.slope);
+        const bool is_along = abs(slope) * (high - low) <= noise;
+        const elvis_real value = dot(constraint.xyz, model.at) + constraint.w - (is_along ? elvis_real(3) * noise : elvis_real(0));
+        const elvis_real slack = (size.x + size.y + size.z) * error + (is_along ? elvis_real(0) : noise);
+        const bool is_leaving = slope >= elvis_real(0);
+        const elvis_real inverse = elvis_real(1) / max(abs(slope), tiny);
+        const elvis_real sign = is_leaving ? elvis_real(-1) : elvis_real(1);
+        const elvis_real root = sign * value * inverse;
+        const elvis_real inner = sign * (value + slack) * inverse, outer = sign * (value - slack) * inverse;
+        const bool is_first_to = is_leaving && root < clip.to, is_last_from = !is_leaving && root > clip.from;
+        clip.to = is_first_to ? root : clip.to;
+        clip.to_face = is_first_to ? face : clip.to_face;
+        clip.from = is_last_from ? root : clip.from;
+        clip.from_face = is_last_from ? face : clip.from_face;
+        clip.possible_to = is_leaving ? min(clip.possible_to, outer) : clip.possible_to;
+        clip.sure_to = is_leaving ? min(clip.sure_to, inner) : clip.sure_to;
+        clip.possible_from = is_leaving ? clip.possible_from : max(clip.possible_from, outer);
+        clip.sure_from = is_leaving ? clip.sure_from : max(clip.sure_from, inner);
+    }
+    // The interval's ends themselves without rounding, so that they can be told.
+    clip.possible_from = clip.possible_from <= low ? begin : model.anchor + clip.possible_from;
+    clip.possible_to = clip.possible_to >= high ? end : model.anchor + clip.possible_to;
+    clip.sure_from = clip.sure_from <= low ? begin : model.anchor + clip.sure_from;
+    clip.sure_to = clip.sure_to >= high ? end : model.anchor + clip.sure_to;
+    clip.from += model.anchor;
+    clip.to += model.anchor;
+    return clip;
+}
+
+struct core_root_error {
+    // Of the boundary, in world length; of the parameter, rounding included.
+    elvis_real distance, parameter;
+};
+
+core_root_error core_root_error_at(core_ray_model model, core_frame frame, elvis_real curvature, int face, elvis_real root) {
+    const elvis_vec4 constraint = core_face_constraint(max(face, 0));
+    const elvis_vec3 size = abs(constraint.xyz);
+    const elvis_real error = (size.x + size.y + size.z) * core_prediction_error(curvature, core_model_step(model, root));
+    const elvis_vec3 normal = constraint.x * frame.row0 + constraint.y * frame.row1 + constraint.z * frame.row2;
+    const elvis_real slope = max(abs(dot(constraint.xyz, model.slope)), elvis_real(1e-30LF));
+    const bool is_face = face >= 0;
+    return core_root_error(is_face ? error * inversesqrt(dot(normal, normal)) : elvis_real(0),
+                           is_face ? (error + dot(size, model.noise)) / slope : elvis_real(0));
+}

@@ -1,0 +1,241 @@
+// The parts of a ray in one element, one after the other, one evaluation of the mapping a turn.
+//
+// Each turn looks at an interval of the ray, [begin, end], up to which everything is decided: the ray is outside before `begin`, or,
+// once it has entered, inside. The mapping is evaluated at the point predicted for a parameter in the interval; that splits it
+// into what is outside, what is inside and what is open (library/ray_model.glsl). The open piece around a single crossing is the
+// next interval, with the crossing as predicted as its parameter: Newton's method, whose bounds shrink quadratically. Where an
+// interval does not shrink by half its first half is next. So a part is found however often the ray crosses a face, and faces
+// are never extrapolated beyond where the bound holds.
+//
+// The first split comes from the linearized mapping without any evaluation (library/linearization.glsl); it dismisses most elements
+// that are missed.
+//
+// The kernel brings CORE_CENTRE, the world's coordinates of the hierarchies' origin, and the buffers core_elements and core_links.
+
+#include "library/linearization.glsl"
+#include "library/ray_model.glsl"
+
+// The linearized mapping keeps this many digits of coordinates in the element.
+#define CORE_START_ERROR elvis_real(1e-2LF)
+
+// Elements of larger or unknown curvature, and those that take too many turns, are looked at with this bound or a part of it: their parts are
+// estimated.
+#define CORE_ASSUMED_CURVATURE elvis_real(4)
+// In the record of core_links, behind the faces.
+#define CORE_LINKS_CURVATURE 7u
+#define CORE_CERTAIN_TURNS 64u
+#define CORE_PART_TURNS 128u
+
+#define CORE_PART_OPEN 0u
+#define CORE_PART_FOUND 1u
+#define CORE_PART_NONE 2u
+
+struct core_walk_ray {
+    // Relative to the hierarchies' origin; any length.
+    elvis_vec3 origin, direction;
+    // Bound of the rounding of its points' coordinates.
+    elvis_real error;
+    // Parameters closer than this are the same: the distance that ends may be off, over the direction's length.
+    elvis_real tolerance, speed;
+    // Parameters within which the whole volume lies.
+    elvis_real reach;
+};
+
+struct core_part {
+    uint element;
+    bool is_inside, is_estimated, has_failed;
+    // The interval, the end of what is open, and the parameter to evaluate at.
+    elvis_real begin, end, last, next;
+    // Known to be inside from an earlier turn; empty if from > to.
+    elvis_real known_from, known_to;
+    elvis_real enter, enter_error, leave, leave_error;
+    // CORE_NO_FACE where they are not known.
+    int enter_face, leave_face;
+    // Where the search goes on after the part, if before `last`.
+    elvis_real resume;
+    // The last prediction, from which the next point comes.
+    elvis_real x, y, z, slope_x, slope_y, slope_z, anchor;
+    elvis_real curvature;
+    uint turns;
+};
+
+elvis_vec3 core_part_target(core_walk_ray ray, uint element, elvis_real t) {
+    // elvis_origin is zero where the snippet's coordinates are the world's.
+    return (CORE_CENTRE - elvis_origin(element)) + (ray.origin + t * ray.direction);
+}
+
+// Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
+// at `begin`, if it is in it after that at all.
+bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_part part) {
+    const core_linearization linearization = core_fetch_linearization(element);
+    const bool is_linearized = linearization.exponents != 0u;
+    const elvis_vec3 first = core_part_target(ray, element, begin);
+    const elvis_vec3 second = first + ray.reach * ray.direction;
+    const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(first)));
+    const elvis_vec3 there = elvis_vec3(core_linear_inverse(linearization, vec3(second)));
+    const elvis_real curvature = elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)));
+    core_ray_model model;
+    model.at = here;
+    model.slope = (there - here) / ray.reach;
+    model.anchor = begin;
+    model.step = model.noise = elvis_vec3(0);
+    // Points of the shape are no farther away than its radius, wherever they are predicted.
+    const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
+    const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), begin, end);
+    const bool is_possible = clip.possible_from <= clip.possible_to && begin < end;
+    const bool is_sure = is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
+
+    part.element = element;
+    part.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
+    part.has_failed = false;
+    part.curvature = part.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
+    part.is_inside = is_sure && (is_entered || clip.sure_from <= begin);
+    part.last = clip.possible_to;
+    part.begin = part.is_inside ? clip.sure_to : clip.possible_from;
+    part.end = is_sure && !part.is_inside ? clip.sure_from : clip.possible_to;
+    part.next = elvis_real(0.5LF) * (part.begin + part.end);
+    part.known_from = is_sure ? clip.sure_from : elvis_real(3e38LF);
+    part.known_to = is_sure ? clip.sure_to : elvis_real(-3e38LF);
+    part.enter = begin;
+    part.enter_face = part.leave_face = CORE_NO_FACE;
+    part.enter_error = part.leave = part.leave_error = part.resume = elvis_real(0);
+    const elvis_vec3 middle = CORE_CENTROID;
+    part.x = is_linearized ? here.x : middle.x;
+    part.y = is_linearized ? here.y : middle.y;
+    part.z = is_linearized ? here.z : middle.z;
+    part.slope_x = is_linearized ? model.slope.x : elvis_real(0);
+    part.slope_y = is_linearized ? model.slope.y : elvis_real(0);
+    part.slope_z = is_linearized ? model.slope.z : elvis_real(0);
+    part.anchor = begin;
+    part.turns = 0u;
+    return is_possible;
+}
+
+// Before the entry: where the interval is open, and whether the ray enters in it.
+void core_seek_entry(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_part part) {
+    const elvis_real begin = part.begin, end = part.end;
+    const bool is_nothing = clip.possible_from > clip.possible_to;
+    part.last = end == part.last ? (is_nothing ? begin : clip.possible_to) : part.last;
+    const bool is_joined = clip.sure_to >= end && part.known_from <= end;
+    part.known_to = is_sure && !is_joined ? clip.sure_to : part.known_to;
+    part.known_from = is_sure ? clip.sure_from : part.known_from;
+    const bool is_found = !is_nothing && is_sure && (is_exact || clip.sure_from - clip.possible_from <= ray.tolerance);
+
+    const elvis_real open_end = is_sure ? clip.sure_from : clip.possible_to;
+    const bool is_shrunk = open_end - clip.possible_from <= elvis_real(0.5LF) * (end - begin);
+    const elvis_real middle = elvis_real(0.5LF) * (clip.possible_from + open_end);
+    // Too short to matter, and not decided: left out.
+    const bool is_left_out = !is_nothing && !is_found && open_end - clip.possible_from <= ray.tolerance;
+    const bool is_over = is_nothing || is_left_out;
+    part.enter = is_found ? clamp(clip.from, clip.possible_from, clip.sure_from) : part.enter;
+    part.enter_error = is_found ? error : part.enter_error;
+    part.enter_face = is_found ? clip.from_face : part.enter_face;
+    part.is_inside = is_found;
+    part.begin = is_found ? part.known_to : is_nothing ? end : is_left_out ? open_end : clip.possible_from;
+    const bool is_bounded = part.known_to == clip.sure_to && clip.possible_to < end;
+    // Twice as far as what was decided.
+    const elvis_real farther = min(part.last, end + elvis_real(2) * (end - begin));
+    part.end = is_found ? (is_bounded ? clip.possible_to : part.last) : is_over ? farther : is_shrunk ? open_end : middle;
+    part.next = is_found || is_over || !is_sure || !is_shrunk ? elvis_real(0.5LF) * (part.begin + part.end)
+                                                              : clamp(clip.from, part.begin, part.end);
+}
+
+// Inside: where the ray leaves. True if that is found.
+bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_part part) {
+    const elvis_real begin = part.begin, end = part.end;
+    const bool is_contradicted = clip.possible_from > min(clip.possible_to, begin + ray.tolerance);
+    const bool is_continued = is_sure && clip.sure_from <= begin + ray.tolerance;
+    part.last = end == part.last && !is_contradicted ? clip.possible_to : part.last;
+    const bool is_all_inside = is_continued && clip.sure_to >= end;
+    const bool is_last = is_all_inside && end >= part.last;
+    const bool is_found = is_continued && !is_all_inside && (is_exact || clip.possible_to - clip.sure_to <= ray.tolerance);
+    const elvis_real open_begin = is_continued ? clip.sure_to : begin;
+    const elvis_real open_end = is_continued ? clip.possible_to : min(clip.possible_to, elvis_real(0.5LF) * (begin + end));
+    // Too short to matter, and not decided: as predicted.
+    const bool is_short = !is_all_inside && !is_found && open_end - open_begin <= ray.tolerance;
+    const elvis_real middle = elvis_real(0.5LF) * (open_begin + open_end);
+    const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < part.last;
+    const bool is_shrunk = open_end - open_begin <= elvis_real(0.5LF) * (end - begin);
+    const bool is_over = is_contradicted || is_last || is_found || (is_short && !is_passed);
+    part.leave = is_contradicted ? begin : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
+    part.leave_error = is_found ? error : ray.tolerance;
+    part.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
+    part.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
+    part.begin = is_all_inside ? end : is_passed ? open_end : open_begin;
+    // Twice as far as what was decided.
+    part.end = is_all_inside ? min(part.last, end + elvis_real(2) * (end - begin))
+               : is_passed   ? min(part.last, open_end + elvis_real(2) * ray.tolerance)
+               : is_shrunk   ? open_end
+                             : middle;
+    part.next = is_continued && is_shrunk && !is_all_inside && !is_passed ? clamp(clip.to, part.begin, part.end)
+                                                             : elvis_real(0.5LF) * (part.begin + part.end);
+    return is_over;
+}
+
+// One turn. CORE_PART_FOUND: from part.enter to part.leave. `is_active`: false for lanes that have nothing to do.
+uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
+    const uint element = is_active ? part.element : 0u;
+    const elvis_real since = part.next - part.anchor;
+    elvis_real x = part.x + since * part.slope_x, y = part.y + since * part.slope_y, z = part.z + since * part.slope_z;
+    const elvis_vec3 predicted = elvis_vec3(x, y, z);
+    core_project(x, y, z);
+    const bool was_outside = x != predicted.x || y != predicted.y || z != predicted.z;
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
+    const core_frame frame = core_frame_at(position, jacobian, ray.error);
+
+    core_ray_model model;
+    model.step = core_to_xi(frame, core_part_target(ray, element, part.next) - position);
+    model.at = elvis_vec3(x, y, z) + model.step;
+    model.slope = core_to_xi(frame, ray.direction);
+    model.anchor = part.next;
+    model.noise = frame.xi_error;
+    const bool is_sound = frame.is_sound && core_is_finite(model.step.x + model.step.y + model.step.z);
+
+    part.turns += 1u;
+    const bool is_certain = part.turns <= CORE_CERTAIN_TURNS;
+    part.is_estimated = part.is_estimated || !is_certain;
+    const elvis_real curvature = is_certain ? part.curvature
+                                 : part.curvature *
+                                       (part.turns < 96u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
+    const elvis_real step = max(core_model_step(model, part.begin), core_model_step(model, part.end));
+    // Far from a curved element the bound says nothing; there, two predictions that agree do, as in library/newton.glsl.
+    const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);
+    const elvis_real along = max(max(slope.x, slope.y), slope.z) * (part.end - part.begin);
+    const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
+    const elvis_real bound = core_prediction_error(curvature, step);
+    core_ray_clip clip =
+        core_clip_ray(model, was_outside && part.turns > 1u ? min(bound, agreed) : bound, part.begin, part.end);
+    const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
+    // Where nothing is known, anything is possible.
+    clip.possible_from = is_sound ? clip.possible_from : part.begin;
+    clip.possible_to = is_sound ? clip.possible_to : part.end;
+
+    const bool was_inside = part.is_inside;
+    const int face = was_inside ? clip.to_face : clip.from_face;
+    const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
+    const bool is_exact = face >= 0 && error.distance <= ray.tolerance * ray.speed;
+    core_part entered = part, left = part;
+    core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, entered);
+    const bool has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, left);
+    if (was_inside) {
+        part = left;
+    } else {
+        part = entered;
+    }
+    part.x = is_sound ? model.at.x : part.x;
+    part.y = is_sound ? model.at.y : part.y;
+    part.z = is_sound ? model.at.z : part.z;
+    part.slope_x = is_sound ? model.slope.x : part.slope_x;
+    part.slope_y = is_sound ? model.slope.y : part.slope_y;
+    part.slope_z = is_sound ? model.slope.z : part.slope_z;
+    part.anchor = is_sound ? model.anchor : part.anchor;
+
+    const bool is_given_up = part.turns >= CORE_PART_TURNS;
+    const bool is_found = was_inside && (has_left || is_given_up);
+    part.has_failed = is_given_up && !(was_inside && has_left);
+    const bool is_last = !was_inside && !part.is_inside && (part.begin >= part.last || is_given_up);
+    part.resume = is_given_up && !has_left ? part.last : part.resume;
+    return is_found ? CORE_PART_FOUND : is_last ? CORE_PART_NONE : CORE_PART_OPEN;
+}

@@ -1,0 +1,34 @@
+/**
+ * @file segment_accuracy.hpp
+ * Segments of random rays against the elements as the isoparametric shapes that they are.
+ */
+#pragma once
+
+#include "volume.hpp"
+
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/render/segment_pass.hpp>
+#include <core/vulkan/device.hpp>
+
+namespace elvis::oracle {
+
+struct SegmentAccuracy {
+    std::size_t n_rays = 0, n_segments = 0, n_joints = 0;
+    /** Largest distance of an end from the element's boundary, and largest error of an end's parameter times max(|n.d|, 1e-3). */
+    double end_error = 0, chord_error = 0;
+    /** Ends beyond the promise: 1e-6 of the box in single, 1e-13 in double precision; not counting those of estimated segments. */
+    std::size_t n_beyond = 0;
+    /** Consecutive segments that almost share a parameter, but not exactly. */
+    std::size_t n_almost_joined = 0;
+    /** Points by chance that lie in an element but in no segment, and the other way round; not nearer to an end than the promise. */
+    std::size_t n_points = 0, n_missed = 0, n_invented = 0;
+    /** Segments whose ends could not be computed. */
+    std::size_t n_unsolved = 0;
+    SegmentCounts counts;
+};
+
+/** Rays through points of the volume's box in directions by chance. `points_a_ray`: for n_missed and n_invented. */
+SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision,
+                                 std::size_t n_rays, std::size_t points_a_ray, unsigned seed);
+
+} // namespace elvis::oracle
