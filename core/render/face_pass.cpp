@@ -32,6 +32,7 @@ struct Parameters {
     std::uint32_t is_discontinuous;
     std::uint32_t has_beyond;
     std::uint32_t wants_normals;
+    std::uint32_t wants_places;
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
@@ -90,9 +91,10 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         if (own.is_polynomial) {
             request.defines.emplace_back("CORE_FACE_ORDER", std::to_string(own.order));
         }
-        for (std::uint32_t binding = 3; binding <= 7; ++binding) {
+        for (std::uint32_t binding = 3; binding <= 8; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
         }
+        request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
         request.push_constant_bytes = sizeof(Parameters);
         kernels.request = request;
         kernels.element_class = index;
@@ -113,8 +115,9 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
     // The last one is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
-    const std::array<const Buffer*, 8> bindings = {&m_frame,     &layer.samples, &layer.normals, &m_counts,
-                                                   &layer.marks, &tiles,         &list,          &beyond};
+    const Buffer& places = target.places ? *target.places : layer.normals;
+    const std::array<const Buffer*, 9> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
+                                                   &tiles,   &list,          &beyond,        &places};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
         m_counts.fill(0);
@@ -130,7 +133,8 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                               component.end(),
                               component.is_discontinuous ? 1u : 0u,
                               target.beyond ? 1u : 0u,
-                              target.wants_normals ? 1u : 0u};
+                              target.wants_normals ? 1u : 0u,
+                              target.places ? 1u : 0u};
         const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts + 1];
         const auto draw_tiles = [&](Draws what) {
             const ComposedKernel& kernel = kernels.provide(m_device, what);

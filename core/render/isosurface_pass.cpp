@@ -20,6 +20,7 @@ enum Count : std::size_t { evaluations, excluded, outside, undecided, inner_tile
 
 struct TilesParameters {
     std::uint32_t tiles_a_row, n_tiles;
+    std::uint32_t n_isovalues;
 };
 
 struct Parameters {
@@ -42,9 +43,6 @@ const Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::
     }
     return *buffer;
 }
-
-/** Of a core_hit_point. */
-std::size_t point_bytes(Precision precision) { return precision == Precision::float64 ? 32 : 16; }
 
 } // namespace
 
@@ -95,7 +93,8 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                            {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"},
                            {"CORE_LEAF_WORD", "index"},
-                           {"CORE_TESTS_LEVELS", "1"}};
+                           {"CORE_TESTS_LEVELS", "1"},
+                           {"CORE_CLASS", std::to_string(index) + "u"}};
         request.bindings = {{0, BindingType::uniform_buffer}};
         for (std::uint32_t binding = 1; binding <= 3; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
@@ -126,7 +125,6 @@ void IsosurfacePass::choose(const Isosurfaces& wanted, double offset, const Show
 void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
                           FrameCounts& counts) {
     const Layer& layer = target.layer;
-    const Buffer& points = provide(m_points, m_device, layer.n_pixels() * point_bytes(m_precision));
     const Buffer& bending = provide(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
     const Buffer& isovalues = provide(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
     write_reals(isovalues, m_precision, m_values);
@@ -136,7 +134,7 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
         draw_by_intervals(first_surface, target, counts);
         left = pixel_flag::isosurface_undecided | pixel_flag::work_limit;
     }
-    const IsosurfaceProjection::Picture picture{m_frame, isovalues, points, bending, target, m_component,
+    const IsosurfaceProjection::Picture picture{m_frame, isovalues, bending, target, m_component,
                                                 static_cast<std::uint32_t>(m_values.size())};
     if (m_projection.list(target.layer, left) == 0) {
         return;
@@ -159,14 +157,14 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
-                                                   &tiles,   &*m_isovalues,  &beyond,        &*m_points,     &*m_bending};
+                                                   &tiles,   &*m_isovalues,  &beyond,        target.places,  &*m_bending};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
         if (m_level_set.n_elements(kernels.element_class) == 0) {
             continue;
         }
         m_counts.fill(0);
-        const TilesParameters of_tiles{tiles_a_row, n_tiles};
+        const TilesParameters of_tiles{tiles_a_row, n_tiles, static_cast<std::uint32_t>(m_values.size())};
         const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &m_counts, &*m_isovalues};
         kernels.provide(m_device, Role::tiles, m_values.size() == 1)
             .dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));

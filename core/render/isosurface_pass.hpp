@@ -30,14 +30,14 @@ public:
 
     /**
      * Draws the nearest crossing of each ray; each class is a surface of its own, numbered from `first_surface`. Samples get
-     * the isovalue, less the offset. `view` is the geometry of any plane: only its rays matter.
+     * the isovalue, less the offset; `target` has places. `view` is the geometry of any plane: only its rays matter.
      */
     void draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
 
-    /** Of each pixel drawn last: reference coordinates and local element of the crossing (core_hit_point). */
-    const Buffer& points() const { return *m_points; }
     /** An upper bound of the normal curvatures of what was drawn last, a number a pixel. */
     const Buffer& bending() const { return *m_bending; }
+    /** The rays of what was drawn last, as kernels read them (cut_frame.glsl). */
+    const Buffer& frame() const { return m_frame; }
 
 private:
     /** Lists for tiles of pixels; tiles whose lists hold leaves only; tiles that many elements may touch. */
@@ -69,7 +69,7 @@ private:
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;
     /** Kept from frame to frame. */
-    std::optional<Buffer> m_tiles, m_points, m_bending;
+    std::optional<Buffer> m_tiles, m_bending;
 };
 
 } // namespace elvis

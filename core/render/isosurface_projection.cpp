@@ -79,7 +79,7 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = picture.target.beyond ? *picture.target.beyond : layer.normals;
     const std::array<const Buffer*, 10> bindings = {&picture.frame, &layer.samples,     &layer.normals, &m_counts,       &layer.marks,
-                                                   &*m_list,       &picture.isovalues, &beyond,        &picture.points, &picture.bending};
+                                                   &*m_list,       &picture.isovalues, &beyond,        picture.target.places, &picture.bending};
     m_counts.fill(0);
     for (std::uint32_t first = 0; first < m_n_listed; first += pixels_a_dispatch) {
         const Parameters parameters{layer.width,

@@ -25,7 +25,7 @@ public:
     std::uint32_t list(const Layer& layer, std::uint32_t flags);
 
     struct Picture {
-        const Buffer &frame, &isovalues, &points, &bending;
+        const Buffer &frame, &isovalues, &bending;
         const LayerTarget& target;
         LevelComponent component;
         std::uint32_t n_isovalues = 0;

@@ -14,6 +14,9 @@ namespace elvis {
 /** Bytes of one sample. */
 inline std::size_t sample_bytes(Precision precision) { return precision == Precision::float64 ? 24 : 12; }
 
+/** Bytes of one core_place. */
+inline std::size_t place_bytes(Precision precision) { return precision == Precision::float64 ? 32 : 20; }
+
 /** One core_sample as the device writes it (shaders/library/samples.glsl). */
 template <class Real> struct Sample {
     Real value, depth;
@@ -57,6 +60,8 @@ struct LayerTarget {
     const Buffer* beyond = nullptr;
     /** Else the pass may leave the layer's normals as they are. */
     bool wants_normals = true;
+    /** One core_place a pixel (shaders/library/place.glsl), of passes other than of planes. Null: not wanted. */
+    const Buffer* places = nullptr;
 };
 
 /** The component of the field that is drawn, or -1 for the length of the vector, and how many there are. */

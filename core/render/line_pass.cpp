@@ -8,72 +8,229 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t group_width = 32;
-/** Pixels of one dispatch: bounds its time. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
+constexpr std::uint32_t tile_height = 16;
+/** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
+constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
+constexpr std::uint32_t listed_a_dispatch = 1u << 15;
+/** Of those that may take many turns. */
+constexpr std::uint32_t open_a_dispatch = 1u << 12;
 
-struct Parameters {
+/** Halvings before those that the limit allows: most pixels need no more. */
+constexpr std::uint32_t few_subdivisions = 2;
+
+struct SettleParameters {
     std::uint32_t width, height;
-    std::uint32_t first_row;
+    std::uint32_t first_tile_row;
+    std::uint32_t element_class;
+    std::uint32_t takes_outside;
+    std::uint32_t first_component, end_component;
+    std::uint32_t n_isovalues;
+    std::uint32_t with_mesh_lines;
+};
+
+struct ListedParameters {
+    std::uint32_t width, height;
+    std::uint32_t first, n_listed;
+    std::uint32_t element_class;
     std::uint32_t first_component, end_component;
     std::uint32_t n_isovalues;
     std::uint32_t with_mesh_lines;
     std::uint32_t subdivisions;
+    std::uint32_t open_count;
 };
+
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
+
+void provide_buffer(const Device& device, std::optional<Buffer>& buffer, std::uint64_t bytes) {
+    if (!buffer || buffer->bytes() != bytes) {
+        buffer.reset();
+        buffer.emplace(device, bytes);
+    }
+}
+
+/** One uniform buffer, then storage buffers. */
+std::vector<BindingLayout> bindings_up_to(std::uint32_t last) {
+    std::vector<BindingLayout> bindings = {{0, BindingType::uniform_buffer}};
+    for (std::uint32_t binding = 1; binding <= last; ++binding) {
+        bindings.push_back({binding, BindingType::storage_buffer});
+    }
+    return bindings;
+}
 
 } // namespace
 
-LinePass::LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool on_faces)
-    : m_device(device), m_precision(data.precision()),
+LinePass::LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces,
+                   std::uint32_t quadric_rows)
+    : m_device(device), m_volume(volume), m_data(data), m_faces(faces), m_quadric_rows(quadric_rows),
+      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_counts(device, sizeof(std::uint32_t)) {
-    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
-        if (volume.classes()[index].n_elements == 0) {
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {}
+
+void LinePass::provide(bool with_contours) {
+    std::vector<ClassKernels>& kernels = m_kernels[with_contours ? 1 : 0];
+    if (kernels.empty()) {
+        kernels = compile(with_contours);
+    }
+}
+
+std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const {
+    std::vector<ClassKernels> list;
+    for (std::uint32_t index = 0; index < m_volume.classes().size(); ++index) {
+        if (m_volume.classes()[index].n_elements == 0 || (m_faces && m_faces->of_class(index).n_faces == 0)) {
             continue;
         }
         KernelRequest request;
-        request.name = "surface_lines of element class " + std::to_string(index);
-        request.kernel = "kernels/surface_lines.comp";
-        request.precision = m_precision;
-        request.buffers = data.host_buffers(index);
-        data.add_field(request, index, true);
-        request.defines = {{"CORE_ON_FACES", on_faces ? "1" : "0"}};
-        request.bindings = {{0, BindingType::uniform_buffer}};
-        for (std::uint32_t binding = 1; binding <= (on_faces ? 5u : 6u); ++binding) {
-            request.bindings.push_back({binding, BindingType::storage_buffer});
+        request.precision = m_data.precision();
+        if (m_faces) {
+            const FaceSet::ClassFaces& own = m_faces->of_class(index);
+            request.buffers = {
+                {"core_nodes", own.nodes.get()}, {"core_faces", own.faces.get()}, {"core_patches", own.patches.get()}};
+        } else {
+            request.buffers = m_data.host_buffers(index);
         }
-        request.push_constant_bytes = sizeof(Parameters);
-        m_kernels.push_back(std::make_unique<ComposedKernel>(device, request));
+        m_data.add_field(request, index, true);
+        request.defines = {{"CORE_ON_FACES", m_faces ? "1" : "0"},
+                           {"CORE_WITH_CONTOURS", with_contours ? "1" : "0"},
+                           {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
+        const auto make = [&](const char* kernel, std::uint32_t last_binding, std::size_t push_bytes) {
+            KernelRequest own = request;
+            own.name = std::string(kernel).append(" of element class ").append(std::to_string(index));
+            own.kernel = std::string("kernels/").append(kernel).append(".comp");
+            own.bindings = bindings_up_to(last_binding);
+            own.push_constant_bytes = static_cast<std::uint32_t>(push_bytes);
+            return std::make_unique<ComposedKernel>(m_device, own);
+        };
+        ClassKernels kernels;
+        kernels.element_class = index;
+        kernels.settle = make("settle_lines", m_faces ? 7 : 8, sizeof(SettleParameters));
+        if (m_faces) {
+            kernels.search = make("face_lines", 8, sizeof(ListedParameters));
+            kernels.exclude = make("face_lines_careful", 8, sizeof(ListedParameters));
+        } else {
+            // The shape's rows, where they are read.
+            const auto make_search = [&](bool by_segments) {
+                KernelRequest own = request;
+                own.name = std::string("surface_lines of element class ").append(std::to_string(index));
+                own.kernel = "kernels/surface_lines.comp";
+                own.defines.insert(own.defines.end(), {{"CORE_FEW_SUBDIVISIONS", std::to_string(few_subdivisions) + "u"},
+                                                       {"CORE_BY_SEGMENTS", by_segments ? "1" : "0"},
+                                                       {"CORE_HAS_ENDS", "0"},
+                                                       {"CORE_SHAPE_ROWS", std::to_string(m_quadric_rows)}});
+                own.bindings = bindings_up_to(9);
+                own.bindings[1].type = BindingType::uniform_buffer;
+                own.push_constant_bytes = sizeof(ListedParameters);
+                return std::make_unique<ComposedKernel>(m_device, own);
+            };
+            kernels.search = make_search(false);
+            if (m_quadric_rows > 0) {
+                kernels.exclude = make_search(true);
+            }
+        }
+        list.push_back(std::move(kernels));
+    }
+    return list;
+}
+
+void LinePass::look_closer(const std::vector<ClassKernels>& kernels, std::unique_ptr<ComposedKernel> ClassKernels::*which,
+                           std::uint32_t n_listed, std::uint32_t most_a_dispatch, const std::vector<const Buffer*>& bindings,
+                           const ShownComponent& component, const LineRequest& lines, std::uint32_t subdivisions,
+                           std::uint32_t open_count, const Layer& layer) const {
+    for (const ClassKernels& of_class : kernels) {
+        for (std::uint32_t first = 0; first < n_listed; first += most_a_dispatch) {
+            const std::uint32_t count = std::min(most_a_dispatch, n_listed - first);
+            const ListedParameters parameters{layer.width,
+                                              layer.height,
+                                              first,
+                                              count,
+                                              of_class.element_class,
+                                              component.first(),
+                                              component.end(),
+                                              static_cast<std::uint32_t>(lines.isovalues.size()),
+                                              lines.mesh_lines ? 1u : 0u,
+                                              subdivisions,
+                                              open_count};
+            (of_class.*which)->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_width));
+        }
     }
 }
 
 void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& component, const LineRequest& lines,
-                    const Buffer* bending, const LayerTarget& target, FrameCounts& counts) {
+                    const Buffer* bending, const Buffer* shape, const LayerTarget& target, FrameCounts& counts) {
     const Layer& layer = target.layer;
-    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
-    m_counts.fill(0);
     const auto n_isovalues = static_cast<std::uint32_t>(lines.isovalues.size());
+    const std::vector<ClassKernels>& kernels = m_kernels[n_isovalues > 0 ? 1 : 0];
+    write_reals(m_frame, m_data.precision(), std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    m_counts.fill(0);
     // A buffer cannot be empty.
-    const std::uint64_t bytes = std::max<std::uint64_t>(n_isovalues, 1) * real_bytes(m_precision);
-    if (!m_isovalues || m_isovalues->bytes() != bytes) {
-        m_isovalues.emplace(m_device, bytes);
-    }
-    write_reals(*m_isovalues, m_precision, lines.isovalues);
-    std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks, &*m_isovalues};
+    provide_buffer(m_device, m_isovalues, std::max<std::uint64_t>(n_isovalues, 1) * real_bytes(m_data.precision()));
+    write_reals(*m_isovalues, m_data.precision(), lines.isovalues);
+    provide_buffer(m_device, m_list, layer.n_pixels() * sizeof(std::uint32_t));
+
+    std::vector<const Buffer*> bindings = {&m_frame,     &layer.samples, &layer.normals, &m_counts,
+                                           &layer.marks, &*m_isovalues,  target.places,  &*m_list};
     if (bending != nullptr) {
         bindings.push_back(bending);
     }
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / layer.width);
-    for (const std::unique_ptr<ComposedKernel>& kernel : m_kernels) {
-        for (std::uint32_t first_row = 0; first_row < layer.height; first_row += rows_a_dispatch) {
-            const Parameters parameters{layer.width,     layer.height,           first_row,
-                                        component.first(), component.end(),        n_isovalues,
-                                        lines.mesh_lines ? 1u : 0u, lines.subdivisions};
-            kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (layer.width + group_width - 1) / group_width,
-                             std::min(rows_a_dispatch, layer.height - first_row));
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width), tile_rows = divided_up(layer.height, tile_height);
+    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
+    for (const ClassKernels& of_class : kernels) {
+        for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
+            const SettleParameters parameters{layer.width,
+                                              layer.height,
+                                              first_row,
+                                              of_class.element_class,
+                                              &of_class == &kernels.front() ? 1u : 0u,
+                                              component.first(),
+                                              component.end(),
+                                              n_isovalues,
+                                              lines.mesh_lines ? 1u : 0u};
+            of_class.settle->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
+                                      std::min(rows_a_dispatch, tile_rows - first_row));
         }
     }
-    const std::uint32_t n_evaluations = m_counts.read_items<std::uint32_t>(1)[0];
-    counts.field_evaluations += n_evaluations;
+    const std::uint32_t n_listed = n_of(1);
+    counts.refined_pixels += n_listed;
+    // Each class may leave a pixel open.
+    const std::uint64_t list_bytes = kernels.size() * layer.n_pixels() * sizeof(std::uint32_t);
+    provide_buffer(m_device, m_open, list_bytes);
+    provide_buffer(m_device, m_still_open, list_bytes);
+    const auto of_lists = [&](const Buffer& from, const Buffer& to) -> std::vector<const Buffer*> {
+        if (m_faces) {
+            return {&m_frame,      &layer.samples, &layer.normals, &m_counts, &layer.marks,
+                    &*m_isovalues, target.places,  &from,          &to};
+        }
+        return {&m_frame, shape, &layer.normals, &m_counts, &layer.marks, &*m_isovalues, bending, &from, &layer.samples, &to};
+    };
+    // Few halvings first: most pixels need no more, and what they decide stays decided whatever the limit is.
+    const std::uint32_t few = std::min(lines.subdivisions, few_subdivisions);
+    const auto search = &ClassKernels::search, exclude = &ClassKernels::exclude;
+    struct Round {
+        std::unique_ptr<ComposedKernel> ClassKernels::*kernel;
+        std::uint32_t subdivisions;
+    };
+    std::vector<Round> rounds = {{search, 0}, {search, few}};
+    if (lines.subdivisions > few) {
+        rounds.push_back({search, lines.subdivisions});
+    }
+    if (m_faces || m_quadric_rows > 0) {
+        rounds.push_back({exclude, few});
+        if (lines.subdivisions > few) {
+            rounds.push_back({exclude, lines.subdivisions});
+        }
+    }
+    const Buffer* from = &*m_list;
+    std::uint32_t n_left = n_listed;
+    for (std::uint32_t round = 0; round < rounds.size(); ++round) {
+        const bool is_last = round + 1 == rounds.size();
+        const Buffer* to = from == &*m_open ? &*m_still_open : &*m_open;
+        const std::uint32_t count = is_last ? 0 : 2 + round;
+        look_closer(kernels, rounds[round].kernel, n_left, round == 0 ? listed_a_dispatch : open_a_dispatch,
+                    of_lists(*from, *to), component, lines, rounds[round].subdivisions, count, layer);
+        from = to;
+        n_left = is_last ? 0 : n_of(count);
+    }
+    counts.field_evaluations += n_of(0);
 }
 
 } // namespace elvis

@@ -13,7 +13,6 @@ constexpr std::uint32_t pixels_a_dispatch = 1u << 18;
 
 struct Parameters {
     std::uint32_t first, n_pixels;
-    std::uint32_t surface;
     std::uint32_t first_component, end_component;
 };
 
@@ -31,7 +30,7 @@ PointValuePass::PointValuePass(const Device& device, const RuntimeVolume& volume
         request.kernel = "kernels/point_values.comp";
         request.precision = data.precision();
         data.add_field(request, index);
-        request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}};
+        request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}, {"CORE_CLASS", std::to_string(index) + "u"}};
         for (std::uint32_t binding = 0; binding <= 3; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
         }
@@ -40,14 +39,13 @@ PointValuePass::PointValuePass(const Device& device, const RuntimeVolume& volume
     }
 }
 
-void PointValuePass::draw(const Buffer& points, std::uint32_t first_surface, const ShownComponent& component,
-                          const LayerTarget& target, FrameCounts& counts) {
+void PointValuePass::draw(const ShownComponent& component, const LayerTarget& target, FrameCounts& counts) {
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(target.layer.n_pixels());
-    const std::array<const Buffer*, 4> bindings = {&target.layer.samples, &target.layer.marks, &points, &m_counts};
+    const std::array<const Buffer*, 4> bindings = {&target.layer.samples, &target.layer.marks, target.places, &m_counts};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         for (std::uint32_t first = 0; m_kernels[index] && first < n_pixels; first += pixels_a_dispatch) {
-            const Parameters parameters{first, n_pixels, first_surface + index, component.first(), component.end()};
+            const Parameters parameters{first, n_pixels, component.first(), component.end()};
             m_kernels[index]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
                                        (std::min(pixels_a_dispatch, n_pixels - first) + group_size - 1) / group_size);
         }

@@ -1,6 +1,6 @@
 /**
  * @file point_value_pass.hpp
- * Evaluates a field where a pass has found points of elements, for the samples of a picture.
+ * Evaluates a field at the places in elements that another pass has found, for the samples of a picture.
  */
 #pragma once
 
@@ -18,9 +18,8 @@ class PointValuePass {
 public:
     PointValuePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
-    /** `points`: core_hit_point (shaders/library/hit_point.glsl) of each pixel whose surface is `first_surface` plus its class. */
-    void draw(const Buffer& points, std::uint32_t first_surface, const ShownComponent& component, const LayerTarget& target,
-              FrameCounts& counts);
+    /** For all pixels that show something; `target` has its places. */
+    void draw(const ShownComponent& component, const LayerTarget& target, FrameCounts& counts);
 
 private:
     /** By class; null where it is empty. */

@@ -63,7 +63,9 @@ struct FieldPasses {
     std::optional<CutPlanePass> cut_planes, cut_planes_with_lines;
     std::map<FaceGeometry, FacePass> faces;
     std::optional<SurfacePass> cut_shapes;
-    std::optional<LinePass> lines_on_faces, lines_on_shapes;
+    std::map<FaceGeometry, LinePass> lines_on_faces;
+    /** By SurfaceSolver::quadric_rows(). */
+    std::map<std::uint32_t, LinePass> lines_on_shapes;
     std::optional<IsosurfacePass> isosurfaces;
     std::optional<PointValuePass> point_values;
 };
@@ -102,6 +104,8 @@ struct Renderer::Impl {
     RendererTimes times;
     /** Kept from frame to frame: fresh memory costs a page fault for each page. */
     std::unique_ptr<Layer> layer;
+    /** Of the layer's pixels, for lines. */
+    std::optional<Buffer> places;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
         : device(on), volume(of), precision(with), control(task), data(on, of, with, task), color_pass(on, with),
@@ -109,6 +113,7 @@ struct Renderer::Impl {
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
     }
 
+    FrameRequest with_offsets(FrameRequest request);
     void keep_fields(const FrameRequest& request);
     void select(const FieldChoice& field, std::uint32_t time_step);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
@@ -117,7 +122,8 @@ struct Renderer::Impl {
     CutPlanePass& cut_plane_pass(bool with_lines);
     void follow_geometry();
     FacePass& face_pass(const FaceGeometry& faces);
-    LinePass& line_pass(bool on_faces);
+    const FaceSet& face_set(const FaceGeometry& faces);
+    LinePass& line_pass(const Surface& surface);
     IsosurfacePass& isosurface_pass(const Isosurfaces& wanted);
     void draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
                           const LayerTarget& target, FrameCounts& counts);
@@ -144,6 +150,12 @@ void Renderer::Impl::check(const FrameRequest& request) const {
         throw Error("picture", "has nothing to show");
     }
     for (const Surface& surface : request.surfaces) {
+        const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry);
+        if (isosurfaces && (isosurfaces->values.empty() || !std::is_sorted(isosurfaces->values.begin(), isosurfaces->values.end()))) {
+            throw Error("isosurface", "needs values, in ascending order");
+        }
+    }
+    for (const Surface& surface : request.surfaces) {
         const auto* wires = std::get_if<WireFrame>(&surface.geometry);
         const bool fits_both = std::holds_alternative<ElementFaces>(surface.geometry) ||
                                (wires && std::holds_alternative<ElementFaces>(wires->faces));
@@ -168,13 +180,18 @@ CutPlanePass& Renderer::Impl::cut_plane_pass(bool with_lines) {
 }
 
 /** Of surfaces other than planes. */
-LinePass& Renderer::Impl::line_pass(bool on_faces) {
-    std::optional<LinePass>& pass = on_faces ? current->lines_on_faces : current->lines_on_shapes;
-    if (!pass) {
-        data.provide_derivative_bounds();
-        pass.emplace(device, volume, data, on_faces);
+LinePass& Renderer::Impl::line_pass(const Surface& surface) {
+    data.provide_derivative_bounds();
+    if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+        const std::uint32_t rows = solvers.at(solver_key(*shape)).quadric_rows();
+        return current->lines_on_shapes.try_emplace(rows, device, volume, data, nullptr, rows).first->second;
     }
-    return *pass;
+    if (std::holds_alternative<Isosurfaces>(surface.geometry)) {
+        return current->lines_on_shapes.try_emplace(0, device, volume, data, nullptr, 0).first->second;
+    }
+    follow_geometry();
+    const FaceGeometry faces = *face_geometry(surface);
+    return current->lines_on_faces.try_emplace(faces, device, volume, data, &face_set(faces), 0).first->second;
 }
 
 /** Drops what belongs to another shape of the elements. */
@@ -182,6 +199,7 @@ void Renderer::Impl::follow_geometry() {
     if (data.geometry_version() != faces_version) {
         for (auto& [key, of_field] : passes) {
             of_field.faces.clear();
+            of_field.lines_on_faces.clear();
         }
         face_sets.clear();
         edge_sets.clear();
@@ -208,15 +226,19 @@ const EdgeSet& Renderer::Impl::edge_set(const FaceGeometry& faces) {
     return found->second;
 }
 
+const FaceSet& Renderer::Impl::face_set(const FaceGeometry& faces) {
+    auto set = face_sets.find(faces);
+    if (set == face_sets.end()) {
+        set = face_sets.try_emplace(faces, device, volume, data, chosen_faces(faces), control).first;
+    }
+    return set->second;
+}
+
 FacePass& Renderer::Impl::face_pass(const FaceGeometry& faces) {
     follow_geometry();
     auto found = current->faces.find(faces);
     if (found == current->faces.end()) {
-        auto set = face_sets.find(faces);
-        if (set == face_sets.end()) {
-            set = face_sets.try_emplace(faces, device, volume, data, chosen_faces(faces), control).first;
-        }
-        found = current->faces.try_emplace(faces, device, volume, data, set->second).first;
+        found = current->faces.try_emplace(faces, device, volume, data, face_set(faces)).first;
     }
     return found->second;
 }
@@ -260,9 +282,22 @@ void Renderer::Impl::provide_passes(const FrameRequest& request, const Surface& 
     }
     if (surface.has_lines() && !std::holds_alternative<CutPlane>(surface.geometry) &&
         !std::holds_alternative<WireFrame>(surface.geometry)) {
-        line_pass(face_geometry(surface).has_value());
+        line_pass(surface).provide(surface.contours && !surface.contours->values.empty());
     }
     times.compile_milliseconds += milliseconds_since(start);
+}
+
+/** Level sets are found with the digits that differences from their values have. */
+FrameRequest Renderer::Impl::with_offsets(FrameRequest request) {
+    for (Surface& surface : request.surfaces) {
+        if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+            const double middle = 0.5 * (isosurfaces->values.front() + isosurfaces->values.back());
+            const bool is_own_color = surface.field == isosurfaces->field;
+            isosurfaces->field = fields.about(isosurfaces->field, middle, request.time_step);
+            surface.field = is_own_color ? isosurfaces->field : surface.field;
+        }
+    }
+    return request;
 }
 
 /** Drops what the frame's surfaces do not need. */
@@ -323,10 +358,12 @@ void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface
     pass.draw(rays, first, target, counts);
     const ShownComponent component = fields.component(surface.field);
     if (surface.field != wanted.field) {
-        current->point_values->draw(pass.points(), first, component, target, counts);
+        current->point_values->draw(component, target, counts);
     }
     if (surface.has_lines()) {
-        line_pass(false).draw(rays, component, line_request(surface, offset_of(surface)), &pass.bending(), target, counts);
+        // No quadric: the frame stands for its rows.
+        line_pass(surface).draw(rays, component, line_request(surface, offset_of(surface)), &pass.bending(), &pass.frame(), target,
+                                counts);
     }
 }
 
@@ -338,13 +375,13 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     constexpr std::uint32_t first = 1;
     const LineRequest lines = line_request(surface, offset_of(surface));
     if (std::holds_alternative<CutPlane>(surface.geometry)) {
-        cut_plane_pass(surface.has_lines()).draw(rays, first, component, lines, surface.outside.has_value(), target,
-                                                         counts);
+        cut_plane_pass(surface.has_lines()).draw(rays, first, component, lines, surface.outside.has_value(), target, counts);
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
         current->cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, surface.outside.has_value(),
                                   target, counts);
         if (surface.has_lines()) {
-            line_pass(false).draw(rays, component, lines, &current->cut_shapes->bending(), target, counts);
+            line_pass(surface).draw(rays, component, lines, &current->cut_shapes->bending(),
+                                    &solvers.at(solver_key(*shape)).rows(), target, counts);
         }
     } else if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
         draw_isosurfaces(request, surface, *isosurfaces, target, counts);
@@ -356,7 +393,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
         if (surface.has_lines()) {
-            line_pass(true).draw(rays, component, lines, nullptr, target, counts);
+            line_pass(surface).draw(rays, component, lines, nullptr, nullptr, target, counts);
         }
     }
 }
@@ -373,7 +410,16 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     std::uint32_t n_wanted = 1;
     for (std::uint32_t round = 0; n_wanted > 0 && round < max_rounds; ++round) {
         layer->marks.fill(0);
-        draw_geometry(request, surface, {*layer, beyond, request.with_buffers || is_lit(request, surface) || surface.has_lines()}, frame.counts);
+        const bool wants_places =
+            (surface.has_lines() && !is_plane) || std::holds_alternative<Isosurfaces>(surface.geometry);
+        if (wants_places && (!places || places->bytes() != layer->n_pixels() * place_bytes(precision))) {
+            places.reset();
+            places.emplace(device, layer->n_pixels() * place_bytes(precision));
+        }
+        draw_geometry(request, surface,
+                      {*layer, beyond, request.with_buffers || is_lit(request, surface) || surface.has_lines(),
+                       wants_places ? &*places : nullptr},
+                      frame.counts);
         color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags,
                         is_lit(request, surface) ? &*request.lighting : nullptr);
         n_wanted =
@@ -451,9 +497,10 @@ FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_st
     return m_impl->fields.range(field, time_step, certainty);
 }
 
-Frame Renderer::render(const FrameRequest& request) {
+Frame Renderer::render(const FrameRequest& wanted) {
     Impl& impl = *m_impl;
-    impl.check(request);
+    impl.check(wanted);
+    const FrameRequest request = impl.with_offsets(wanted);
     Frame frame;
     frame.width = request.width;
     frame.height = request.height;

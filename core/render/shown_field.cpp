@@ -11,6 +11,9 @@ namespace {
 /** Rounding of a float32 field value, relative to the largest: what evaluations of orders up to 10 show (5e-7), doubled. */
 constexpr double float32_value_error = 1e-6;
 
+/** Offsets to choose from, over the range: each is a copy of the field. */
+constexpr double n_offsets = 16;
+
 FieldRange magnitude_range(const std::vector<FieldRange>& components) {
     double lower = 0, upper = 0;
     for (const FieldRange& range : components) {
@@ -50,7 +53,8 @@ std::string ShownFields::key(const FieldChoice& field) {
         return "= " + field.expression->text();
     }
     // A component is a matter of constants, but a magnitude takes the field without offset.
-    return (field.component < 0 ? "magnitude " : "component ") + std::to_string(field.field);
+    std::string key = (field.component < 0 ? "magnitude " : "component ") + std::to_string(field.field);
+    return field.offset ? key.append(" about ").append(std::to_string(*field.offset)) : key;
 }
 
 FieldSelection ShownFields::selection(const FieldChoice& field, std::uint32_t time_step) {
@@ -63,7 +67,11 @@ FieldSelection ShownFields::selection(const FieldChoice& field, std::uint32_t ti
     }
     // A magnitude needs the values themselves.
     const std::vector<double> whole(m_volume.fields()[field.field].n_components, 0.0);
-    return {{{field.field, field.component < 0 ? whole : middles(field.field, time_step)}}, time_step, nullptr};
+    FieldSelection selection{{{field.field, field.component < 0 ? whole : middles(field.field, time_step)}}, time_step, nullptr};
+    if (field.offset && field.component >= 0) {
+        selection.slots[0].offset[static_cast<std::size_t>(field.component)] = *field.offset;
+    }
+    return selection;
 }
 
 std::vector<double> ShownFields::middles(std::uint32_t field, std::uint32_t time_step) {
@@ -77,6 +85,17 @@ std::vector<double> ShownFields::middles(std::uint32_t field, std::uint32_t time
 
 double ShownFields::offset(const FieldChoice& field) const {
     return field.expression || field.component < 0 ? 0.0 : m_data.field_offset(static_cast<std::uint32_t>(field.component));
+}
+
+FieldChoice ShownFields::about(const FieldChoice& field, double value, std::uint32_t time_step) {
+    FieldChoice result = field;
+    const FieldRange whole = range(field, time_step);
+    const double step = (whole.upper - whole.lower) / n_offsets;
+    if (!field.expression && field.component >= 0 && step > 0 && std::isfinite(step)) {
+        const double wanted = std::clamp(value, whole.lower, whole.upper);
+        result.offset = whole.lower + std::round((wanted - whole.lower) / step) * step;
+    }
+    return result;
 }
 
 ShownComponent ShownFields::component(const FieldChoice& field) const {

@@ -28,6 +28,11 @@ public:
      * are whole.
      */
     FieldSelection selection(const FieldChoice& field, std::uint32_t time_step);
+    /**
+     * The same field with an offset near `value`: one of a few, so that a change of the value seldom takes another copy of the
+     * field. Unchanged where that is not possible.
+     */
+    FieldChoice about(const FieldChoice& field, double value, std::uint32_t time_step);
     /** What the field lacks on the device, while it is selected there. */
     double offset(const FieldChoice& field) const;
     ShownComponent component(const FieldChoice& field) const;

@@ -42,6 +42,11 @@ struct FieldChoice {
     std::int32_t component = 0;
     /** In place of the field, if there is one; of the same volume. */
     std::shared_ptr<const Expression> expression{};
+    /**
+     * Of a component: about which value single precision is to keep most digits, which the device then subtracts; the middle of
+     * the range if absent. It is no part of what is drawn: equal choices may differ in it.
+     */
+    std::optional<double> offset{};
 
     bool operator==(const FieldChoice& other) const;
 };

@@ -34,6 +34,7 @@ struct PixelsParameters {
     std::uint32_t first_component, end_component;
     std::uint32_t is_discontinuous;
     float most_error;
+    std::uint32_t wants_places;
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
@@ -87,8 +88,9 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         request.name = "surface_pixels of element class " + std::to_string(index);
         request.kernel = "kernels/surface_pixels.comp";
         data.add_field(request, index);
+        request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
         request.bindings = {{0, BindingType::uniform_buffer}};
-        for (std::uint32_t binding = 1; binding <= 6; ++binding) {
+        for (std::uint32_t binding = 1; binding <= 7; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
         }
         request.push_constant_bytes = sizeof(PixelsParameters);
@@ -125,8 +127,14 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                                                         &m_hit_counts,
                                                         target.beyond != nullptr ? target.beyond : &m_nothing};
     const std::array<const Buffer*, 2> tiles_bindings = {&*m_boxes, &*m_tiles};
-    const std::array<const Buffer*, 7> pixels_bindings = {
-        &m_frame, &target.layer.samples, &*m_tiles, &m_counts, &target.layer.marks, &*m_hits, &target.layer.normals};
+    const std::array<const Buffer*, 8> pixels_bindings = {&m_frame,
+                                                          &target.layer.samples,
+                                                          &*m_tiles,
+                                                          &m_counts,
+                                                          &target.layer.marks,
+                                                          &*m_hits,
+                                                          &target.layer.normals,
+                                                          target.places != nullptr ? target.places : &target.layer.normals};
     std::uint32_t n_found_before = 0;
     for (std::uint32_t round = 0; round < most_rounds; ++round) {
         m_hit_counts.fill(0);
@@ -151,7 +159,8 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                                               component.first(),
                                               component.end(),
                                               component.is_discontinuous ? 1u : 0u,
-                                              static_cast<float>(most_error)};
+                                              static_cast<float>(most_error),
+                                              target.places != nullptr ? 1u : 0u};
                 kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
                                          std::min(rows_a_dispatch, tile_rows - first_row));
             }

@@ -117,6 +117,7 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
     m_rows.emplace(device, m_n_rows * 4 * real_bytes(precision), Buffer::Use::uniform);
     const SolverKind kind = kind_of(frame.solver);
     m_hit_rows = kind.hit_rows;
+    m_is_quadric = frame.solver == "quadric";
     KernelRequest request;
     request.name = "surface_hits of " + frame.solver;
     request.kernel = request.name;

@@ -40,6 +40,11 @@ public:
     void begin(const CutShape& shape, const CutPlaneGeometry& view, const std::array<double, 6>& bounds,
                double most_error) const;
 
+    /** What begin() wrote. */
+    const Buffer& rows() const { return *m_rows; }
+    /** Number of rows of a quadric without ends (shaders/library/surface_quadric.glsl); 0 of other shapes. */
+    std::uint32_t quadric_rows() const { return m_is_quadric ? m_n_rows : 0; }
+
     /** Looks for the crossings of some rows of tiles. `buffers`: bindings 2 to 8 of kernels/surface_hits.comp. */
     void find(const Buffer& frame, std::span<const Buffer* const> buffers, std::span<const std::byte> parameters,
               std::uint32_t tiles_a_row, std::uint32_t tile_rows) const;
@@ -57,6 +62,7 @@ private:
     std::unique_ptr<RecordBuffer> m_items, m_nodes;
     std::uint32_t m_hit_rows = surface_tile_height;
     std::uint32_t m_n_rows = 0;
+    bool m_is_quadric = false;
     std::optional<Buffer> m_rows;
     std::unique_ptr<ComposedKernel> m_kernel;
 };

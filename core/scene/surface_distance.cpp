@@ -30,8 +30,8 @@ std::string number(double value) {
 
 /** dot(direction, x - point) */
 std::string along(const Vector3& direction, const Vector3& point) {
-    return join({"(", number(direction[0]), "*(@x-", number(point[0]), ")+", number(direction[1]), "*(@y-", number(point[1]), ")+",
-                 number(direction[2]), "*(@z-", number(point[2]), "))"});
+    return join({"(", number(direction[0]), "*(@x-", number(point[0]), ")+", number(direction[1]), "*(@y-", number(point[1]),
+                 ")+", number(direction[2]), "*(@z-", number(point[2]), "))"});
 }
 
 /** |x - point|^2 */
@@ -42,6 +42,39 @@ std::string square(const Vector3& point) {
 Vector3 unit(const Vector3& a) {
     const double length = std::hypot(a[0], a[1], a[2]);
     return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+/** Of x from an axis, from the height along it. Next to the axis the root would have no derivative. */
+std::string from_axis(const Vector3& point, const std::string& height) {
+    return join({"sqrt(max(1e-30,", square(point), "-", height, "^2))"});
+}
+
+/**
+ * To a cone or cylinder. In the half plane of radius and height its side is a segment: `beside` counts across it, outwards, and
+ * `past` beyond its nearer end. With caps it is a convex body: inside, the nearest of its faces is the nearest plane or cone;
+ * outside, the nearest of three segments, which is at most 1e6 times as far as the farthest of those planes and cone unless an
+ * apex is sharper than that. Roots of zero, which have no derivative, are kept away from.
+ */
+std::string distance_to(const Cone& cone) {
+    const Vector3 axis = {cone.to[0] - cone.from[0], cone.to[1] - cone.from[1], cone.to[2] - cone.from[2]};
+    const double length = std::hypot(axis[0], axis[1], axis[2]), growth = cone.to_radius - cone.from_radius;
+    const double side = std::hypot(length, growth);
+    const std::string height = along(unit(axis), cone.from);
+    const std::string radius = from_axis(cone.from, height);
+    const std::string outward = join({"(", radius, "-", number(cone.from_radius), ")"});
+    const std::string beside = join({"(", number(length / side), "*", outward, "-", number(growth / side), "*", height, ")"});
+    const std::string up = join({"(", number(growth / side), "*", outward, "+", number(length / side), "*", height, ")"});
+    const std::string past = join({"max(0,max(-", up, ",", up, "-", number(side), "))"});
+    const std::string to_side = join({"(", beside, "^2+", past, "^2)"});
+    if (!cone.is_capped) {
+        return join({"sqrt(max(1e-30,", to_side, "))"});
+    }
+    const std::string above = join({"(", height, "-", number(length), ")"});
+    const std::string to_lower = join({"(", height, "^2+max(0,", outward, ")^2)"});
+    const std::string to_upper = join({"(", above, "^2+max(0,", radius, "-", number(cone.to_radius), ")^2)"});
+    const std::string most = join({"max(", beside, ",max(-", height, ",", above, "))"});
+    return join({"(min(0,", most, ")+sqrt(max(1e-30,min((1e6*max(0,", most, "))^2,min(", to_side, ",min(", to_lower, ",",
+                 to_upper, "))))))"});
 }
 
 std::string distance_to(const SceneSurface& surface) {
@@ -56,12 +89,18 @@ std::string distance_to(const SceneSurface& surface) {
         }
         if (const auto* torus = std::get_if<Torus>(shape)) {
             const std::string height = along(unit(torus->axis), torus->center);
-            const std::string from_axis = join({"sqrt(max(0,", square(torus->center), "-", height, "^2))"});
-            return join({"(sqrt((", from_axis, "-", number(torus->major_radius), ")^2+", height, "^2)-",
+            return join({"(sqrt((", from_axis(torus->center, height), "-", number(torus->major_radius), ")^2+", height, "^2)-",
                          number(torus->minor_radius), ")"});
         }
+        if (const auto* cone = std::get_if<Cone>(shape)) {
+            return distance_to(*cone);
+        }
+        if (const auto* cylinder = std::get_if<Cylinder>(shape)) {
+            return distance_to(Cone{cylinder->from, cylinder->to, cylinder->radius, cylinder->radius, cylinder->is_capped});
+        }
     }
-    throw Error("expression", join({"distance(", surface.name, "): distances are known of planes, spheres and tori"}));
+    throw Error("expression",
+                join({"distance(", surface.name, "): distances are known of planes, spheres, tori, cylinders and cones"}));
 }
 
 const SceneSurface& surface_named(const std::string& name, std::span<const SceneSurface> surfaces) {

@@ -19,6 +19,9 @@ layout(std430, set = 0, binding = 2) buffer core_counts_block { uint core_counts
 layout(push_constant) uniform core_constants {
     uint core_tiles_per_row;
     uint core_n_tiles;
+#ifdef CORE_TESTS_LEVELS
+    uint core_n_isovalues;
+#endif
 };
 
 // The rays of a tile lie between four planes; each is given by a point, its normal inwards, and the sizes of both for rounding.

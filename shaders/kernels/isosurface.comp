@@ -23,7 +23,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/face_tiles.glsl"
 #include "library/hierarchy.glsl"
 #include "library/samples.glsl"
-#include "library/hit_point.glsl"
+#include "library/place.glsl"
 #include "library/pixel_ray.glsl"
 #include "library/linearization.glsl"
 
@@ -35,7 +35,7 @@ layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_ma
 layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(set = 0, binding = 6, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
-layout(set = 0, binding = 8, std430) writeonly buffer core_points_block { core_hit_point core_points[]; };
+layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
 // An upper bound of the surface's normal curvatures, without sign.
 layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
 layout(push_constant) uniform core_parameters {
@@ -227,24 +227,27 @@ void main() {
                                      change * distance * speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
                                     distance <= elvis_real(4) * core_largest(frame.xi_error) ||
                                     // Rounding is most of the error: nothing more is to be had.
-                                    (bend_here * piece.radius * piece.radius <= piece.error && distance <= speed * crossing.half_width);
+                                    (bend_here * piece.radius * piece.radius <= piece.error &&
+                                     distance <= (moves < 3u ? elvis_real(0.0625LF) : elvis_real(1)) * speed * crossing.half_width);
             const elvis_vec3 root = xi + to_root;
             // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face.
             const bool is_inside = core_excess(root.x, root.y, root.z) <=
                                    CORE_CONSTRAINT_NORM * (elvis_real(2) * piece.beyond + elvis_real(0.25LF) * speed * crossing.half_width);
 
-            // The middle of the next piece is the root, if there is one.
-            const elvis_real part_low = is_found ? from : max(from, piece.low), part_high = is_found ? to : min(to, piece.high);
-            const bool is_part = piece.is_known && part_high - part_low < elvis_real(0.6LF) * (piece.high - piece.low);
+            // A narrow part is looked at as a whole, even if it reaches beyond the piece: then the root is in its middle.
+            const bool is_part = piece.is_known && to - from < elvis_real(0.6LF) * (piece.high - piece.low) && from <= piece.high && to >= piece.low;
+            const elvis_real part_low = is_found || is_part ? from : max(from, piece.low);
+            const elvis_real part_high = is_found || is_part ? to : min(to, piece.high);
+            const bool is_cut = is_part || (piece.is_known && part_high - part_low < elvis_real(0.6LF) * (piece.high - piece.low));
 
             const bool ends_here = is_active && !is_done_with && is_found;
             const bool takes = ends_here && is_at_root;
             const bool is_broken = is_nan || (is_active && used >= CORE_MOST_EVALUATIONS);
             const bool is_far = core_largest(piece.q) > elvis_real(0.5LF) * max(half_width, shortest) * speed;
             const elvis_real wider = elvis_real(4) * crossing.half_width;
-            const bool is_flat = is_short && !is_done_with && !is_found && !is_part && wider > elvis_real(1.5LF) * wide &&
+            const bool is_flat = is_short && !is_done_with && !is_found && !is_cut && wider > elvis_real(1.5LF) * wide &&
                                  wider * speed < CORE_WIDEST;
-            const bool is_stuck = is_active && is_short && !is_done_with && !is_flat && (piece.radius <= max(CORE_NARROW, elvis_real(2) * wide * speed) || moves >= CORE_MAX_MOVES) && !ends_here;
+            const bool is_stuck = is_active && is_short && !is_done_with && !is_flat && !(is_cut && moves < CORE_MAX_MOVES) && (piece.radius <= max(CORE_NARROW, elvis_real(2) * wide * speed) || moves >= CORE_MAX_MOVES) && !ends_here;
 
             const elvis_real t = middle + crossing.s;
             const bool is_behind_start = t > ray.least_t + ray.widths_behind * crossing.half_width && t > ray.least_t;
@@ -273,7 +276,7 @@ void main() {
             // What is looked at next.
             const bool is_over = is_broken || (takes && is_inside && is_behind_start);
             const bool goes_on = is_done_with || takes || is_stuck || is_broken;
-            const bool cuts = !goes_on && (ends_here || is_part);
+            const bool cuts = !goes_on && (ends_here || is_cut);
             const bool moves_on = !goes_on && !cuts && (is_flat || is_short || (is_far && moves < CORE_MAX_MOVES));
             // The next piece is as long as this one, or twice if that was easy; the last one takes what would be left.
             const elvis_real length_next = (is_done_with ? elvis_real(4) : elvis_real(2)) * max(half_width, shortest);
@@ -285,7 +288,7 @@ void main() {
                                                 : middle + elvis_real(0.5LF) * (piece.low + piece.high);
             // After a part that holds the only isovalue of the piece, the piece is over.
             next = goes_on ? new_b : cuts ? (crossing.is_only ? next : min(next, middle + part_high)) : moves_on ? next : new_b;
-            moves = moves_on && !is_flat ? moves + 1u : 0u;
+            moves = (moves_on && !is_flat) || (cuts && is_short) ? moves + 1u : 0u;
             wide = is_flat ? wider : goes_on ? elvis_real(0) : wide;
             const bool has_more = new_a < last && new_a < new_b && new_a <= best_t + best_slack;
             const bool is_open = is_active && (is_stuck || (is_broken && (!is_done_with || has_more)));
@@ -318,10 +321,7 @@ void main() {
             core_normals[3u * pixel] = size * normal.x;
             core_normals[3u * pixel + 1u] = size * normal.y;
             core_normals[3u * pixel + 2u] = size * normal.z;
-            core_points[pixel].x = best_x;
-            core_points[pixel].y = best_y;
-            core_points[pixel].z = best_z;
-            core_points[pixel].element = best_element;
+            core_places[pixel] = core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS);
             core_bending[pixel] = core_is_finite(best_bend) ? min(best_bend, CORE_FAR) : CORE_FAR;
         }
         row += 1u;

@@ -21,7 +21,7 @@ layout(local_size_x = 32) in;
 #include "library/cut_frame.glsl"
 #include "library/hierarchy.glsl"
 #include "library/samples.glsl"
-#include "library/hit_point.glsl"
+#include "library/place.glsl"
 #include "library/pixel_ray.glsl"
 
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
@@ -32,7 +32,7 @@ layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_ma
 layout(set = 0, binding = 5, std430) readonly buffer core_list_block { uint core_list[]; };
 layout(set = 0, binding = 6, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
-layout(set = 0, binding = 8, std430) writeonly buffer core_points_block { core_hit_point core_points[]; };
+layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
 // An upper bound of the surface's normal curvatures, without sign.
 layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
 layout(push_constant) uniform core_parameters {
@@ -84,14 +84,14 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 // E over how much the polynomial varies, above which it is not believed.
 #define CORE_ROUGH elvis_real(1e-3LF)
 
-#define CORE_SEEKS 0u
-#define CORE_CLIPS 1u
-#define CORE_SAMPLES 2u
-#define CORE_SOLVES 3u
-#define CORE_POLISHES 4u
+#define CORE_PHASE_SEEK 0u
+#define CORE_PHASE_CLIP 1u
+#define CORE_PHASE_SAMPLE 2u
+#define CORE_PHASE_SOLVE 3u
+#define CORE_PHASE_POLISH 4u
 // A piece, a part or an element is done with.
-#define CORE_PIECE_DONE 5u
-#define CORE_PART_DONE 6u
+#define CORE_PHASE_PIECE_DONE 5u
+#define CORE_PHASE_PART_DONE 6u
 
 struct core_candidate {
     uint kind, index;
@@ -165,7 +165,7 @@ void main() {
 
     uint stack[CORE_STACK_SIZE];
     stack[0] = 0u;
-    uint stack_size = is_wanted ? 1u : 0u, work = 0u, phase = CORE_SEEKS, flags = 0u;
+    uint stack_size = is_wanted ? 1u : 0u, work = 0u, phase = CORE_PHASE_SEEK, flags = 0u;
     uint element = 0u, n_parts = 0u;
     core_part part;
     part.element = 0u;
@@ -199,9 +199,9 @@ void main() {
     uint n_evaluations = 0u, n_certified = 0u, n_verified = 0u, n_undecided = 0u, n_crossings = 0u, n_failures = 0u, n_pieces = 0u;
     uint n_degrees = 0u;
 
-    while ((phase != CORE_SEEKS || stack_size > 0u) && work < CORE_WORK_LIMIT) {
+    while ((phase != CORE_PHASE_SEEK || stack_size > 0u) && work < CORE_WORK_LIMIT) {
         work += 1u;
-        while (phase == CORE_SEEKS && stack_size > 0u && work < CORE_WORK_LIMIT) {
+        while (phase == CORE_PHASE_SEEK && stack_size > 0u && work < CORE_WORK_LIMIT) {
             work += 1u;
             stack_size -= 1u;
             const core_node node = core_fetch_node(stack[stack_size]);
@@ -238,18 +238,18 @@ void main() {
                 n_parts = 0u;
                 const bool is_begun = !is_missed && !is_certified &&
                                       core_part_begin(walk_ray, element, elvis_real(span.x), min(span_end, elvis_real(span.x) + walk_ray.reach), false, part);
-                phase = is_begun ? CORE_CLIPS : CORE_SEEKS;
+                phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
             }
         }
 
-        for (uint turn = 0u; turn < (phase == CORE_CLIPS ? 1u : 0u); ++turn) {
+        for (uint turn = 0u; turn < (phase == CORE_PHASE_CLIP ? 1u : 0u); ++turn) {
             const uint ending = core_part_turn(walk_ray, true, part);
             n_evaluations += 1u;
             const bool is_found = ending == CORE_PART_FOUND && part.enter < part.leave;
             const bool is_lost = ending != CORE_PART_OPEN && part.has_failed;
             n_failures += is_lost ? 1u : 0u;
             undecided_t = is_lost ? min(undecided_t, part.begin) : undecided_t;
-            phase = is_found ? CORE_SAMPLES : ending == CORE_PART_OPEN ? CORE_CLIPS : CORE_PART_DONE;
+            phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_PART_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_PART_DONE;
             // Ends are as wrong as that, and a crossing beside them is one all the same; but none is behind the eye.
             part_from = max(part.enter - part.enter_error - walk_ray.tolerance, ray.least_t);
             part_to = part.leave + part.leave_error + walk_ray.tolerance;
@@ -267,7 +267,7 @@ void main() {
             core_follow_to(follower, from);
         }
 
-        for (uint turn = 0u; turn < (phase == CORE_SOLVES ? 1u : 0u); ++turn) {
+        for (uint turn = 0u; turn < (phase == CORE_PHASE_SOLVE ? 1u : 0u); ++turn) {
             candidate = core_next_candidate(fit, bernstein, fit.error, walk);
             const bool is_none = candidate.kind == CORE_CROSSING_NONE;
             // Where the polynomial is this near, the field may cross more than once; the slope tells.
@@ -287,20 +287,20 @@ void main() {
             polish_turns = 0u;
             core_follow_to(follower, from + candidate.t * (to - from));
             const bool is_ignored = CORE_PLAIN == 1 && candidate.kind == CORE_CROSSING_TOUCH;
-            phase = is_none ? CORE_PIECE_DONE : is_ignored ? CORE_SOLVES : CORE_POLISHES;
+            phase = is_none ? CORE_PHASE_PIECE_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
             for (uint second = 0u; second < (refines && (halves || !is_full) ? 1u : 0u); ++second) {
                 for (uint third = 0u; third < (halves ? 1u : 0u); ++third) {
                     core_halve(segment, ends, level, index);
                     to = elvis_real(0.5LF) * (from + to);
                 }
-                phase = CORE_SAMPLES;
+                phase = CORE_PHASE_SAMPLE;
                 core_follow_to(follower, from + core_segment_parameter(segment) * (to - from));
             }
         }
 
         core_ray_sample found;
         found.status = CORE_SAMPLE_RUNNING;
-        const bool evaluates = phase == CORE_SAMPLES || phase == CORE_POLISHES;
+        const bool evaluates = phase == CORE_PHASE_SAMPLE || phase == CORE_PHASE_POLISH;
         for (uint turn = 0u; turn < (evaluates ? 1u : 0u); ++turn) {
             found = core_sample_step(walk_ray, element, curvature, follower);
             n_evaluations += 1u;
@@ -308,11 +308,11 @@ void main() {
             n_failures += is_lost && found.is_finite ? 1u : 0u;
             flags |= !found.is_finite ? CORE_FLAG_NAN : 0u;
             undecided_t = is_lost && found.is_finite ? min(undecided_t, from) : undecided_t;
-            phase = is_lost ? CORE_PART_DONE : phase;
+            phase = is_lost ? CORE_PHASE_PART_DONE : phase;
         }
 
         bool is_judged = false;
-        for (uint turn = 0u; turn < (phase == CORE_SAMPLES && found.status == CORE_SAMPLE_FOUND ? 1u : 0u); ++turn) {
+        for (uint turn = 0u; turn < (phase == CORE_PHASE_SAMPLE && found.status == CORE_SAMPLE_FOUND ? 1u : 0u); ++turn) {
             core_segment_add(segment, found.value, found.error, elvis_real(-1));
             is_judged = segment.status != CORE_SEGMENT_WANTS;
             for (int i = 0; i < CORE_SEGMENT_LEVELS; ++i) {
@@ -343,7 +343,7 @@ void main() {
             fit.error = core_bernstein_rounding(fit.chebyshev);
 #endif
             walk = core_walk_begin();
-            phase = is_verified ? CORE_PIECE_DONE : is_solved ? CORE_SOLVES : phase;
+            phase = is_verified ? CORE_PHASE_PIECE_DONE : is_solved ? CORE_PHASE_SOLVE : phase;
             for (uint second = 0u; second < (halves ? 1u : 0u); ++second) {
                 core_halve(segment, ends, level, index);
                 to = elvis_real(0.5LF) * (from + to);
@@ -351,7 +351,7 @@ void main() {
             }
         }
 
-        for (uint turn = 0u; turn < (phase == CORE_POLISHES && found.status == CORE_SAMPLE_FOUND ? 1u : 0u); ++turn) {
+        for (uint turn = 0u; turn < (phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND ? 1u : 0u); ++turn) {
             polish_turns += 1u;
             const elvis_real t = follower.at, off = found.value - isovalue;
             const bool is_above = off > found.error, is_below = off < -found.error;
@@ -406,11 +406,11 @@ void main() {
             const bool is_estimated = core_is_model_estimated(element) || part.is_estimated || CORE_PLAIN == 1;
             flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;
 
-            phase = is_hit ? CORE_SEEKS : is_settled || is_last ? CORE_SOLVES : CORE_POLISHES;
+            phase = is_hit ? CORE_PHASE_SEEK : is_settled || is_last ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
             core_follow_to(follower, is_within ? next : elvis_real(0.5LF) * (bracket_from + bracket_to));
         }
 
-        for (uint turn = 0u; turn < (phase == CORE_PIECE_DONE ? 1u : 0u); ++turn) {
+        for (uint turn = 0u; turn < (phase == CORE_PHASE_PIECE_DONE ? 1u : 0u); ++turn) {
             const uint next = index + 1u;
             const uint up = min(uint(findLSB(next)), level);
             const bool is_last = level == 0u || next == 1u << level;
@@ -428,9 +428,9 @@ void main() {
             segment.sample_error = error;
             ends[level] = segment.samples[1];
             core_follow_to(follower, from + core_segment_parameter(segment) * (to - from));
-            phase = is_last ? CORE_PART_DONE : from > best_t + best_slack ? CORE_SEEKS : CORE_SAMPLES;
+            phase = is_last ? CORE_PHASE_PART_DONE : from > best_t + best_slack ? CORE_PHASE_SEEK : CORE_PHASE_SAMPLE;
         }
-        for (uint turn = 0u; turn < (phase == CORE_PART_DONE ? 1u : 0u); ++turn) {
+        for (uint turn = 0u; turn < (phase == CORE_PHASE_PART_DONE ? 1u : 0u); ++turn) {
             n_parts += 1u;
             const elvis_real resume = part.resume + walk_ray.tolerance;
             const bool goes_on = part.is_inside && resume < span_end && resume < best_t + best_slack;
@@ -439,11 +439,11 @@ void main() {
             for (uint second = 0u; second < (goes_on && n_parts < CORE_MOST_PARTS ? 1u : 0u); ++second) {
                 is_begun = core_part_begin(walk_ray, element, resume, span_end, false, part);
             }
-            phase = is_begun ? CORE_CLIPS : CORE_SEEKS;
+            phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
         }
     }
 
-    const bool is_cut_short = is_pixel && (phase != CORE_SEEKS || stack_size > 0u || core_has_driver_given_up(core_surface >> 31));
+    const bool is_cut_short = is_pixel && (phase != CORE_PHASE_SEEK || stack_size > 0u || core_has_driver_given_up(core_surface >> 31));
     flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT | CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
     const bool is_hit = best_element != CORE_NO_ELEMENT;
     flags |= undecided_t <= best_t + best_slack && undecided_t < CORE_FAR ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
@@ -461,10 +461,7 @@ void main() {
         core_normals[3u * pixel] = size * normal.x;
         core_normals[3u * pixel + 1u] = size * normal.y;
         core_normals[3u * pixel + 2u] = size * normal.z;
-        core_points[pixel].x = best_x;
-        core_points[pixel].y = best_y;
-        core_points[pixel].z = best_z;
-        core_points[pixel].element = best_element;
+        core_places[pixel] = core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS);
         core_bending[pixel] = core_is_finite(best_bend) ? min(best_bend, CORE_FAR) : CORE_FAR;
     }
     const uint all_evaluations = subgroupAdd(n_evaluations), all_certified = subgroupAdd(n_certified), all_verified = subgroupAdd(n_verified);

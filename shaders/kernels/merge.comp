@@ -55,10 +55,12 @@ void main() {
         old_depth = core_samples[pixel].depth;
     }
     const bool is_nearest = is_seen && depth < old_depth;
-    // Flags of a surface that found nothing may hide something that it should have found: they stay, in the upper half.
+    // Flags of a surface that found nothing, or something that is cut away, may hide something that it should have found: they stay,
+    // in the upper half.
     const uint old_flags = is_first ? 0u : old.flags;
     const uint own_flags = is_seen ? layer.flags : 0u;
-    const uint lost_flags = is_drawn ? 0u : layer.flags;
+    const uint may_hide = CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED;
+    const uint lost_flags = !is_drawn ? layer.flags : is_seen ? 0u : layer.flags & may_hide;
     const uint kept_flags = is_nearest ? (old_flags & 0xffff0000u) | own_flags : old_flags;
     for (uint turn = 0u; turn < (is_inside ? 1u : 0u); ++turn) {
         const uint low_bits = layer.owner & ((1u << CORE_OWNER_BITS) - 1u);

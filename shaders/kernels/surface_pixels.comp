@@ -8,6 +8,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/precision.glsl"
 #include "library/cut_frame.glsl"
 #include "library/cut_tiles.glsl"
+#include "library/place.glsl"
 #include "library/samples.glsl"
 
 struct core_hit_record {
@@ -20,6 +21,8 @@ layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 5, std430) readonly buffer core_hits_block { core_hit_record core_hits[]; };
 layout(set = 0, binding = 6, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
+// Written if core_wants_places.
+layout(set = 0, binding = 7, std430) writeonly buffer core_places_block { core_place core_places[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_first_tile_row;
@@ -32,6 +35,7 @@ layout(push_constant) uniform core_parameters {
     uint core_is_discontinuous;
     // The most that a point's error along the ray may be; where it is more the pixel is undecided anyway.
     float core_most_error;
+    uint core_wants_places;
 };
 
 uint core_first_entry() {
@@ -87,7 +91,12 @@ void main() {
         const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
         for (uint turn = 0u; turn < (is_news ? 1u : 0u); ++turn) {
             const bool was_open = core_marks[pixel].owner >> CORE_OWNER_BITS != core_surface;
-            n_evaluations += core_merge(pixel, point, found, value);
+            const uint n_done = core_merge(pixel, point, found, value);
+            n_evaluations += n_done;
+            for (uint again = 0u; again < (n_done > 0u ? core_wants_places : 0u); ++again) {
+                core_places[pixel] =
+                    core_place(found.x, found.y, found.z, found.element, CORE_CLASS << CORE_PLACE_FACE_BITS);
+            }
             n_found += has_found && was_open ? 1u : 0u;
         }
         n_steps += found.n_steps;

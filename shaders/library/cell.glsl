@@ -11,6 +11,9 @@
 //
 // and otherwise it is open. Faces in which the surface lies do not bound anything on it: they are left out.
 
+#ifndef CORE_CELL
+#define CORE_CELL
+
 #include "library/element_frame.glsl"
 #include "library/model.glsl"
 #include "library/prediction.glsl"
@@ -158,3 +161,5 @@ core_level_test core_test_levels(core_model f, core_patch cell) {
     test.is_met = is_known && first_sure < core_n_isovalues && core_isovalue(first_sure) <= most - error;
     return test;
 }
+
+#endif

@@ -7,6 +7,9 @@
 // along the view's axis. It meets the cut plane at t = -level / slope, where
 // level (signed distance of base from the plane) and slope are linear in column and row, too.
 
+#ifndef CORE_CUT_FRAME
+#define CORE_CUT_FRAME
+
 layout(std140, set = 0, binding = 0) uniform core_cut_frame {
     // xyz: base; w: level
     elvis_vec4 core_base0, core_base_column, core_base_row;
@@ -91,3 +94,5 @@ core_cut_square core_cut_corners(elvis_real column, elvis_real row, elvis_real h
     square.error = max(max(p0.error, p1.error), max(p2.error, p3.error));
     return square;
 }
+
+#endif

@@ -1,5 +1,7 @@
 // Bindings of the kernels that draw faces, and how what they have found gets into the picture.
 
+#include "library/place.glsl"
+
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
 // Three numbers a pixel.
 layout(set = 0, binding = 2, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
@@ -10,6 +12,8 @@ layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint cor
 layout(set = 0, binding = 6, std430) buffer core_list_block { uint core_list[]; };
 // Depths behind which crossings are wanted; CORE_FAR where none is. Read if core_has_beyond.
 layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
+// Written if core_wants_places.
+layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_tiles_per_row;
@@ -22,6 +26,7 @@ layout(push_constant) uniform core_parameters {
     uint core_is_discontinuous;
     uint core_has_beyond;
     uint core_wants_normals;
+    uint core_wants_places;
 };
 
 #include "library/look_beyond.glsl"
@@ -64,6 +69,11 @@ uint core_show(uint pixel, core_ray ray, core_nearest nearest, core_location fou
         core_normals[3u * pixel] = unit.x;
         core_normals[3u * pixel + 1u] = unit.y;
         core_normals[3u * pixel + 2u] = unit.z;
+    }
+    for (uint turn = 0u; turn < (n_evaluations > 0u ? core_wants_places : 0u); ++turn) {
+        const uint face = elvis_fetch4_core_faces(nearest.face, 0u).y;
+        core_places[pixel] =
+            core_place(found.x, found.y, found.z, found.element, (CORE_CLASS << CORE_PLACE_FACE_BITS) | (face + 1u));
     }
     for (uint turn = 0u; turn < (n_evaluations > 0u ? 1u : 0u); ++turn) {
 #ifndef CORE_FACE_ORDER

@@ -6,7 +6,6 @@
 #include "library/level_model.glsl"
 
 layout(std430, set = 0, binding = 3) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
-#define core_n_isovalues uint(core_isovalues.length())
 
 #include "library/isovalues.glsl"
 #include "library/level_span.glsl"

@@ -1,5 +1,8 @@
 // What a pixel sees of the surfaces drawn so far.
 
+#ifndef CORE_SAMPLES
+#define CORE_SAMPLES
+
 // A depth behind everything.
 #define CORE_FAR elvis_real(3.0e38LF)
 
@@ -48,3 +51,5 @@ struct core_mark {
 #define CORE_FLAG_WORK_LIMIT 1024u
 #define CORE_FLAG_ESTIMATED 2048u
 #define CORE_FLAG_RANGE_TOO_FINE 4096u
+
+#endif

@@ -1,5 +1,8 @@
 // A pixel's square, or a part of it, on the tangent plane of a curved surface where the pixel's ray meets it.
 
+#ifndef CORE_TANGENT_SQUARE
+#define CORE_TANGENT_SQUARE
+
 #include "library/cut_frame.glsl"
 
 // The tangent plane; relative to the reference point.
@@ -32,3 +35,5 @@ core_cut_square core_tangent_square(core_tangent plane, elvis_real column, elvis
     square.error = elvis_real(8) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);
     return square;
 }
+
+#endif

@@ -15,6 +15,8 @@ Surface surface_of(std::vector<double> values) {
     Surface surface;
     surface.geometry = Isosurfaces{{}, std::move(values)};
     surface.colors.points = {{0, {0, 0, 0}}};
+    // Where it is transparent nothing is seen.
+    surface.colors.below = surface.colors.above = {0, 0, 0, 1};
     return surface;
 }
 

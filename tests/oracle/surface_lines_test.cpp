@@ -198,4 +198,97 @@ TEST_CASE("lines on the boundary of a box are those of its faces, or marked unde
     }
 }
 
+namespace {
+
+// Undecided pixels with every limit, which must fall, while none is wrong. `sees_contour`, `sees_mesh`: as in compare_lines.
+void check_limits(const char* name, FrameRequest request, const RuntimeVolume& volume,
+                  const std::function<std::optional<double>(const Ray&)>& sees_contour,
+                  const std::function<std::optional<double>(const Ray&)>& sees_mesh, bool knows_mesh) {
+    Renderer renderer(device(), volume, Precision::float64);
+    std::vector<Counts> contours, lines;
+    for (std::uint32_t limit = 0; limit <= 8; limit += 2) {
+        request.surfaces[0].subdivisions = limit;
+        const Frame frame = renderer.render(request);
+        contours.push_back(
+            compare_lines(request, frame, pixel_flag::contour, pixel_flag::contour_undecided, sees_contour, true));
+        CHECK(contours.back().missed == 0);
+        CHECK(contours.back().invented == 0);
+        lines.push_back(
+            compare_lines(request, frame, pixel_flag::mesh_line, pixel_flag::mesh_line_undecided, sees_mesh, false));
+        if (knows_mesh) {
+            CHECK(lines.back().missed == 0);
+            CHECK(lines.back().invented == 0);
+        }
+    }
+    const auto undecided = [](const std::vector<Counts>& counts) {
+        std::string text;
+        for (const Counts& count : counts)
+            text.append(" ").append(std::to_string(count.undecided));
+        return text;
+    };
+    WARN(name << ", undecided with 0, 2, 4, 6, 8 subdivisions, of " << contours[0].hit << " pixels: contours"
+              << undecided(contours) << "; mesh lines" << undecided(lines));
+    for (const std::vector<Counts>& counts : {contours, lines}) {
+        CHECK(counts[0].undecided > counts[2].undecided);
+        CHECK(counts[2].undecided >= counts[4].undecided);
+    }
+    CHECK(contours[4].undecided <= contours[4].hit / 100);
+}
+
+} // namespace
+
+TEST_CASE("more subdivision leaves fewer pixels undecided on a sphere, at its silhouette, too") {
+    const TemporaryFile file("sphere_limits.h5");
+    write_volume(file.path(), cube_volume(4));
+    FrameRequest request = view();
+    Surface surface;
+    surface.geometry = CutShape{Sphere{{0.5, 0.5, 0.5}, 0.4}};
+    surface.colors.points = {{0, {0, 0, 0}}, {2, {1, 1, 1}}};
+    surface.contours = Contours{{0.7}, {}};
+    surface.mesh_lines.emplace();
+    request.surfaces = {surface};
+    const LongVector centre(0.5L, 0.5L, 0.5L);
+    check_limits(
+        "sphere", request, open_volume(file.path()),
+        [&](const Ray& ray) -> std::optional<double> {
+            const auto x = sphere_point(ray, centre, 0.4L);
+            return x ? std::optional(static_cast<double>(x->z() + 0.3L * x->x() - 0.7L)) : std::nullopt;
+        },
+        [&](const Ray& ray) -> std::optional<double> {
+            const auto x = sphere_point(ray, centre, 0.4L);
+            return x ? std::optional(static_cast<double>(std::floor(4 * x->x()) + 10 * std::floor(4 * x->y()) +
+                                                         100 * std::floor(4 * x->z())))
+                     : std::nullopt;
+        },
+        true);
+}
+
+TEST_CASE("more subdivision leaves fewer pixels undecided on the boundary of a ball, at its silhouette, too") {
+    // Of an order by which mapping and field are off by far less than a pixel.
+    const TemporaryFile file("ball_limits.h5");
+    generate(R"({"generator": 1, "mesh": "ball", "shape": "hexahedron", "elements": [4, 4, 4], "geometry_order": 6, "order": 8,
+                 "field": "waves"})",
+             file.path());
+    FrameRequest request = view();
+    request.camera.eye = {3.2, 2.4, 1.8};
+    request.camera.look_at = {0, 0, 0};
+    Surface surface;
+    surface.geometry = BoundaryFaces{};
+    surface.colors.points = {{0, {0, 0, 0}}, {2, {1, 1, 1}}};
+    surface.contours = Contours{{0.45}, {}};
+    surface.mesh_lines.emplace();
+    request.surfaces = {surface};
+    check_limits(
+        "ball", request, open_volume(file.path()),
+        [](const Ray& ray) -> std::optional<double> {
+            const auto point = sphere_point(ray, LongVector(0, 0, 0), 1);
+            if (!point)
+                return std::nullopt;
+            const LongVector x = 3.5L * *point;
+            return static_cast<double>(std::sin(x.x()) * std::cos(x.y()) + std::sin(x.y()) * std::cos(x.z()) +
+                                       std::sin(x.z()) * std::cos(x.x()) - 0.45L);
+        },
+        [](const Ray&) -> std::optional<double> { return std::nullopt; }, false);
+}
+
 } // namespace elvis::oracle
