@@ -4,7 +4,8 @@
 //
 // Elements whose range holds an isovalue are visited nearest first, and in each the parts of the ray inside, from exact entry to
 // exact exit (library/ray_part.glsl). Along a part the field is sampled and becomes a polynomial (library/segment_fit.glsl), whose
-// degree is raised, and then the part halved, until the error E is small beside how much the polynomial varies. A piece without an
+// degree is raised, and then the part halved, until the error E is small beside how much the polynomial varies. Beside values each
+// sample has the field's slope along the ray, which the polynomial must have, too: few values alone can deceive. A piece without an
 // isovalue within E of the polynomial's Bernstein coefficients is left out: that is verified, not certified. Else the polynomial's
 // crossings are looked at in order. Each is polished on the field itself by Newton's method along the ray; it is taken if
 //
@@ -83,6 +84,12 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #endif
 // E over how much the polynomial varies, above which it is not believed.
 #define CORE_ROUGH elvis_real(1e-3LF)
+// What slopes that differ say about E, over the same, below which it may be the gradient's own error.
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_LEAST_SLOPE_ERROR elvis_real(1e-6LF)
+#else
+#define CORE_LEAST_SLOPE_ERROR elvis_real(1e-3LF)
+#endif
 
 #define CORE_PHASE_SEEK 0u
 #define CORE_PHASE_CLIP 1u
@@ -133,13 +140,71 @@ core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvi
 }
 #endif
 
+// The samples of a piece, and what comes after it: samples at the ends of the pieces that it is in, by level.
+struct core_piece {
+    core_segment values, slopes;
+    elvis_real end_values[CORE_MOST_LEVELS + 1u], end_slopes[CORE_MOST_LEVELS + 1u];
+    // [index, index + 1] / 2^level of the part.
+    uint level, index;
+};
+
 // To the first half of a piece.
-void core_halve(inout core_segment segment, inout elvis_real ends[CORE_MOST_LEVELS + 1u], inout uint level, inout uint index) {
-    ends[level] = segment.samples[1];
-    ends[level + 1u] = segment.samples[2];
-    segment = core_segment_half(segment, 0u);
-    level += 1u;
-    index *= 2u;
+void core_halve(inout core_piece piece) {
+    piece.end_values[piece.level] = piece.values.samples[1];
+    piece.end_slopes[piece.level] = piece.slopes.samples[1];
+    piece.level += 1u;
+    piece.index *= 2u;
+    piece.end_values[piece.level] = piece.values.samples[2];
+    piece.end_slopes[piece.level] = piece.slopes.samples[2];
+    piece.values = core_segment_half(piece.values, 0u);
+    piece.slopes = core_segment_half(piece.slopes, 0u);
+}
+
+// To the piece after it in the same part.
+void core_next_piece(inout core_piece piece) {
+    const uint next = piece.index + 1u;
+    const uint up = uint(findLSB(next));
+    piece.index = next >> up;
+    piece.level -= up;
+    const elvis_real value = piece.values.samples[1], slope = piece.slopes.samples[1], error = piece.values.sample_error;
+    piece.values = piece.slopes = core_segment_begin();
+    piece.values.samples[0] = value;
+    piece.slopes.samples[0] = slope;
+    piece.end_values[piece.level] = piece.values.samples[1] = piece.end_values[piece.level - 1u];
+    piece.end_slopes[piece.level] = piece.slopes.samples[1] = piece.end_slopes[piece.level - 1u];
+    piece.values.n_samples = piece.slopes.n_samples = 2u;
+    piece.values.sample_error = error;
+}
+
+bool core_is_last_piece(core_piece piece) { return piece.index + 1u == 1u << piece.level; }
+
+void core_add_sample(inout core_piece piece, core_ray_sample found) {
+    for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
+        piece.slopes.samples[i] = uint(i) == piece.slopes.n_samples ? found.slope : piece.slopes.samples[i];
+    }
+    piece.slopes.n_samples += 1u;
+    core_segment_add(piece.values, found.value, found.error, elvis_real(-1));
+}
+
+// What the samples' slopes say about the error of a polynomial on a piece of this length: between nodes at distances h the difference
+// from the field is like A sin(pi t / h), which has the slope pi A / h at the nodes; h is about pi sqrt(t (1 - t)) / n, and 1 / n^2 at
+// the ends.
+elvis_real core_slope_error(core_piece piece, core_polynomial bernstein, elvis_real size) {
+    const elvis_real degree = elvis_real(CORE_SEGMENT_DEGREE), inverse = elvis_real(1) / elvis_real(piece.slopes.n_samples - 1u);
+    elvis_real error = elvis_real(0);
+    for (int i = 0; i < CORE_SEGMENT_SAMPLES; ++i) {
+        const elvis_real t = core_segment_parameters[i], s = elvis_real(1) - t;
+        // Of the derivative's Bernstein form, as in core_bernstein_value: its coefficients are degree * differences.
+        elvis_real power = elvis_real(1), sum = elvis_real(0);
+        for (int k = 0; k < CORE_SEGMENT_DEGREE; ++k) {
+            const elvis_real binomial = core_segment_binomials[k] * (degree - elvis_real(k)) / degree;
+            sum = sum * s + binomial * power * (bernstein.c[k + 1] - bernstein.c[k]);
+            power *= t;
+        }
+        const elvis_real off = abs(degree * sum - size * piece.slopes.samples[i]) * (sqrt(t * s) + inverse) * inverse;
+        error = uint(i) < piece.slopes.n_samples ? max(error, off) : error;
+    }
+    return error;
 }
 
 void main() {
@@ -170,21 +235,21 @@ void main() {
     core_part part;
     part.element = 0u;
     part.resume = part.last = elvis_real(0);
-    // Of the element, and of the part; the piece is [index, index + 1] / 2^level of that.
+    // Of the element, of the part, and of the piece.
     elvis_real span_end = elvis_real(0), curvature = elvis_real(0), bend = CORE_FAR;
     elvis_real part_from = elvis_real(0), part_to = elvis_real(0), from = elvis_real(0), to = elvis_real(0);
-    uint level = 0u, index = 0u;
-    // Samples at the ends of the pieces that the piece is in, by level.
-    elvis_real ends[CORE_MOST_LEVELS + 1u];
+    core_piece piece;
     core_follower follower;
-    core_segment segment = core_segment_begin();
-    core_fit fit = core_segment_fit(segment);
+    piece.values = piece.slopes = core_segment_begin();
+    piece.level = piece.index = 0u;
+    core_fit fit = core_segment_fit(piece.values);
     core_polynomial bernstein = fit.chebyshev;
     core_walk walk = core_walk_begin();
     core_candidate candidate = core_candidate(CORE_CROSSING_NONE, 0u, elvis_real(0), elvis_real(0), elvis_real(0));
     elvis_real bracket_from = elvis_real(0), bracket_to = elvis_real(0), isovalue = elvis_real(0), floor_error = elvis_real(0);
     bool rises = false, is_seen_below = false, is_seen_above = false;
     uint polish_turns = 0u;
+    elvis_real last_step = CORE_FAR;
 
     // The nearest crossing so far; of another class, its depth. The nearest place that is undecided.
     elvis_real best_t = CORE_FAR, best_slack = elvis_real(0), best_x = elvis_real(0), best_y = best_x, best_z = best_x, best_isovalue = best_x;
@@ -253,10 +318,10 @@ void main() {
             // Ends are as wrong as that, and a crossing beside them is one all the same; but none is behind the eye.
             part_from = max(part.enter - part.enter_error - walk_ray.tolerance, ray.least_t);
             part_to = part.leave + part.leave_error + walk_ray.tolerance;
-            level = index = 0u;
+            piece.level = piece.index = 0u;
             from = part_from;
             to = part_to;
-            segment = core_segment_begin();
+            piece.values = piece.slopes = core_segment_begin();
             follower.known = part.anchor;
             follower.known_x = part.x;
             follower.known_y = part.y;
@@ -274,8 +339,8 @@ void main() {
             const elvis_real lower_value = core_bernstein_value(bernstein, candidate.lower), upper_value = core_bernstein_value(bernstein, candidate.upper);
             const bool is_doubtful = candidate.kind != CORE_CROSSING_VERIFIED && fit.error > elvis_real(2) * floor_error;
             const bool refines = !is_none && is_doubtful && CORE_PLAIN == 0;
-            const bool is_full = segment.status != CORE_SEGMENT_WANTS;
-            const bool halves = refines && is_full && level < CORE_MOST_LEVELS;
+            const bool is_full = piece.values.status != CORE_SEGMENT_WANTS;
+            const bool halves = refines && is_full && piece.level < CORE_MOST_LEVELS;
             isovalue = core_isovalues[candidate.index];
             rises = lower_value < upper_value;
             is_seen_below = is_seen_above = false;
@@ -285,16 +350,17 @@ void main() {
             bracket_from = from + candidate.lower * (to - from) - margin;
             bracket_to = from + candidate.upper * (to - from) + margin;
             polish_turns = 0u;
+            last_step = CORE_FAR;
             core_follow_to(follower, from + candidate.t * (to - from));
             const bool is_ignored = CORE_PLAIN == 1 && candidate.kind == CORE_CROSSING_TOUCH;
             phase = is_none ? CORE_PHASE_PIECE_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
             for (uint second = 0u; second < (refines && (halves || !is_full) ? 1u : 0u); ++second) {
                 for (uint third = 0u; third < (halves ? 1u : 0u); ++third) {
-                    core_halve(segment, ends, level, index);
+                    core_halve(piece);
                     to = elvis_real(0.5LF) * (from + to);
                 }
                 phase = CORE_PHASE_SAMPLE;
-                core_follow_to(follower, from + core_segment_parameter(segment) * (to - from));
+                core_follow_to(follower, from + core_segment_parameter(piece.values) * (to - from));
             }
         }
 
@@ -313,26 +379,28 @@ void main() {
 
         bool is_judged = false;
         for (uint turn = 0u; turn < (phase == CORE_PHASE_SAMPLE && found.status == CORE_SAMPLE_FOUND ? 1u : 0u); ++turn) {
-            core_segment_add(segment, found.value, found.error, elvis_real(-1));
-            is_judged = segment.status != CORE_SEGMENT_WANTS;
+            core_add_sample(piece, found);
+            is_judged = piece.values.status != CORE_SEGMENT_WANTS;
             for (int i = 0; i < CORE_SEGMENT_LEVELS; ++i) {
-                is_judged = is_judged || segment.n_samples == core_segment_counts[i];
+                is_judged = is_judged || piece.values.n_samples == core_segment_counts[i];
             }
-            core_follow_to(follower, from + core_segment_parameter(segment) * (to - from));
+            core_follow_to(follower, from + core_segment_parameter(piece.values) * (to - from));
         }
         for (uint turn = 0u; turn < (is_judged ? 1u : 0u); ++turn) {
-            fit = core_segment_fit(segment);
+            fit = core_segment_fit(piece.values);
             bernstein = core_to_bernstein(fit.chebyshev);
-            floor_error = CORE_SEGMENT_LEBESGUE * segment.sample_error + core_bernstein_rounding(fit.chebyshev);
+            floor_error = CORE_SEGMENT_LEBESGUE * piece.values.sample_error + core_bernstein_rounding(fit.chebyshev);
             const elvis_real least = core_least(bernstein), most = core_most(bernstein);
+            const elvis_real slope_error = core_slope_error(piece, bernstein, to - from);
+            fit.error += slope_error > CORE_LEAST_SLOPE_ERROR * (most - least) + floor_error ? slope_error : elvis_real(0);
             // What is not rounding is an estimate.
             const elvis_real margin = elvis_real(2) * fit.error;
             const uint first = core_isovalue_from(least - margin);
             const bool is_free = first == core_isovalues_end(first, most + margin);
-            const bool is_full = segment.status != CORE_SEGMENT_WANTS;
+            const bool is_full = piece.values.status != CORE_SEGMENT_WANTS;
             const bool is_crude = fit.error > elvis_real(0.25LF) * (most - least) + elvis_real(2) * floor_error;
             const bool is_rough = fit.error > CORE_ROUGH * (most - least) + elvis_real(2) * floor_error;
-            const bool can_halve = level < CORE_MOST_LEVELS && CORE_PLAIN == 0;
+            const bool can_halve = piece.level < CORE_MOST_LEVELS && CORE_PLAIN == 0;
             const bool is_verified = is_free && !is_crude;
             const bool is_solved = !is_verified && (!is_rough || (is_full && !can_halve));
             const bool halves = !is_verified && !is_solved && is_full;
@@ -345,9 +413,9 @@ void main() {
             walk = core_walk_begin();
             phase = is_verified ? CORE_PHASE_PIECE_DONE : is_solved ? CORE_PHASE_SOLVE : phase;
             for (uint second = 0u; second < (halves ? 1u : 0u); ++second) {
-                core_halve(segment, ends, level, index);
+                core_halve(piece);
                 to = elvis_real(0.5LF) * (from + to);
-                core_follow_to(follower, from + core_segment_parameter(segment) * (to - from));
+                core_follow_to(follower, from + core_segment_parameter(piece.values) * (to - from));
             }
         }
 
@@ -365,7 +433,10 @@ void main() {
             const elvis_real next = t + step;
             const bool is_within = is_regular && next >= bracket_from && next <= bracket_to;
             // From here the line's root is as good as any.
-            const bool is_at_root = is_regular && abs(step) * speed <= elvis_real(4) * found.rounding;
+            const bool is_at_root = is_regular && (abs(step) * speed <= elvis_real(4) * found.rounding ||
+                                                   // Steps are rounding of the field.
+                                                   (abs(step) <= half_width && abs(step) >= elvis_real(0.5LF) * last_step));
+            last_step = is_regular ? abs(step) : CORE_FAR;
             const bool is_narrow = bracket_to - bracket_from <= elvis_real(4) * CORE_ROUNDOFF * max(abs(bracket_from), abs(bracket_to));
             const bool is_candidate = candidate.kind != CORE_CROSSING_VERIFIED;
             const bool is_last = polish_turns >= (is_candidate ? CORE_CANDIDATE_TURNS : CORE_POLISH_TURNS);
@@ -411,23 +482,13 @@ void main() {
         }
 
         for (uint turn = 0u; turn < (phase == CORE_PHASE_PIECE_DONE ? 1u : 0u); ++turn) {
-            const uint next = index + 1u;
-            const uint up = min(uint(findLSB(next)), level);
-            const bool is_last = level == 0u || next == 1u << level;
-            index = next >> up;
-            level -= up;
-            const elvis_real size = elvis_real(1) / elvis_real(1u << level);
-            const elvis_real start = segment.samples[1];
-            const elvis_real error = segment.sample_error;
-            from = to;
-            to = part_from + (elvis_real(index + 1u) * size) * (part_to - part_from);
-            segment = core_segment_begin();
-            segment.samples[0] = start;
-            segment.samples[1] = ends[max(level, 1u) - 1u];
-            segment.n_samples = 2u;
-            segment.sample_error = error;
-            ends[level] = segment.samples[1];
-            core_follow_to(follower, from + core_segment_parameter(segment) * (to - from));
+            const bool is_last = core_is_last_piece(piece);
+            for (uint second = 0u; second < (is_last ? 0u : 1u); ++second) {
+                core_next_piece(piece);
+                from = to;
+                to = part_from + (elvis_real(piece.index + 1u) / elvis_real(1u << piece.level)) * (part_to - part_from);
+                core_follow_to(follower, from + core_segment_parameter(piece.values) * (to - from));
+            }
             phase = is_last ? CORE_PHASE_PART_DONE : from > best_t + best_slack ? CORE_PHASE_SEEK : CORE_PHASE_SAMPLE;
         }
         for (uint turn = 0u; turn < (phase == CORE_PHASE_PART_DONE ? 1u : 0u); ++turn) {
