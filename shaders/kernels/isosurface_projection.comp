@@ -83,7 +83,12 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #define CORE_END_TOLERANCE elvis_real(2.5e-7LF)
 #endif
 // E over how much the polynomial varies, above which it is not believed.
+#if CORE_USES_COLLEAGUE
+// Eigenvalues tell no error: as little as there can be.
+#define CORE_ROUGH elvis_real(0)
+#else
 #define CORE_ROUGH elvis_real(1e-3LF)
+#endif
 // What slopes that differ say about E, over the same, below which it may be the gradient's own error.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_LEAST_SLOPE_ERROR elvis_real(1e-6LF)
@@ -107,26 +112,27 @@ struct core_candidate {
 };
 
 #if CORE_USES_COLLEAGUE
-// The first eigenvalue. Where the polynomial comes within E of an isovalue before, or only then, it is no better than a touch.
+// The first root that is an eigenvalue. If there is none: where the polynomial comes within E of an isovalue, no better than a touch.
 core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_walk walk) {
     core_candidate candidate = core_candidate(CORE_CROSSING_NONE, 0u, elvis_real(2), elvis_real(0), elvis_real(1));
-    const elvis_real least = core_least(bernstein) - error, most = core_most(bernstein) + error;
-    elvis_real reached = elvis_real(2);
+    const bool is_over = core_walk_is_over(walk);
+    const uint first = core_isovalue_from(core_least(bernstein) - error), end = core_isovalues_end(first, core_most(bernstein) + error);
+    const uint n = is_over ? 0u : end - first;
     bool has_failed = false;
-    for (uint i = core_isovalue_from(least); i < core_n_isovalues && core_isovalues[i] <= most; ++i) {
-        for (uint which = 0u; which < 3u; ++which) {
-            const elvis_real value = core_isovalues[i] + (elvis_real(which) - elvis_real(1)) * error;
-            const core_colleague_root root = core_first_root_by_colleague(fit.chebyshev, value);
-            has_failed = has_failed || root.has_failed;
-            reached = min(reached, root.t);
-            const bool is_first = which == 1u && root.t < candidate.t;
-            candidate.t = is_first ? root.t : candidate.t;
-            candidate.index = is_first ? i : candidate.index;
-        }
+    uint n_solves = n;
+    for (uint i = 0u; i < n_solves; ++i) {
+        const uint index = first + i % n;
+        const elvis_real shift = i < n ? elvis_real(0) : i < 2u * n ? -error : error;
+        const core_colleague_root root = core_first_root_by_colleague(fit.chebyshev, core_isovalues[index] + shift);
+        has_failed = has_failed || root.has_failed;
+        const bool is_first = root.t < candidate.t;
+        candidate.kind = is_first ? (i < n ? CORE_CROSSING_PROBABLE : CORE_CROSSING_TOUCH) : candidate.kind;
+        candidate.index = is_first ? index : candidate.index;
+        candidate.t = is_first ? root.t : candidate.t;
+        n_solves = i + 1u == n && candidate.t > elvis_real(1) ? 3u * n : n_solves;
     }
-    const bool is_crossing = candidate.t <= elvis_real(1);
-    candidate.kind = is_crossing ? CORE_CROSSING_PROBABLE : reached <= elvis_real(1) || has_failed ? CORE_CROSSING_TOUCH : CORE_CROSSING_NONE;
-    candidate.t = is_crossing ? candidate.t : has_failed ? elvis_real(0) : reached;
+    candidate.kind = has_failed ? CORE_CROSSING_TOUCH : candidate.kind;
+    candidate.t = min(candidate.t, elvis_real(1));
     candidate.lower = max(candidate.t - elvis_real(1e-3LF), elvis_real(0));
     candidate.upper = min(candidate.t + elvis_real(1e-3LF), elvis_real(1));
     // There is no second one.
