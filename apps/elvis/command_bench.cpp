@@ -43,6 +43,7 @@ nlohmann::ordered_json to_json(const SurfaceResult& result) {
             {"evaluations_a_pixel", result.evaluations_a_pixel},
             {"newton_steps_a_pixel", result.newton_steps_a_pixel},
             {"estimated_share", result.estimated_share},
+            {"undecided_share", result.undecided_share},
             {"field_bytes", result.memory.field_bytes},
             {"geometry_bytes", result.memory.geometry_bytes},
             {"hierarchy_bytes", result.memory.hierarchy_bytes},
@@ -276,7 +277,8 @@ void run(const Arguments& arguments) {
         root["roots"] = run_roots(arguments);
     }
     if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary" ||
-        arguments.suite == "segments" || arguments.suite == "surfaces" || arguments.suite == "projection") {
+        arguments.suite == "isosurface" || arguments.suite == "segments" || arguments.suite == "surfaces" ||
+        arguments.suite == "projection") {
         const PluginRegistry registry;
         const BenchFolder folder(arguments.data);
         const Device device(arguments.device);
@@ -293,7 +295,7 @@ void run(const Arguments& arguments) {
             }
             root[key] = nlohmann::ordered_json::array();
             if (!arguments.json) {
-                std::printf("%s\n", suite);
+                std::printf("%s\n", key);
             }
             bench_surface(device, registry, folder, view, arguments.elements, arguments.orders, arguments.sizes, unit,
                           [&](const SurfaceResult& result) {
@@ -305,6 +307,9 @@ void run(const Arguments& arguments) {
         };
         measure(BenchView::cut_plane, "cut-plane", "cut_plane");
         measure(BenchView::boundary, "boundary", "boundary");
+        measure(BenchView::isosurface_large, "isosurface", "isosurface_large");
+        measure(BenchView::isosurface_blobs, "isosurface", "isosurface_blobs");
+        measure(BenchView::isosurface_blobs_unskipped, "isosurface", "isosurface_blobs_unskipped");
         if (all || arguments.suite == "segments") {
             root["segments"] = run_segments(arguments, device, registry, folder, unit);
         }
@@ -328,8 +333,9 @@ void add_bench(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     command
         ->add_option("suite", arguments->suite,
-                     "unit, cut-plane, boundary, segments, hierarchy, jacobian, roots, all of these, surfaces or projection")
-        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "segments", "hierarchy", "jacobian", "roots", "surfaces", "projection", "all"}))
+                     "unit, cut-plane, boundary, isosurface, segments, hierarchy, jacobian, roots, all of these, surfaces or projection")
+        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "isosurface", "segments", "hierarchy", "jacobian", "roots", "surfaces",
+                               "projection", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");

@@ -25,8 +25,11 @@ struct UnitResult {
 };
 UnitResult bench_unit(const Device& device, const PluginRegistry& registry, const BenchFolder& folder);
 
-/** What the picture shows: a plane through the volume, or its boundary. */
-enum class BenchView { cut_plane, boundary };
+/**
+ * What the picture shows: a plane through the volume, its boundary, or where the field is 0 (a large surface) or 1.2 (blobs);
+ * the blobs, too, without leaving out elements by the range of the field.
+ */
+enum class BenchView { cut_plane, boundary, isosurface_large, isosurface_blobs, isosurface_blobs_unskipped };
 
 struct SurfaceResult {
     std::uint32_t elements_a_side = 0;
@@ -40,6 +43,7 @@ struct SurfaceResult {
     double newton_steps_a_pixel = 0;
     /** Of pixels in which something is seen. */
     double estimated_share = 0;
+    double undecided_share = 0;
     RendererMemory memory;
     /** On the device over what the coefficients alone take in single precision; bytes an element for the hierarchy. */
     double field_overhead = 0;

@@ -41,9 +41,59 @@ constexpr std::array<PrototypeTime, 12> prototype_boundary{{{16, 3, 512, 28},
                                                             {32, 6, 1024, 167},
                                                             {32, 8, 512, 61},
                                                             {32, 8, 1024, 193}}};
+constexpr std::array<PrototypeTime, 12> prototype_isosurface_large{{{16, 3, 512, 193},
+                                                                    {16, 3, 1024, 611},
+                                                                    {16, 6, 512, 477},
+                                                                    {16, 6, 1024, 1610},
+                                                                    {16, 8, 512, 958},
+                                                                    {16, 8, 1024, 3593},
+                                                                    {32, 3, 512, 229},
+                                                                    {32, 3, 1024, 766},
+                                                                    {32, 6, 512, 548},
+                                                                    {32, 6, 1024, 1896},
+                                                                    {32, 8, 512, 1106},
+                                                                    {32, 8, 1024, 3690}}};
+constexpr std::array<PrototypeTime, 12> prototype_isosurface_blobs{{{16, 3, 512, 141},
+                                                                    {16, 3, 1024, 431},
+                                                                    {16, 6, 512, 334},
+                                                                    {16, 6, 1024, 1165},
+                                                                    {16, 8, 512, 658},
+                                                                    {16, 8, 1024, 2589},
+                                                                    {32, 3, 512, 163},
+                                                                    {32, 3, 1024, 551},
+                                                                    {32, 6, 512, 390},
+                                                                    {32, 6, 1024, 1211},
+                                                                    {32, 8, 512, 713},
+                                                                    {32, 8, 1024, 2482}}};
+
+const std::array<PrototypeTime, 12>& prototype_times(BenchView view) {
+    switch (view) {
+    case BenchView::cut_plane:
+        return prototype_cut_plane;
+    case BenchView::boundary:
+        return prototype_boundary;
+    case BenchView::isosurface_large:
+        return prototype_isosurface_large;
+    default:
+        return prototype_isosurface_blobs;
+    }
+}
+
+FrameRequest picture(BenchView view, std::uint32_t size) {
+    switch (view) {
+    case BenchView::cut_plane:
+        return waves_cut_plane(size);
+    case BenchView::boundary:
+        return waves_boundary(size);
+    case BenchView::isosurface_large:
+        return waves_isosurface(size, 0, true);
+    default:
+        return waves_isosurface(size, 1.2, view == BenchView::isosurface_blobs);
+    }
+}
 
 double prototype_milliseconds(BenchView view, std::uint32_t elements_a_side, std::uint32_t order, std::uint32_t size) {
-    for (const PrototypeTime& time : view == BenchView::boundary ? prototype_boundary : prototype_cut_plane) {
+    for (const PrototypeTime& time : prototype_times(view)) {
         if (time.elements_a_side == elements_a_side && time.order == order && time.size == size) {
             return time.milliseconds;
         }
@@ -62,7 +112,7 @@ void bench_surface(const Device& device, const PluginRegistry& registry, const B
             const RuntimeVolume volume = waves_volume(registry, folder, n, order);
             Renderer renderer(device, volume, Precision::float32);
             for (const std::uint32_t size : sizes) {
-                const FrameRequest request = view == BenchView::boundary ? waves_boundary(size) : waves_cut_plane(size);
+                const FrameRequest request = picture(view, size);
                 SurfaceResult result;
                 result.elements_a_side = n;
                 result.order = order;
@@ -81,6 +131,7 @@ void bench_surface(const Device& device, const PluginRegistry& registry, const B
                 const auto pixels = static_cast<double>(frame.counts.hit_pixels);
                 result.evaluations_a_pixel = static_cast<double>(frame.counts.field_evaluations) / pixels;
                 result.newton_steps_a_pixel = static_cast<double>(frame.counts.newton_iterations) / pixels;
+                result.undecided_share = static_cast<double>(frame.counts.undecided_isosurface_pixels) / pixels;
                 result.estimated_share = static_cast<double>(frame.counts.estimated_pixels) / pixels;
                 result.memory = renderer.memory();
                 const auto elements = static_cast<double>(volume.n_elements());

@@ -71,4 +71,13 @@ FrameRequest waves_boundary(std::uint32_t size) {
     return request;
 }
 
+FrameRequest waves_isosurface(std::uint32_t size, double value, bool skips_by_range) {
+    FrameRequest request = waves_cut_plane(size);
+    auto& isosurfaces = request.surfaces[0].geometry.emplace<Isosurfaces>();
+    isosurfaces.values = {value};
+    isosurfaces.skips_by_range = skips_by_range;
+    request.lighting.emplace();
+    return request;
+}
+
 } // namespace elvis

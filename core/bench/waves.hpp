@@ -38,5 +38,7 @@ RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& fo
 FrameRequest waves_cut_plane(std::uint32_t size);
 /** The same view of the whole boundary. */
 FrameRequest waves_boundary(std::uint32_t size);
+/** The same view of the isosurface of this value, lit. */
+FrameRequest waves_isosurface(std::uint32_t size, double value, bool skips_by_range);
 
 } // namespace elvis

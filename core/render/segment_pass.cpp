@@ -26,6 +26,7 @@ double tolerance(Precision precision) { return precision == Precision::float64 ?
 
 struct Parameters {
     std::uint32_t first_ray, n_rays, capacity, n_turns, zero;
+    float wanted_from, wanted_to;
 };
 
 template <class Real> struct RayState {
@@ -70,9 +71,11 @@ struct SegmentPass::Rays {
     std::uint32_t n_rays = 0, capacity = 0;
     const Buffer &rays, &states, &segments;
     const Buffer& counts;
+    std::array<double, 2> wanted{-3e38, 3e38};
 };
 
-SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                         const std::optional<SkippedField>& skipped)
     : m_device(device), m_data(data), m_precision(data.precision()),
       m_frame(device, 4 * real_bytes(data.precision()), Buffer::Use::uniform) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
@@ -80,13 +83,14 @@ SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, cons
         if (info.n_elements == 0) {
             continue;
         }
-        ElementLinks links = make_element_links(device, volume, index, data.hierarchy(index), data.curvatures(index), {},
-                                                m_precision);
+        ElementLinks links = make_element_links(device, volume, index, data.hierarchy(index), data.curvatures(index),
+                                                skipped ? ranges(volume, info, *skipped) : std::vector<double>{}, m_precision);
         KernelRequest request;
         request.name = "segments of element class " + std::to_string(index);
         request.kernel = "kernels/segments.comp";
         request.precision = m_precision;
         request.instances = {data.instance(index)};
+        request.defines = {{"CORE_SKIPS_RANGES", skipped ? "1" : "0"}};
         request.buffers = data.host_buffers(index);
         request.buffers.push_back({"core_links", links.links.get()});
         request.buffers.push_back({"core_node_marks", links.node_marks.get()});
@@ -108,10 +112,30 @@ SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, cons
     write_reals(m_frame, m_precision, frame);
 }
 
+std::vector<double> SegmentPass::ranges(const RuntimeVolume& volume, const ClassInfo& info, const SkippedField& field) const {
+    if (!volume.has_field_ranges()) {
+        return {};
+    }
+    const std::size_t n_components = volume.fields()[field.field].n_components;
+    std::vector<FieldRange> found(info.n_elements * n_components);
+    // What is not certified must not be relied on.
+    const bool is_certain =
+        volume.field_ranges(field.field, field.time_step, info.first_element, info.n_elements, found) == ELVIS_CERTIFIED;
+    std::vector<double> result;
+    for (std::size_t element = 0; is_certain && element < info.n_elements; ++element) {
+        const FieldRange& range = found[element * n_components];
+        result.insert(result.end(), {range.lower, range.upper});
+    }
+    return result;
+}
+
 void SegmentPass::run(const ClassKernel& of, const Rays& rays, SegmentCounts& counts) const {
     const std::array<const Buffer*, 5> bindings = {&m_frame, &rays.rays, &rays.states, &rays.segments, &rays.counts};
     for (std::uint32_t first = 0; first < rays.n_rays; first += rays_a_dispatch) {
-        const Parameters parameters{first, std::min(rays.n_rays, first + rays_a_dispatch), rays.capacity, turns_a_dispatch, 0};
+        const Parameters parameters{first, std::min(rays.n_rays, first + rays_a_dispatch), rays.capacity, turns_a_dispatch, 0,
+                                    // Outward.
+                                    std::nextafter(static_cast<float>(rays.wanted[0]), -std::numeric_limits<float>::max()),
+                                    std::nextafter(static_cast<float>(rays.wanted[1]), std::numeric_limits<float>::max())};
         of.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
                             (parameters.n_rays - first + group_size - 1) / group_size);
         ++counts.dispatches;
@@ -155,7 +179,8 @@ void finish(std::span<const SegmentRay> rays, const Buffer& ray_buffer, const Bu
 
 } // namespace
 
-std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay> rays, SegmentCounts& counts) const {
+std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
+                                                      const std::array<double, 2>& wanted) const {
     std::vector<std::vector<Segment>> result(rays.size());
     const auto trace = [&]<class Real>(Real) {
         const std::size_t size = std::min(rays.size(), rays_a_batch);
@@ -164,7 +189,7 @@ std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay>
         const Buffer count_buffer(m_device, n_counts * sizeof(std::uint32_t));
         for (std::size_t first = 0; first < rays.size(); first += size) {
             const std::size_t count = std::min(size, rays.size() - first);
-            const Rays batch{static_cast<std::uint32_t>(count), capacity, ray_buffer, states, segments, count_buffer};
+            const Rays batch{static_cast<std::uint32_t>(count), capacity, ray_buffer, states, segments, count_buffer, wanted};
             std::vector<std::vector<std::vector<Segment>>> of_classes(count);
             for (const ClassKernel& of : m_kernels) {
                 std::vector<std::vector<Segment>> found(count);
@@ -210,7 +235,7 @@ std::vector<double> SegmentPass::lengths(std::span<const SegmentRay> rays, Segme
         const Buffer sums(m_device, sizeof(SegmentRecord<Real>) * rays.size());
         const Buffer count_buffer(m_device, n_counts * sizeof(std::uint32_t));
         sums.fill(0);
-        const Rays all{static_cast<std::uint32_t>(rays.size()), 0, ray_buffer, states, sums, count_buffer};
+        const Rays all{static_cast<std::uint32_t>(rays.size()), 0, ray_buffer, states, sums, count_buffer, {-3e38, 3e38}};
         for (const ClassKernel& of : m_kernels) {
             const auto run_class = [&] {
                 const DeviceTimer timer(m_device);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,11 +54,22 @@ struct SegmentCounts {
 /** The kernels of one volume, one for each element class. */
 class SegmentPass {
 public:
-    /** `data` with a field selected must outlive it. */
-    SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+    /**
+     * `data` with a field selected must outlive it. With `skipped`, the first component of a field at a time step, elements are
+     * passed over that surely lack the values wanted.
+     */
+    struct SkippedField {
+        std::uint32_t field = 0, time_step = 0;
+    };
+    SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                const std::optional<SkippedField>& skipped = {});
 
-    /** The segments of each ray. Those of several classes are merged by merge_segments(). */
-    std::vector<std::vector<Segment>> lists(std::span<const SegmentRay> rays, SegmentCounts& counts) const;
+    /**
+     * The segments of each ray. Those of several classes are merged by merge_segments(). `wanted`: least and greatest value; only of a
+     * pass that skips.
+     */
+    std::vector<std::vector<Segment>> lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
+                                            const std::array<double, 2>& wanted = {-3e38, 3e38}) const;
     /** For each ray the sum of the lengths of its segments, in its parameter; no lists are made. One class only. */
     std::vector<double> lengths(std::span<const SegmentRay> rays, SegmentCounts& counts) const;
 
@@ -69,6 +81,7 @@ private:
     };
     struct Rays;
     void run(const ClassKernel& of, const Rays& rays, SegmentCounts& counts) const;
+    std::vector<double> ranges(const RuntimeVolume& volume, const ClassInfo& info, const SkippedField& field) const;
 
     const Device& m_device;
     const DeviceVolume& m_data;

@@ -67,7 +67,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 // Evaluations in one element, beyond which the ray is left to projection.
 #define CORE_MOST_EVALUATIONS 48u
 // Times the mapping is linearized anew nearer to the piece before it is halved.
-#define CORE_MAX_MOVES 6u
+#define CORE_MAX_MOVES 8u
 
 // Error of the unit normal that is left.
 #if ELVIS_REAL_IS_DOUBLE
@@ -82,6 +82,14 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #define CORE_NARROW elvis_real(2e-3LF)
 #endif
 #define CORE_WIDEST elvis_real(0.25LF)
+// From here on the remainder of a model tells second derivatives, not rounding.
+#define CORE_WIDE_ENOUGH (elvis_real(8) * CORE_NARROW)
+// Steps to the root that are small whatever is known of derivatives.
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_LAST_STEP elvis_real(1e-6LF)
+#else
+#define CORE_LAST_STEP elvis_real(2e-3LF)
+#endif
 // Pieces are not made shorter than this part of that.
 #define CORE_FLOOR elvis_real(0.25LF)
 
@@ -119,7 +127,8 @@ void main() {
         // The nearest crossing so far; of another class, its depth.
         elvis_real best_t = CORE_FAR, best_slack = elvis_real(0), best_x = x, best_y = x, best_z = x, best_isovalue = x;
         elvis_real normal_x = x, normal_y = x, normal_z = x;
-        // Bound of the field's second derivatives in the element, and of the surface's curvature at the best crossing.
+        // Bound of the field's second derivatives, from the last piece that was long enough for it, and of the surface's curvature at
+        // the best crossing.
         elvis_real bend = CORE_FAR, best_bend = CORE_FAR;
         uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
         const bool was_hit = core_marks[pixel].owner != 0u;
@@ -186,9 +195,9 @@ void main() {
             const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
             const elvis_real middle = elvis_real(0.5LF) * (a + b);
             const elvis_vec3 step = middle * ray.direction;
-            const elvis_real error = ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_largest(shift) + core_largest(step));
+            const elvis_real error = ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(step));
             const core_frame frame = core_frame_at(position, jacobian, error);
-            const elvis_real speed = core_largest(core_to_xi(frame, ray.direction));
+            const elvis_real speed = core_max_norm(core_to_xi(frame, ray.direction));
             const elvis_real shortest = CORE_FLOOR * CORE_NARROW / speed;
             const elvis_real half_width = elvis_real(0.5LF) * (b - a);
             const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
@@ -202,30 +211,44 @@ void main() {
             n_evaluations += is_active ? 1u : 0u;
             used += 1u;
 
-            const bool is_nan = is_active && !core_is_finite(value + core_largest(position));
-            const bool is_empty = piece.low > piece.high;
+            const bool is_nan = is_active && !core_is_finite(value + core_max_norm(position));
+            // The point of the element that is nearest to the piece's middle, as predicted.
+            elvis_real near_x = x + clamp(piece.q.x, elvis_real(-4), elvis_real(4));
+            elvis_real near_y = y + clamp(piece.q.y, elvis_real(-4), elvis_real(4));
+            elvis_real near_z = z + clamp(piece.q.z, elvis_real(-4), elvis_real(4));
+            core_project(near_x, near_y, near_z);
+            const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
+            const elvis_real extent = max(half_width, shortest) * speed;
+            const bool is_far = move > elvis_real(0.25LF) * extent && move > elvis_real(16) * CORE_ROUNDOFF;
+            // The bound says nothing far away from a curved element: see core_is_clear_of.
+            const bool is_clear = !is_far && curvature < elvis_real(1e6LF) &&
+                                  piece.clearance > elvis_real(0.5LF) * extent + elvis_real(8) * move;
+            const bool is_empty = piece.low > piece.high || is_clear;
             const bool is_done_with = is_empty || crossing.is_excluded;
 
             // Where the field surely takes the isovalue: at both ends of the part it lies on different sides. It does so once only
             // if its slope along the ray surely keeps its sign. The part may reach beyond a face by what rounding makes of it: then
             // the root is what decides.
             const elvis_real from = crossing.s - crossing.half_width, to = crossing.s + crossing.half_width;
-            bend = min(bend, elvis_real(2) * model.remainder / (piece.radius * piece.radius));
+            bend = piece.radius > CORE_WIDE_ENOUGH ? elvis_real(2) * model.remainder / (piece.radius * piece.radius) : bend;
             // Of the field along curves that are straight in the world: the mapping's own bending counts, too.
             const elvis_real bend_here = bend + elvis_real(2) * curvature * core_model_norm1(model.slope);
             const bool is_found = piece.is_known && from >= -reach && to <= reach &&
                                   speed * bend_here * piece.radius < abs(piece.slope);
             const elvis_vec3 to_root = piece.q + crossing.s * piece.w;
-            const elvis_real distance = core_largest(to_root);
+            const elvis_real distance = core_max_norm(to_root);
             // J^-T times the gradient in xi.
             const elvis_vec3 gradient = model.slope.x * frame.row0 + model.slope.y * frame.row1 + model.slope.z * frame.row2;
-            const elvis_real inverse_size = sqrt(dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2));
+            // At least the spectral norm of J^-1: the square root of the largest sums of rows and columns.
+            const elvis_vec3 columns = abs(frame.row0) + abs(frame.row1) + abs(frame.row2);
+            const elvis_real rows = max(max(core_model_norm1(frame.row0), core_model_norm1(frame.row1)), core_model_norm1(frame.row2));
+            const elvis_real inverse_size = sqrt(core_max_norm(columns) * rows);
             const elvis_real size = length(gradient);
             // From xi to the root the gradient changes by this much at most, and the line's root is wrong by half the product.
             const elvis_real change = bend_here * distance;
-            const bool is_at_root = (change * inverse_size <= CORE_NORMAL_ERROR * size &&
+            const bool is_at_root = (distance <= CORE_LAST_STEP && change * inverse_size <= CORE_NORMAL_ERROR * size &&
                                      change * distance * speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
-                                    distance <= elvis_real(4) * core_largest(frame.xi_error) ||
+                                    distance <= elvis_real(4) * core_max_norm(frame.xi_error) ||
                                     // Rounding is most of the error: nothing more is to be had.
                                     (bend_here * piece.radius * piece.radius <= piece.error &&
                                      distance <= (moves < 3u ? elvis_real(0.0625LF) : elvis_real(1)) * speed * crossing.half_width);
@@ -243,7 +266,6 @@ void main() {
             const bool ends_here = is_active && !is_done_with && is_found;
             const bool takes = ends_here && is_at_root;
             const bool is_broken = is_nan || (is_active && used >= CORE_MOST_EVALUATIONS);
-            const bool is_far = core_largest(piece.q) > elvis_real(0.5LF) * max(half_width, shortest) * speed;
             const elvis_real wider = elvis_real(4) * crossing.half_width;
             const bool is_flat = is_short && !is_done_with && !is_found && !is_cut && wider > elvis_real(1.5LF) * wide &&
                                  wider * speed < CORE_WIDEST;
@@ -297,12 +319,18 @@ void main() {
             element = is_over || (goes_on && !has_more) ? CORE_NO_ELEMENT : element;
             a = new_a;
             b = max(new_b, new_a);
-            // The point of the element that is nearest to its middle.
+            // The point of the element that is nearest to its middle. Whole steps may go to and fro in a strongly curved element.
             const elvis_real to_middle = elvis_real(0.5LF) * (a + b) - middle;
-            x += core_is_finite(piece.q.x + piece.w.x) ? clamp(piece.q.x + to_middle * piece.w.x, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            y += core_is_finite(piece.q.y + piece.w.y) ? clamp(piece.q.y + to_middle * piece.w.y, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            z += core_is_finite(piece.q.z + piece.w.z) ? clamp(piece.q.z + to_middle * piece.w.z, elvis_real(-4), elvis_real(4)) : elvis_real(0);
-            core_project(x, y, z);
+            const elvis_vec3 ahead = piece.q + to_middle * piece.w;
+            const bool is_usable = core_is_finite(ahead.x + ahead.y + ahead.z);
+            elvis_real next_x = x + (is_usable ? clamp(ahead.x, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            elvis_real next_y = y + (is_usable ? clamp(ahead.y, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            elvis_real next_z = z + (is_usable ? clamp(ahead.z, elvis_real(-4), elvis_real(4)) : elvis_real(0));
+            core_project(next_x, next_y, next_z);
+            const elvis_real share = moves > CORE_MAX_MOVES / 2u ? elvis_real(0.5LF) : elvis_real(1);
+            x += share * (next_x - x);
+            y += share * (next_y - y);
+            z += share * (next_z - z);
         }
         const bool is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
         flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;

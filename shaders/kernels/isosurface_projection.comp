@@ -434,7 +434,7 @@ void main() {
             bracket_from = (rises ? is_below : is_above) ? max(bracket_from, t) : bracket_from;
             bracket_to = (rises ? is_above : is_below) ? min(bracket_to, t) : bracket_to;
             const elvis_real step = -off / found.slope, half_width = found.error / abs(found.slope);
-            const elvis_real speed = core_largest(found.w);
+            const elvis_real speed = core_max_norm(found.w);
             const bool is_regular = core_is_finite(step);
             const elvis_real next = t + step;
             const bool is_within = is_regular && next >= bracket_from && next <= bracket_to;
@@ -450,7 +450,7 @@ void main() {
             const elvis_real root_t = is_at_root && CORE_PLAIN == 0 ? next : t;
 
             const elvis_real bend_here = bend + elvis_real(2) * curvature * core_model_norm1(found.gradient);
-            const elvis_real radius = core_largest(found.q) + found.beyond + speed * (half_width + abs(step));
+            const elvis_real radius = core_max_norm(found.q) + found.beyond + speed * (half_width + abs(step));
             const bool keeps_slope = found.is_known && speed * bend_here * radius < abs(found.slope);
             const bool is_confirmed = !is_candidate || keeps_slope || (is_seen_below && is_seen_above) || CORE_PLAIN == 1;
             const elvis_real slack = walk_ray.tolerance + elvis_real(0.25LF) * half_width;

@@ -16,16 +16,33 @@ layout(push_constant) uniform core_parameters {
 #include "library/shape_region.glsl"
 #include "library/shown_model.glsl"
 
+// From the centroid to a point of the shape near this one, or itself: all vertices are among those of the cube.
+elvis_vec3 core_way_to(int x, int y, int z) {
+    elvis_real px = elvis_real(x), py = elvis_real(y), pz = elvis_real(z);
+    core_project(px, py, pz);
+    return elvis_vec3(px, py, pz) - CORE_CENTROID;
+}
+
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= core_n_elements) {
         return;
     }
-    const elvis_vec3 zero = elvis_vec3(0);
-    const core_patch whole = core_patch(zero, zero, zero, zero, CORE_EXTENT, CORE_EXTENT);
-    elvis_real value;
-    const core_model model = core_shown_model(core_first + i, CORE_CENTROID, whole, value);
-    const elvis_real reach = core_model_reach(model, whole);
+    // Patches have four corners: vertices below and above, and the middles of four faces, which estimates look at, too.
+    core_model model;
+    elvis_real reach = elvis_real(0), remainder = elvis_real(0);
+    for (int level = -1; level <= 1; ++level) {
+        const int side = level == 0 ? 0 : 1;
+        const core_patch region =
+            core_patch(core_way_to(-1, -side, level), core_way_to(1, side, level), core_way_to(-side, 1, level),
+                       core_way_to(side, -1, level), elvis_real(0), CORE_EXTENT);
+        elvis_real value;
+        model = core_shown_model(core_first + i, CORE_CENTROID, region, value);
+        remainder = max(remainder, model.remainder);
+        reach = max(reach, core_model_reach(model, region));
+    }
+    model.remainder = remainder;
+    reach += remainder;
     const vec3 slope = vec3(model.slope);
     const float size = abs(float(model.value)) + abs(slope.x) + abs(slope.y) + abs(slope.z);
     // Single precision, whatever the kernel's.

@@ -36,6 +36,7 @@ layout(push_constant) uniform core_parameters {
     uint core_capacity;
     uint core_n_turns;
     uint core_zero;
+    float core_wanted_from, core_wanted_to;
 };
 
 void main() {
@@ -52,6 +53,7 @@ void main() {
     ray.reach = elvis_real(1);
     ray.tolerance = core_centre.w / ray.speed;
     core_walk walk = core_begin_walk(ray, state.done, state.done_error, row1.w);
+    walk.wanted = vec2(core_wanted_from, core_wanted_to);
     const bool is_open = is_ray && state.is_over == 0u;
     walk.state = is_open ? walk.state : CORE_WALK_DONE;
 

@@ -210,7 +210,7 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
     core_ray_clip clip =
-        core_clip_ray(model, was_outside && part.turns > 1u ? min(bound, agreed) : bound, part.begin, part.end);
+        core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound, part.begin, part.end);
     const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
     // Where nothing is known, anything is possible.
     clip.possible_from = is_sound ? clip.possible_from : part.begin;

@@ -14,16 +14,16 @@ struct core_piece {
     elvis_vec3 q, w;
     // What is left of the piece; low > high: nothing.
     elvis_real low, high;
+    // By how much at least all of the piece violates one face, as predicted; negative if it does not.
+    elvis_real clearance;
     // Largest offset from xi of what is left, in the maximum norm, and what the linearization leaves out there.
     elvis_real radius, beyond;
     elvis_real value, slope, error;
     bool is_known;
 };
 
-elvis_real core_largest(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
-
 elvis_real core_piece_radius(core_piece piece) {
-    return max(core_largest(piece.q + piece.low * piece.w), core_largest(piece.q + piece.high * piece.w));
+    return max(core_max_norm(piece.q + piece.low * piece.w), core_max_norm(piece.q + piece.high * piece.w));
 }
 
 // The piece from -half_width to half_width, cut by the faces. `offset`: of the middle from the image of xi.
@@ -34,7 +34,13 @@ core_piece core_piece_in_element(elvis_vec3 xi, core_frame frame, elvis_vec3 off
     piece.w = core_to_xi(frame, direction);
     piece.low = -half_width;
     piece.high = half_width;
-    const elvis_real rounding = core_largest(frame.xi_error);
+    const elvis_real rounding = core_max_norm(frame.xi_error);
+    piece.clearance = -CORE_UNKNOWN;
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        piece.clearance = max(piece.clearance, dot(constraint.xyz, xi + piece.q) + constraint.w -
+                                                   half_width * abs(dot(constraint.xyz, piece.w)));
+    }
     // What is left is nearer, and so better known: a second time.
     for (int turn = 0; turn < 2; ++turn) {
         const elvis_real step = core_piece_radius(piece);
@@ -60,8 +66,11 @@ core_piece core_piece_in_element(elvis_vec3 xi, core_frame frame, elvis_vec3 off
 
 void core_piece_take_field(inout core_piece piece, uint element, elvis_vec3 xi, out core_model model, out elvis_real value) {
     core_patch region;
-    region.corner0 = region.corner2 = piece.q + piece.low * piece.w;
-    region.corner1 = region.corner3 = piece.q + piece.high * piece.w;
+    region.corner0 = piece.q + piece.low * piece.w;
+    region.corner1 = piece.q + piece.high * piece.w;
+    // Two would do, but estimates look at all four (library/estimated_model.glsl).
+    region.corner2 = piece.q + elvis_real(0.5LF) * piece.low * piece.w;
+    region.corner3 = piece.q + elvis_real(0.5LF) * piece.high * piece.w;
     region.beyond = piece.beyond;
     region.radius = piece.radius;
     model = core_shown_model(element, xi, region, value);

@@ -38,8 +38,6 @@ struct core_ray_sample {
     bool is_finite;
 };
 
-elvis_real core_largest(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
-
 void core_predict(inout core_follower follower, elvis_real at) {
     const elvis_real since = at - follower.known;
     // Far predictions are of no use but for their direction, and could overflow.
@@ -68,13 +66,13 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
     elvis_mapping_jacobian(element, result.xi, position, jacobian);
     const elvis_vec3 shift = CORE_CENTRE - elvis_origin(element), way = follower.at * ray.direction;
     result.frame = core_frame_at(position, jacobian,
-                                 ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_largest(shift) + core_largest(way)));
+                                 ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(way)));
     result.q = core_to_xi(result.frame, ((shift - position) + ray.origin) + way);
     result.w = core_to_xi(result.frame, ray.direction);
-    result.rounding = core_largest(result.frame.xi_error);
+    result.rounding = core_max_norm(result.frame.xi_error);
     const elvis_vec3 found = result.xi + result.q;
-    const elvis_real change = core_largest(found - elvis_vec3(follower.x, follower.y, follower.z));
-    const elvis_real step = core_largest(result.q);
+    const elvis_real change = core_max_norm(found - elvis_vec3(follower.x, follower.y, follower.z));
+    const elvis_real step = core_max_norm(result.q);
     // Where the bound says nothing, two predictions that agree do, as in library/newton.glsl.
     result.beyond = min(core_prediction_error(curvature, step), change) + result.rounding;
 
@@ -93,9 +91,9 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
     // Without a model: what rounding alone does.
     result.error = (result.is_known ? CORE_MODEL_UP * (model.remainder + blur) : elvis_real(64) * CORE_ROUNDOFF * abs(value) + blur) +
                    elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
-    result.is_finite = core_is_finite(value + core_largest(position));
+    result.is_finite = core_is_finite(value + core_max_norm(position));
 
-    const bool is_sound = result.frame.is_sound && core_is_finite(step + core_largest(result.w));
+    const bool is_sound = result.frame.is_sound && core_is_finite(step + core_max_norm(result.w));
     const bool is_found = is_sound && change <= elvis_real(4) * result.rounding;
     follower.steps += 1u;
     follower.all_steps += 1u;

@@ -1,14 +1,14 @@
 // A ray's segments: its parts inside of elements, front to back, without overlaps. Where elements overlap, the one entered first owns
 // the ray to its exit, and of the others counts what is left beyond it.
 //
-//     core_walk walk = core_begin_walk(ray, from, to);
+//     core_walk walk = core_begin_walk(ray, from, from_error, to);
 //     while (walk.state != CORE_WALK_DONE && turns are left) {
 //         core_walk_turn(walk);
 //         if walk.state == CORE_WALK_SEGMENT: walk.element has the ray from walk.enter to walk.leave
 //     }
 //
-// or core_next_segment in place of the turns up to the next segment. A turn evaluates one mapping, whatever element its lane is at;
-// a kernel that has more to do with segments does it in the same loop, so that its lanes do not wait for each other.
+// A turn evaluates one mapping, whatever element its lane is at; a kernel that has more to do with segments does it in the same loop,
+// so that its lanes do not wait for each other.
 //
 // Boxes of the hierarchy wait in a queue in the order in which the ray enters them, and parts that were found until nothing can come
 // before them. Both have a bounded size: what does not fit, the farthest, is dropped, and the search starts again from
@@ -59,7 +59,8 @@ struct core_walk {
     bool is_estimated;
     // Up to here everything is settled, but for an error.
     elvis_real done, done_error, to;
-    // Elements without open faces are wanted around here.
+    // What ends before is not looked for, not even to be counted; elements without open faces are wanted around here.
+    elvis_real search_from;
     float search_at;
     vec2 wanted;
     uint n_queued, n_waiting;
@@ -98,7 +99,7 @@ vec2 core_walk_box(core_walk walk, uint index, core_node node) {
     const vec3 low = min(a, b), high = max(a, b);
     const float enter = max(max(low.x, low.y), low.z), leave = min(min(high.x, high.y), high.z);
     const float slack = 1e-6 * (abs(enter) + abs(leave));
-    bool is_met = enter - slack <= leave + slack && leave + slack > float(walk.done) && enter - slack < float(walk.to);
+    bool is_met = enter - slack <= leave + slack && leave + slack > walk.search_at && enter - slack < float(walk.to);
     const uvec4 marks = elvis_fetch4_core_node_marks(index, 0u);
 #if CORE_SKIPS_RANGES
     is_met = is_met && uintBitsToFloat(marks.x) <= walk.wanted.y && uintBitsToFloat(marks.y) >= walk.wanted.x;
@@ -176,6 +177,7 @@ void core_queue_root(inout core_walk walk) {
 void core_restart(inout core_walk walk) {
     walk.n_queued = walk.n_waiting = 0u;
     walk.lost = CORE_NEVER;
+    walk.search_from = walk.done;
     walk.search_at = float(walk.done);
     core_queue_root(walk);
 }
@@ -240,7 +242,7 @@ void core_open_box(inout core_walk walk) {
     }
     walk.has_next = !is_inner && one_met.x < CORE_NEVER;
     walk.next_element = one.child;
-    walk.next_begin = max(elvis_real(max(at, one_met.x)), walk.done);
+    walk.next_begin = max(elvis_real(max(at, one_met.x)), walk.search_from);
     walk.next_end = min(elvis_real(one_met.y), walk.to);
     walk.next_error = elvis_real(0);
     walk.box = index;
@@ -250,7 +252,7 @@ void core_open_box(inout core_walk walk) {
 void core_settle(inout core_walk walk, uint word, uint link, elvis_real enter, elvis_real enter_error, elvis_real leave,
                  elvis_real leave_error) {
     const uint element = word & ~(CORE_ESTIMATED_PART | CORE_DOUBTFUL_PART);
-    const bool is_joined = abs(enter - walk.done) <= enter_error + walk.done_error;
+    const bool is_joined = abs(enter - walk.done) <= elvis_real(2) * (enter_error + walk.done_error);
     const bool is_hidden = leave - walk.done <= leave_error + walk.done_error;
     // Found by the hierarchy, too.
     const bool is_again = is_hidden && element == walk.element;
@@ -307,11 +309,13 @@ void core_take_part(inout core_walk walk, bool is_found) {
     }
     for (uint turn = 0u; turn < (is_broken ? 1u : 0u); ++turn) {
         walk.n_breaks += 1u;
+        walk.search_from = break_at;
         walk.search_at = float(break_at);
         core_queue_root(walk);
     }
     const float first = min(min(core_first_box(walk), core_first_waiting(walk)), walk.lost);
-    const bool is_first = is_found && float(walk.part.enter) < first;
+    // One segment a turn.
+    const bool is_first = is_found && walk.state == CORE_WALK_SEEKS && float(walk.part.enter) < first;
     for (uint turn = 0u; turn < (is_first ? 1u : 0u); ++turn) {
         core_settle(walk, word, leave_link, walk.part.enter, walk.part.enter_error, walk.part.leave, walk.part.leave_error);
     }

@@ -15,8 +15,7 @@ Surface surface_of(std::vector<double> values) {
     Surface surface;
     surface.geometry = Isosurfaces{{}, std::move(values)};
     surface.colors.points = {{0, {0, 0, 0}}};
-    // Where it is transparent nothing is seen.
-    surface.colors.below = surface.colors.above = {0, 0, 0, 1};
+    surface.colors.below = surface.colors.above = surface.colors.nan = {0, 0, 0, 1};
     return surface;
 }
 

@@ -216,7 +216,8 @@ RandomVolume random_volume(std::uint64_t seed) {
     }
     result.description = std::string(kinds[kind]) + ", " + std::to_string(number) + " elements, geometry of order " +
                          std::to_string(geometry_order) + ", " + (is_continuous ? "" : "dis") + "continuous field of order " +
-                         std::to_string(field_order) + ", " + std::to_string(n_values) + " isovalues";
+                         std::to_string(field_order) + ", " + std::to_string(n_values) + " isovalues" +
+                         (result.camera.orthographic ? ", orthographic" : "") + (result.clip.empty() ? "" : ", clipped");
     return result;
 }
 

@@ -1,0 +1,158 @@
+// Segments of rays against the elements themselves, and where they come from: shells with gaps, overlaps, elements turned inside out.
+#include "meshes.hpp"
+#include "segment_accuracy.hpp"
+#include "test_files.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace elvis::oracle {
+namespace {
+
+using native::Shape;
+
+const Device& device() {
+    static const Device the_device;
+    return the_device;
+}
+
+double first_coordinate(const Vector& x) { return x.x(); }
+
+void check(const std::string& path, Precision precision, std::size_t n_rays) {
+    const SegmentAccuracy r = measure_segments(device(), open_volume(path), Volume(read_volume(path)), precision, n_rays, 4, 7);
+    CHECK(r.n_segments > 2 * n_rays);
+    CHECK(r.n_missed == 0);
+    CHECK(r.n_invented == 0);
+    CHECK(r.counts.failures <= r.n_segments / 1000);
+    // In single precision a part may end early and go on as another one of the same element.
+    CHECK(r.n_beyond <= (precision == Precision::float64 ? 0 : r.n_segments / 200));
+    CHECK(r.n_almost_joined <= r.n_segments / 500);
+}
+
+// The segments of rays along x at (y, z), relative to the world's origin.
+std::vector<Segment> along_x(const VolumeData& data, double y, double z, SegmentCounts& counts, Precision precision = Precision::float64) {
+    const TemporaryFile file("segments.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    DeviceVolume on_device(device(), volume, precision, nullptr);
+    on_device.select(0, 0, {0.0});
+    const SegmentPass pass(device(), volume, on_device);
+    const SegmentRay ray = near_centre({-10, y, z}, {0, y, z}, on_device.centre(), precision);
+    std::vector<Segment> list = pass.lists(std::span(&ray, 1), counts).front();
+    for (Segment& segment : list) {
+        segment.enter += ray.origin[0] + on_device.centre()[0];
+        segment.leave += ray.origin[0] + on_device.centre()[0];
+    }
+    return list;
+}
+
+VolumeData hexahedra(const std::vector<Map>& maps, std::uint32_t order = 1) {
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(Shape::hexahedron, order), space_of(Shape::hexahedron, 1), maps, first_coordinate));
+    return data;
+}
+
+Map box(const Vector& lower, const Vector& upper) { return boxes(lower, upper, {1, 1, 1}).front(); }
+
+TEST_CASE("ends of segments lie on the elements' boundaries, and nothing is missed", "[segments]") {
+    const auto [mesh, shape] = GENERATE(table<std::string, std::string>({{"waves", "hexahedron"},
+                                                                        {"ball", "hexahedron"},
+                                                                        {"ball", "tetrahedron"},
+                                                                        {"torus", "prism"}}));
+    const TemporaryFile file("mesh.h5");
+    generate(R"({"generator": 1, "mesh": ")" + mesh + R"(", "shape": ")" + shape +
+                 R"(", "elements": [4, 4, 12], "geometry_order": 2, "order": 1, "field": "waves"})",
+             file.path());
+    check(file.path(), GENERATE(Precision::float32, Precision::float64), 100);
+}
+
+TEST_CASE("classes of elements are merged along the ray", "[segments]") {
+    const TemporaryFile file("mixed.h5");
+    write_volume(file.path(), mixed_volume(3, 1, first_coordinate));
+    check(file.path(), GENERATE(Precision::float32, Precision::float64), 200);
+}
+
+TEST_CASE("gaps stay, and shared ends are equal", "[segments]") {
+    SegmentCounts counts;
+    const auto list = along_x(hexahedra({box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 0.5, 1}), box({1, 0.5, 0}, {2, 1, 1}),
+                                         box({2.000001, 0, 0}, {3, 1, 1})}),
+                              0.3, 0.4, counts);
+    REQUIRE(list.size() == 3);
+    CHECK(list[0].leave == list[1].enter);
+    CHECK(list[2].enter - list[1].leave == Approx(1e-6).epsilon(1e-6));
+    CHECK(list[0].enter == Approx(0).margin(1e-13));
+    CHECK(list[2].leave == Approx(3));
+    CHECK(counts.overlaps == 0);
+}
+
+TEST_CASE("the element that is entered first owns the ray to its exit", "[segments]") {
+    SegmentCounts counts;
+    const auto list = along_x(hexahedra({box({0.5, 0, 0}, {2, 1, 1}), box({0, 0, 0}, {1, 1, 1}), box({0.2, 0, 0}, {0.7, 1, 1})}), 0.3, 0.4,
+                              counts);
+    REQUIRE(list.size() == 2);
+    CHECK(list[0].element == 1);
+    CHECK(list[1].element == 0);
+    CHECK(list[0].leave == Approx(1));
+    CHECK(list[1].enter == list[0].leave);
+    CHECK(list[1].leave == Approx(2));
+    CHECK(counts.overlaps == 2);
+}
+
+TEST_CASE("a ray in a face that elements share has one segment", "[segments]") {
+    SegmentCounts counts;
+    const auto list = along_x(hexahedra(boxes({0, 0, 0}, {2, 2, 2}, {2, 2, 2})), 1, 0.4, counts);
+    REQUIRE(list.size() == 2);
+    CHECK(list[0].enter == Approx(0).margin(1e-13));
+    CHECK(list[0].leave == list[1].enter);
+    CHECK(list[1].leave == Approx(2));
+}
+
+TEST_CASE("elements without the wanted values are passed over", "[segments]") {
+    const TemporaryFile file("skipped.h5");
+    write_volume(file.path(), hexahedra(boxes({0, 0, 0}, {8, 1, 1}, {8, 1, 1})));
+    const RuntimeVolume volume = open_volume(file.path());
+    DeviceVolume data(device(), volume, Precision::float32, nullptr);
+    data.select(0, 0, {0.0});
+    const SegmentPass pass(device(), volume, data, SegmentPass::SkippedField{});
+    const SegmentRay ray = near_centre({-10, 0.3, 0.4}, {0, 0.3, 0.4}, data.centre(), Precision::float32);
+    SegmentCounts counts;
+    const std::vector<Segment> list = pass.lists(std::span(&ray, 1), counts, {3.2, 4.5}).front();
+    REQUIRE(list.size() == 2);
+    CHECK(list[0].element == 3);
+    CHECK(list[1].element == 4);
+    CHECK(list[0].leave == list[1].enter);
+    CHECK(counts.evaluations < 10);
+}
+
+TEST_CASE("an element is entered and left twice through the same face", "[segments]") {
+    // The lower face is an arch, 0.5 high at x = 0: the ray at 0.2 misses what is below it.
+    const Map arch = [](const Vector& xi) -> Vector {
+        const double floor = 0.5 * (1 - xi.x() * xi.x());
+        return {xi.x(), xi.y(), floor + 0.5 * (1 + xi.z()) * (1 - floor)};
+    };
+    SegmentCounts counts;
+    const auto list = along_x(hexahedra({arch}, 2), 0, 0.2, counts);
+    const double side = std::sqrt(0.6);
+    REQUIRE(list.size() == 2);
+    CHECK(list[0].enter == Approx(-1).margin(1e-12));
+    CHECK(list[0].leave == Approx(-side).margin(1e-12));
+    CHECK(list[1].enter == Approx(side).margin(1e-12));
+    CHECK(list[1].leave == Approx(1).margin(1e-12));
+}
+
+TEST_CASE("elements turned inside out have segments, and geometry that is no number ends", "[segments]") {
+    SegmentCounts counts;
+    const Map mirrored = [](const Vector& xi) -> Vector { return {-xi.x(), xi.y(), xi.z()}; };
+    const auto list = along_x(hexahedra({mirrored}), 0.3, 0.4, counts);
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].leave - list[0].enter == Approx(2));
+    // Folded: the Jacobian vanishes inside.
+    const Map folded = [](const Vector& xi) -> Vector { return {xi.x() * xi.x() + 0.3 * xi.x(), xi.y(), xi.z()}; };
+    along_x(hexahedra({folded}, 2), 0.3, 0.4, counts);
+    SUCCEED("ended");
+}
+
+} // namespace
+} // namespace elvis::oracle
