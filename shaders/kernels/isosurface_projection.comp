@@ -82,6 +82,12 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #define CORE_MOST_LEVELS 8u
 #define CORE_END_TOLERANCE elvis_real(2.5e-7LF)
 #endif
+// Where rounding of the field moves a crossing by more than this, over the volume's size, the pixel is undecided.
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_DEPTH_TOLERANCE elvis_real(3e-12LF)
+#else
+#define CORE_DEPTH_TOLERANCE elvis_real(4e-6LF)
+#endif
 // E over how much the polynomial varies, above which it is not believed.
 #if CORE_USES_COLLEAGUE
 // Eigenvalues tell no error: as little as there can be.
@@ -93,7 +99,7 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_LEAST_SLOPE_ERROR elvis_real(1e-6LF)
 #else
-#define CORE_LEAST_SLOPE_ERROR elvis_real(1e-3LF)
+#define CORE_LEAST_SLOPE_ERROR elvis_real(1e-4LF)
 #endif
 
 #define CORE_PHASE_SEEK 0u
@@ -231,7 +237,9 @@ void main() {
     walk_ray.direction = ray.direction;
     walk_ray.speed = stretch;
     walk_ray.reach = elvis_real(4) * far / stretch;
-    walk_ray.tolerance = CORE_END_TOLERANCE * elvis_real(length(root_sides)) / stretch;
+    // Of the volume, in the ray's parameter.
+    const elvis_real size = elvis_real(length(root_sides)) / stretch;
+    walk_ray.tolerance = CORE_END_TOLERANCE * size;
     walk_ray.error = ray.error + elvis_real(2) * CORE_ROUNDOFF * far;
 
     uint stack[CORE_STACK_SIZE];
@@ -458,9 +466,12 @@ void main() {
             const bool is_behind_start = root_t > ray.least_t + ray.widths_behind * half_width && root_t > ray.least_t;
             const bool is_hit = is_settled && is_confirmed && is_inside && is_behind_start;
             const bool is_undecided = !is_hit && (is_settled ? !is_confirmed : is_last);
+            // The last step may be small by chance; errors are a tenth of their bound or less.
+            const elvis_real blur = max(abs(step), elvis_real(0.125LF) * half_width);
+            const bool is_blurred = is_hit && CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size;
             n_crossings += is_settled && is_confirmed ? 1u : 0u;
             n_undecided += is_undecided ? 1u : 0u;
-            undecided_t = is_undecided ? min(undecided_t, from + candidate.t * (to - from)) : undecided_t;
+            undecided_t = is_undecided ? min(undecided_t, from + candidate.t * (to - from)) : is_blurred ? min(undecided_t, root_t) : undecided_t;
 
             const uint number = elvis_fetch_core_elements(element, 0u);
             const bool is_same = abs(root_t - best_t) <= max(half_width, best_slack);
@@ -524,10 +535,10 @@ void main() {
         core_samples[pixel].depth = (best_t + along.reference_distance) * stretch;
         core_samples[pixel].number = best_number;
         const elvis_vec3 normal = elvis_vec3(normal_x, normal_y, normal_z);
-        const elvis_real size = (dot(normal, ray.direction) > elvis_real(0) ? elvis_real(-1) : elvis_real(1)) / length(normal);
-        core_normals[3u * pixel] = size * normal.x;
-        core_normals[3u * pixel + 1u] = size * normal.y;
-        core_normals[3u * pixel + 2u] = size * normal.z;
+        const elvis_real scale = (dot(normal, ray.direction) > elvis_real(0) ? elvis_real(-1) : elvis_real(1)) / length(normal);
+        core_normals[3u * pixel] = scale * normal.x;
+        core_normals[3u * pixel + 1u] = scale * normal.y;
+        core_normals[3u * pixel + 2u] = scale * normal.z;
         core_places[pixel] = core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS);
         core_bending[pixel] = core_is_finite(best_bend) ? min(best_bend, CORE_FAR) : CORE_FAR;
     }
