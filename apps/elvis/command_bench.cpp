@@ -2,6 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/bench/bench.hpp>
+#include <core/bench/projection.hpp>
 #include <core/bench/roots.hpp>
 #include <core/bench/surfaces.hpp>
 
@@ -9,6 +10,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace elvis::commands {
 
@@ -26,6 +28,8 @@ struct Arguments {
     std::uint64_t n_jacobians = 1000000;
     std::uint64_t n_polynomials = 1000000;
     std::string output;
+    std::string volume;
+    std::optional<double> isovalue;
     bool json = false;
 };
 
@@ -207,6 +211,50 @@ nlohmann::ordered_json run_segments(const Arguments& arguments, const Device& de
     return list;
 }
 
+nlohmann::ordered_json run_projection(const Arguments& arguments, const Device& device, const PluginRegistry& registry,
+                                      const BenchFolder& folder) {
+    ProjectionOptions options;
+    options.volume = arguments.volume;
+    options.isovalue = arguments.isovalue;
+    options.elements_a_side = arguments.names_elements ? arguments.elements.front() : options.elements_a_side;
+    options.order = arguments.names_orders ? arguments.orders.front() : options.order;
+    options.size = arguments.names_sizes ? arguments.sizes.front() : options.size;
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    const std::vector<ProjectionRow> rows = bench_projection(device, registry, folder, options, [&](const ProjectionRow& row) {
+        list.push_back({{"method", name_of(row.method)},
+                        {"degree", row.degree},
+                        {"mean_degree", row.mean_degree},
+                        {"evaluations_a_segment", row.evaluations_a_segment},
+                        {"segments", row.n_segments},
+                        {"verified_segments", row.n_verified},
+                        {"certified_segments", row.n_certified},
+                        {"projected_pixels", row.n_projected_pixels},
+                        {"hit_pixels", row.n_hits},
+                        {"missing_pixels", row.n_missing},
+                        {"other_pixels", row.n_other},
+                        {"undecided_pixels", row.n_undecided},
+                        {"mean_depth_error", row.mean_depth_error},
+                        {"largest_depth_error", row.largest_depth_error},
+                        {"mean_normal_error", row.mean_normal_error},
+                        {"largest_normal_error", row.largest_normal_error},
+                        {"milliseconds", row.milliseconds}});
+        if (!arguments.json) {
+            std::printf("%-9s degree %2u (mean %4.1f)  %5.1f evaluations a segment  %6llu hits, %llu missing, %llu other, %llu "
+                        "undecided  depth %.1e (%.1e)  normal %.1e (%.1e)  %8.1f ms\n",
+                        name_of(row.method), row.degree, row.mean_degree, row.evaluations_a_segment,
+                        static_cast<unsigned long long>(row.n_hits), static_cast<unsigned long long>(row.n_missing),
+                        static_cast<unsigned long long>(row.n_other), static_cast<unsigned long long>(row.n_undecided),
+                        row.mean_depth_error, row.largest_depth_error, row.mean_normal_error, row.largest_normal_error,
+                        row.milliseconds);
+            std::fflush(stdout);
+        }
+    });
+    if (!arguments.output.empty()) {
+        write_projection(arguments.output, rows);
+    }
+    return list;
+}
+
 void run(const Arguments& arguments) {
     nlohmann::ordered_json root;
     const bool all = arguments.suite == "all";
@@ -229,7 +277,8 @@ void run(const Arguments& arguments) {
         root["roots"] = run_roots(arguments);
     }
     if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary" ||
-        arguments.suite == "isosurface" || arguments.suite == "segments" || arguments.suite == "surfaces") {
+        arguments.suite == "isosurface" || arguments.suite == "segments" || arguments.suite == "surfaces" ||
+        arguments.suite == "projection") {
         const PluginRegistry registry;
         const BenchFolder folder(arguments.data);
         const Device device(arguments.device);
@@ -265,6 +314,9 @@ void run(const Arguments& arguments) {
             root["segments"] = run_segments(arguments, device, registry, folder, unit);
         }
         // Minutes, and no part of "all".
+        if (arguments.suite == "projection") {
+            root["projection"] = run_projection(arguments, device, registry, folder);
+        }
         if (arguments.suite == "surfaces") {
             root["surfaces"] = run_surfaces(arguments, device, registry, folder, unit);
         }
@@ -281,8 +333,9 @@ void add_bench(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     command
         ->add_option("suite", arguments->suite,
-                     "unit, cut-plane, boundary, isosurface, segments, hierarchy, jacobian, roots, all of these, or surfaces")
-        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "isosurface", "segments", "hierarchy", "jacobian", "roots", "surfaces", "all"}))
+                     "unit, cut-plane, boundary, isosurface, segments, hierarchy, jacobian, roots, all of these, surfaces or projection")
+        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "isosurface", "segments", "hierarchy", "jacobian", "roots", "surfaces",
+                               "projection", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
@@ -293,7 +346,9 @@ void add_bench(CLI::App& app) {
     command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->add_option("--output", arguments->output, "Folder for the CSV file and the plots of the suite surfaces");
+    command->add_option("--volume", arguments->volume, "A native volume for the suite projection, in place of the waves");
+    command->add_option("--isovalue", arguments->isovalue, "Of the suite projection; by default the middle of the field's range");
+    command->add_option("--output", arguments->output, "Folder for the CSV file and the plots of the suites surfaces and projection");
     command->callback([arguments, command] {
         arguments->names_elements = command->count("--elements") > 0;
         arguments->names_orders = command->count("--orders") > 0;

@@ -225,6 +225,11 @@ nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Fr
                       {"isosurface_pixels", counts.isosurface_pixels},
                       {"undecided_isosurface_pixels", counts.undecided_isosurface_pixels},
                       {"isosurface_crossings", counts.isosurface_crossings},
+                      {"projected_pixels", counts.projected_pixels},
+                      {"certified_segments", counts.certified_segments},
+                      {"segments", counts.segments},
+                      {"verified_segments", counts.verified_segments},
+                      {"undecided_segments", counts.undecided_segments},
                       {"excluded_pieces", counts.excluded_pieces},
                       {"undecided_pieces", counts.undecided_pieces}};
     const RendererMemory memory = renderer.memory();

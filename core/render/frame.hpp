@@ -85,6 +85,16 @@ struct FrameCounts {
     std::uint64_t excluded_pieces = 0;
     std::uint64_t undecided_pieces = 0;
     std::uint64_t isosurface_crossings = 0;
+    /** Pixels of isosurfaces that were drawn by projection. */
+    std::uint64_t projected_pixels = 0;
+    /**
+     * Of projection: parts of rays in elements that surely hold no isovalue; polynomials along rays, the sum of their degrees, and
+     * those of them that hold none as far as their error estimate is right; places that stayed open.
+     */
+    std::uint64_t certified_segments = 0;
+    std::uint64_t segments = 0, segment_degrees = 0;
+    std::uint64_t verified_segments = 0;
+    std::uint64_t undecided_segments = 0;
     /** Pixels that had to be looked at more closely for lines. */
     std::uint64_t refined_pixels = 0;
 };

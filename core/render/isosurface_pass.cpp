@@ -72,7 +72,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
 
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
-      m_level_set(device, volume, data),
+      m_level_set(device, volume, data), m_projection(device),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
@@ -104,15 +104,19 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
     }
 }
 
-void IsosurfacePass::choose(std::span<const double> isovalues, double offset, const ShownComponent& component,
-                            bool skips_by_range) {
-    m_values.assign(isovalues.begin(), isovalues.end());
+void IsosurfacePass::choose(const Isosurfaces& wanted, double offset, const ShownComponent& component) {
+    m_values = wanted.values;
     for (double& value : m_values) {
         value -= offset;
     }
     m_component = {component.first(), component.end()};
-    m_level_set.choose(m_values, m_component, skips_by_range);
+    m_level_set.choose(m_values, m_component, wanted.skips_by_range);
+    m_method = wanted.method;
+    m_degree = wanted.degree;
     for (ClassKernels& kernels : m_kernels) {
+        if (m_method != IsosurfaceMethod::interval) {
+            break;
+        }
         kernels.provide(m_device, Role::tiles, m_values.size() == 1);
         kernels.provide(m_device, Role::pixels, m_values.size() == 1);
     }
@@ -121,19 +125,39 @@ void IsosurfacePass::choose(std::span<const double> isovalues, double offset, co
 void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
                           FrameCounts& counts) {
     const Layer& layer = target.layer;
-    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
-    const std::uint32_t n_tiles = tiles_a_row * tile_rows;
-    const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const Buffer& bending = provide(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
     const Buffer& isovalues = provide(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
     write_reals(isovalues, m_precision, m_values);
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    std::uint32_t left = 0;
+    if (m_method == IsosurfaceMethod::interval) {
+        draw_by_intervals(first_surface, target, counts);
+        left = pixel_flag::isosurface_undecided | pixel_flag::work_limit;
+    }
+    const IsosurfaceProjection::Picture picture{m_frame, isovalues, bending, target, m_component,
+                                                static_cast<std::uint32_t>(m_values.size())};
+    if (m_projection.list(target.layer, left) == 0) {
+        return;
+    }
+    for (const ClassKernels& kernels : m_kernels) {
+        if (m_level_set.n_elements(kernels.element_class) > 0) {
+            m_projection.draw(kernels.request, kernels.element_class, m_method, m_degree, picture,
+                              first_surface + kernels.element_class, counts);
+        }
+    }
+}
+
+void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts) {
+    const Layer& layer = target.layer;
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
+    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
+    const std::uint32_t n_tiles = tiles_a_row * tile_rows;
+    const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
-                                                   &tiles,   &isovalues,     &beyond,        target.places,  &bending};
+                                                   &tiles,   &*m_isovalues,  &beyond,        target.places,  &*m_bending};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
         if (m_level_set.n_elements(kernels.element_class) == 0) {
@@ -141,7 +165,7 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
         }
         m_counts.fill(0);
         const TilesParameters of_tiles{tiles_a_row, n_tiles, static_cast<std::uint32_t>(m_values.size())};
-        const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &m_counts, &isovalues};
+        const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &m_counts, &*m_isovalues};
         kernels.provide(m_device, Role::tiles, m_values.size() == 1)
             .dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));
         Parameters parameters{layer.width,

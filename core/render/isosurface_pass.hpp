@@ -6,6 +6,7 @@
 
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
+#include <core/render/isosurface_projection.hpp>
 #include <core/render/layer.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/level_set.hpp>
@@ -24,8 +25,8 @@ public:
     /** `data` has that field selected, and its derivative bounds. Kernels are compiled when first needed, most by choose(). */
     IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
-    /** What the next pictures show: ascending values of the field, which lacks `offset` on the device; see LevelSet::choose. */
-    void choose(std::span<const double> isovalues, double offset, const ShownComponent& component, bool skips_by_range);
+    /** What the next pictures show; the field lacks `offset` on the device. See LevelSet::choose. */
+    void choose(const Isosurfaces& wanted, double offset, const ShownComponent& component);
 
     /**
      * Draws the nearest crossing of each ray; each class is a surface of its own, numbered from `first_surface`. Samples get
@@ -51,6 +52,8 @@ private:
         const ComposedKernel& provide(const Device& device, Role role, bool has_one_isovalue);
     };
 
+    void draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
+
     const Device& m_device;
     Precision m_precision;
     std::uint32_t m_tile_width;
@@ -58,7 +61,10 @@ private:
     /** Less the offset. */
     std::vector<double> m_values;
     LevelComponent m_component;
+    IsosurfaceMethod m_method = IsosurfaceMethod::interval;
+    std::uint32_t m_degree = 0;
     std::vector<ClassKernels> m_kernels;
+    IsosurfaceProjection m_projection;
     Buffer m_frame;
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;

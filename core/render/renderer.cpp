@@ -213,8 +213,7 @@ IsosurfacePass& Renderer::Impl::isosurface_pass(const Isosurfaces& wanted) {
         data.provide_derivative_bounds();
         current->isosurfaces.emplace(device, volume, data);
     }
-    current->isosurfaces->choose(wanted.values, fields.offset(wanted.field), fields.component(wanted.field),
-                                 wanted.skips_by_range);
+    current->isosurfaces->choose(wanted, fields.offset(wanted.field), fields.component(wanted.field));
     return *current->isosurfaces;
 }
 

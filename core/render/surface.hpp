@@ -82,6 +82,15 @@ struct WireFrame {
     double width = 1;
 };
 
+/** How crossings of rays with isosurfaces are found. */
+enum class IsosurfaceMethod : std::uint8_t {
+    /** By bounds that hold over whole pieces of rays; by the Bernstein form where those do not decide. */
+    interval,
+    /** By projection along rays, and roots from the Bernstein form or from the eigenvalues of the companion matrix. */
+    bernstein,
+    companion
+};
+
 /** Where a field takes one of these values. */
 struct Isosurfaces {
     /** Which has the level sets; Surface::field is what colours them. */
@@ -90,6 +99,12 @@ struct Isosurfaces {
     std::vector<double> values{};
     /** Elements whose range holds no value are not looked at, where ranges are known: with equal pictures, but slower, without. */
     bool skips_by_range = true;
+    IsosurfaceMethod method = IsosurfaceMethod::interval;
+    /**
+     * Not with intervals: each ray's part in an element is one polynomial of this degree, 2 to 13, and its roots are taken as
+     * they are. 0: as many polynomials and of such degree as it takes, and roots of the field itself.
+     */
+    std::uint32_t degree = 0;
 };
 
 using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements, ElementFaces, WireFrame, CutShape, Isosurfaces>;

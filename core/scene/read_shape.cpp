@@ -31,6 +31,8 @@ const std::vector<PlaceKey>& place_keys() {
         {"values", {"isosurface"}},
         {"color_field", {"isosurface"}},
         {"range_skipping", {"isosurface"}},
+        {"method", {"isosurface"}},
+        {"degree", {"isosurface"}},
         {"center", {"sphere", "torus"}},
         {"radius", {"sphere", "cylinder"}},
         {"from", {"cylinder", "cone"}},

@@ -1,4 +1,5 @@
 #include <core/scene/read_parts.hpp>
+#include <core/segment/tables.hpp>
 
 namespace elvis {
 
@@ -38,6 +39,16 @@ SceneColorMap uniform_map(const Rgb& color) {
     return map;
 }
 
+IsosurfaceMethod read_method(const JsonObject& object) {
+    const std::string name = object.text("method");
+    if (name != "interval" && name != "bernstein" && name != "companion") {
+        object.fail("method", "is '" + name + "'; it can be interval, bernstein or companion");
+    }
+    return name == "interval"    ? IsosurfaceMethod::interval
+           : name == "bernstein" ? IsosurfaceMethod::bernstein
+                                 : IsosurfaceMethod::companion;
+}
+
 Isosurfaces read_isosurfaces(const JsonObject& object) {
     if (!object.has("values")) {
         object.fail("values", "is missing, which an isosurface needs");
@@ -46,6 +57,18 @@ Isosurfaces read_isosurfaces(const JsonObject& object) {
     isosurfaces.values = object.numbers("values");
     std::sort(isosurfaces.values.begin(), isosurfaces.values.end());
     isosurfaces.skips_by_range = !object.has("range_skipping") || object.flag("range_skipping");
+    if (object.has("method")) {
+        isosurfaces.method = read_method(object);
+    }
+    if (object.has("degree")) {
+        isosurfaces.degree = object.integer("degree");
+        if (isosurfaces.degree != 0 && isosurfaces.method == IsosurfaceMethod::interval) {
+            object.fail("degree", "is of the methods 'bernstein' and 'companion' only");
+        }
+        if (isosurfaces.degree == 1 || isosurfaces.degree > segment::max_degree) {
+            object.fail("degree", "must be 0, or from 2 to 13");
+        }
+    }
     if (object.has("color") && (object.has("color_map") || object.has("color_field"))) {
         object.fail("color", "stands in place of 'color_map' and 'color_field': only one of them can be");
     }

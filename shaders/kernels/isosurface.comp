@@ -64,8 +64,8 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #define CORE_NO_ELEMENT 0xffffffffu
 // Turns of one pixel: all pixels of an invocation stay below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
-// Evaluations in one element, beyond which the rest of it is left undecided.
-#define CORE_MOST_EVALUATIONS 200u
+// Evaluations in one element, beyond which the ray is left to projection.
+#define CORE_MOST_EVALUATIONS 48u
 // Times the mapping is linearized anew nearer to the piece before it is halved.
 #define CORE_MAX_MOVES 8u
 

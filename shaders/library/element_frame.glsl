@@ -6,6 +6,8 @@
 #include "library/finite.glsl"
 #include "library/precision.glsl"
 
+elvis_real core_max_norm(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+
 struct core_frame {
     elvis_vec3 row0, row1, row2;
     elvis_vec3 xi_error;

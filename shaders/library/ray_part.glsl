@@ -23,6 +23,10 @@
 #define CORE_ASSUMED_CURVATURE elvis_real(4)
 // In the record of core_links, behind the faces.
 #define CORE_LINKS_CURVATURE 7u
+// A kernel without core_links has it from elsewhere.
+#ifndef CORE_PART_CURVATURE
+#define CORE_PART_CURVATURE(element) elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)))
+#endif
 #define CORE_CERTAIN_TURNS 64u
 #define CORE_PART_TURNS 128u
 
@@ -73,7 +77,7 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     const elvis_vec3 second = first + ray.reach * ray.direction;
     const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(first)));
     const elvis_vec3 there = elvis_vec3(core_linear_inverse(linearization, vec3(second)));
-    const elvis_real curvature = elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)));
+    const elvis_real curvature = CORE_PART_CURVATURE(element);
     core_ray_model model;
     model.at = here;
     model.slope = (there - here) / ray.reach;

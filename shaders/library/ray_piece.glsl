@@ -22,8 +22,6 @@ struct core_piece {
     bool is_known;
 };
 
-elvis_real core_max_norm(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
-
 elvis_real core_piece_radius(core_piece piece) {
     return max(core_max_norm(piece.q + piece.low * piece.w), core_max_norm(piece.q + piece.high * piece.w));
 }

@@ -21,16 +21,18 @@ Surface surface_of(std::vector<double> values) {
 
 } // namespace
 
-FrameRequest isosurface_request(const RandomVolume& random, std::uint32_t size) {
+FrameRequest isosurface_request(const RandomVolume& random, std::uint32_t size, IsosurfaceMethod method) {
     FrameRequest request;
     request.width = request.height = size;
     request.camera = random.camera;
     request.surfaces = {surface_of(random.values)};
+    std::get<Isosurfaces>(request.surfaces[0].geometry).method = method;
     request.surfaces[0].clip = random.clip;
     return request;
 }
 
-RandomAccuracy measure_random(const Device& device, const RandomVolume& random, std::uint32_t size, std::span<const Precision> precisions) {
+RandomAccuracy measure_random(const Device& device, const RandomVolume& random, std::uint32_t size, std::span<const Precision> precisions,
+                              IsosurfaceMethod method) {
     const TemporaryFile file("random.h5");
     write_volume(file.path(), random.data);
     const RuntimeVolume volume = open_volume(file.path());
@@ -42,9 +44,10 @@ RandomAccuracy measure_random(const Device& device, const RandomVolume& random, 
     result.oracle_failures = exact.n_failures;
     for (const Precision precision : precisions) {
         Renderer renderer(device, volume, precision);
-        const Frame frame = renderer.render(isosurface_request(random, size));
+        const Frame frame = renderer.render(isosurface_request(random, size, method));
         const IsosurfaceTolerance& tolerance = precision == Precision::float64 ? float64_tolerance : float32_tolerance;
         result.comparisons.push_back(compare(tracer, exact, random.camera, frame, tolerance));
+        result.counts.push_back(frame.counts);
         result.render_milliseconds.push_back(frame.render_milliseconds);
     }
     return result;

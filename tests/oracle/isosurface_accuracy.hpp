@@ -17,17 +17,20 @@
 namespace elvis::oracle {
 
 /** The view of a random volume as the renderer is asked for it. */
-FrameRequest isosurface_request(const RandomVolume& random, std::uint32_t size);
+FrameRequest isosurface_request(const RandomVolume& random, std::uint32_t size,
+                                IsosurfaceMethod method = IsosurfaceMethod::interval);
 
 /** A random volume drawn in each precision, and by the oracle once. */
 struct RandomAccuracy {
     /** One a precision. */
     std::vector<IsosurfaceComparison> comparisons;
     std::vector<double> render_milliseconds;
+    std::vector<FrameCounts> counts;
     double oracle_seconds = 0;
     std::uint64_t oracle_failures = 0;
 };
-RandomAccuracy measure_random(const Device& device, const RandomVolume& random, std::uint32_t size, std::span<const Precision> precisions);
+RandomAccuracy measure_random(const Device& device, const RandomVolume& random, std::uint32_t size, std::span<const Precision> precisions,
+                              IsosurfaceMethod method = IsosurfaceMethod::interval);
 
 /** The sphere |x| = 1 as isosurface of a volume whose field is |x|^2, in closed form. */
 struct SphereAccuracy {

@@ -15,7 +15,7 @@ struct Arguments {
     std::uint64_t count = 1000, seed = 0;
     std::uint32_t size = 200, finder_stride = 50;
     std::vector<std::string> precisions{"float32", "float64"};
-    std::string device;
+    std::string device, method = "interval";
 };
 
 const char* name_of(Precision precision) { return precision == Precision::float64 ? "float64" : "float32"; }
@@ -28,18 +28,22 @@ bool holds(const IsosurfaceComparison& comparison, Precision precision) {
 
 int run(const Arguments& arguments) {
     const Device device(arguments.device);
+    const IsosurfaceMethod method = arguments.method == "interval"    ? IsosurfaceMethod::interval
+                                    : arguments.method == "bernstein" ? IsosurfaceMethod::bernstein
+                                                                      : IsosurfaceMethod::companion;
     std::vector<Precision> precisions;
     for (const std::string& name : arguments.precisions)
         if (name != "none")
             precisions.push_back(name == "float64" ? Precision::float64 : Precision::float32);
     std::vector<IsosurfaceComparison> sums(precisions.size());
     std::vector<double> milliseconds(precisions.size());
+    std::uint64_t n_projected = 0, n_evaluations = 0;
     FinderComparison finders;
     double oracle_seconds = 0;
     std::uint64_t oracle_failures = 0;
     for (std::uint64_t seed = arguments.seed; seed < arguments.seed + arguments.count; ++seed) {
         const RandomVolume random = random_volume(seed);
-        const RandomAccuracy one = measure_random(device, random, arguments.size, precisions);
+        const RandomAccuracy one = measure_random(device, random, arguments.size, precisions, method);
         oracle_seconds += one.oracle_seconds;
         oracle_failures += one.oracle_failures;
         for (std::size_t i = 0; i < precisions.size(); ++i) {
@@ -49,6 +53,8 @@ int run(const Arguments& arguments) {
                             name_of(precisions[i]), random.description.c_str(), comparison.n_wrong, comparison.n_wrong_grazing,
                             comparison.n_other_element, comparison.worst_pixel);
             sums[i] += comparison;
+            n_projected += one.counts[i].projected_pixels;
+            n_evaluations += one.counts[i].field_evaluations;
             milliseconds[i] += one.render_milliseconds[i];
         }
         if (arguments.finder_stride != 0) {
@@ -70,6 +76,8 @@ int run(const Arguments& arguments) {
                     static_cast<unsigned long long>(arguments.count), milliseconds[i] / static_cast<double>(arguments.count),
                     is_held ? "good" : "WRONG", to_text(sums[i]).c_str());
     }
+    std::printf("%llu pixels drawn by projection, %llu evaluations\n", static_cast<unsigned long long>(n_projected),
+                static_cast<unsigned long long>(n_evaluations));
     std::printf("oracle: %.3g rays a second, %llu failures\n"
                 "its ways to find roots, on %zu rays, %zu of them with a crossing:\n"
                 "  series and samples differ              %zu\n"
@@ -94,6 +102,7 @@ int main(int argc, char** argv) {
     app.add_option("--precision", arguments.precisions, "float32, float64 or both; none: the oracle alone")
         ->check(CLI::IsMember({"float32", "float64", "none"}));
     app.add_option("--finder-stride", arguments.finder_stride, "The oracle's ways are compared on every so many rays; 0: not at all");
+    app.add_option("--method", arguments.method, "How crossings are found")->check(CLI::IsMember({"interval", "bernstein", "companion"}));
     app.add_option("--device", arguments.device, "Device by name or index");
     CLI11_PARSE(app, argc, argv);
     try {

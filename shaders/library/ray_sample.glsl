@@ -1,0 +1,119 @@
+// The shown field at points of a ray inside an element, found by Newton's method, one evaluation of mapping and field a step.
+//
+// The point wanted next is predicted from the last one found, with the Jacobian there. Where Newton's method does not find it
+// from so far away, a point half the way is found first, and so on: the prediction is then followed along the ray.
+//
+// The field is taken to first order from the point that was evaluated, so that what Newton's method leaves counts twice only. Its
+// error is bounded as in library/ray_piece.glsl.
+//
+// The kernel brings library/ray_part.glsl and library/shown_model.glsl.
+
+#define CORE_SAMPLE_RUNNING 0u
+#define CORE_SAMPLE_FOUND 1u
+#define CORE_SAMPLE_FAILED 2u
+
+// Steps towards one point, before one half the way is looked for; and in all.
+#define CORE_SAMPLE_STEPS 8u
+#define CORE_SAMPLE_MOST_STEPS 64u
+
+struct core_follower {
+    // A point that was found: parameter, reference coordinates and their change with the parameter.
+    elvis_real known, known_x, known_y, known_z, slope_x, slope_y, slope_z;
+    // Parameter wanted in the end, and the one that is looked for; the prediction for that.
+    elvis_real goal, at, x, y, z;
+    uint steps, all_steps;
+};
+
+struct core_ray_sample {
+    uint status;
+    // Of the field at the parameter, its change with it, and its error.
+    elvis_real value, slope, error;
+    bool is_known;
+    // Of the point in reference coordinates: offset of the point from xi, change with the parameter, rounding.
+    elvis_vec3 xi, q, w;
+    elvis_real rounding, beyond;
+    // Of the field in reference coordinates, and J^-1.
+    elvis_vec3 gradient;
+    core_frame frame;
+    bool is_finite;
+};
+
+void core_predict(inout core_follower follower, elvis_real at) {
+    const elvis_real since = at - follower.known;
+    // Far predictions are of no use but for their direction, and could overflow.
+    const elvis_real limit = elvis_real(4);
+    follower.at = at;
+    follower.x = clamp(follower.known_x + since * follower.slope_x, -limit, limit);
+    follower.y = clamp(follower.known_y + since * follower.slope_y, -limit, limit);
+    follower.z = clamp(follower.known_z + since * follower.slope_z, -limit, limit);
+    follower.steps = 0u;
+}
+
+void core_follow_to(inout core_follower follower, elvis_real goal) {
+    follower.goal = goal;
+    follower.all_steps = 0u;
+    core_predict(follower, goal);
+}
+
+// One evaluation.
+core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
+    core_ray_sample result;
+    elvis_real x = follower.x, y = follower.y, z = follower.z;
+    core_project(x, y, z);
+    result.xi = elvis_vec3(x, y, z);
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, result.xi, position, jacobian);
+    const elvis_vec3 shift = CORE_CENTRE - elvis_origin(element), way = follower.at * ray.direction;
+    result.frame = core_frame_at(position, jacobian,
+                                 ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(way)));
+    result.q = core_to_xi(result.frame, ((shift - position) + ray.origin) + way);
+    result.w = core_to_xi(result.frame, ray.direction);
+    result.rounding = core_max_norm(result.frame.xi_error);
+    const elvis_vec3 found = result.xi + result.q;
+    const elvis_real change = core_max_norm(found - elvis_vec3(follower.x, follower.y, follower.z));
+    const elvis_real step = core_max_norm(result.q);
+    // Where the bound says nothing, two predictions that agree do, as in library/newton.glsl.
+    result.beyond = min(core_prediction_error(curvature, step), change) + result.rounding;
+
+    core_patch region;
+    region.corner0 = region.corner1 = region.corner2 = region.corner3 = result.q;
+    region.beyond = result.beyond;
+    region.radius = step + result.beyond;
+    elvis_real value;
+    const core_model model = core_shown_model(element, result.xi, region, value);
+    result.gradient = model.slope;
+    const elvis_real size = core_model_norm1(model.slope);
+    const elvis_real blur = size * (result.beyond + elvis_real(4) * CORE_ROUNDOFF * region.radius);
+    result.is_known = core_model_is_known(model);
+    result.value = result.is_known ? model.value + dot(model.slope, result.q) : value;
+    result.slope = dot(model.slope, result.w);
+    // Without a model: what rounding alone does.
+    result.error = (result.is_known ? CORE_MODEL_UP * (model.remainder + blur) : elvis_real(64) * CORE_ROUNDOFF * abs(value) + blur) +
+                   elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
+    result.is_finite = core_is_finite(value + core_max_norm(position));
+
+    const bool is_sound = result.frame.is_sound && core_is_finite(step + core_max_norm(result.w));
+    const bool is_found = is_sound && change <= elvis_real(4) * result.rounding;
+    follower.steps += 1u;
+    follower.all_steps += 1u;
+    const bool is_stuck = !is_found && (!is_sound || follower.steps >= CORE_SAMPLE_STEPS);
+    const bool is_there = is_found && follower.at == follower.goal;
+    follower.known = is_found ? follower.at : follower.known;
+    follower.known_x = is_found ? found.x : follower.known_x;
+    follower.known_y = is_found ? found.y : follower.known_y;
+    follower.known_z = is_found ? found.z : follower.known_z;
+    follower.slope_x = is_found ? result.w.x : follower.slope_x;
+    follower.slope_y = is_found ? result.w.y : follower.slope_y;
+    follower.slope_z = is_found ? result.w.z : follower.slope_z;
+    const elvis_real limit = elvis_real(4);
+    follower.x = is_sound ? clamp(found.x, -limit, limit) : follower.x;
+    follower.y = is_sound ? clamp(found.y, -limit, limit) : follower.y;
+    follower.z = is_sound ? clamp(found.z, -limit, limit) : follower.z;
+    for (uint turn = 0u; turn < (is_stuck || (is_found && !is_there) ? 1u : 0u); ++turn) {
+        core_predict(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known + follower.at));
+    }
+    const bool is_given_up = follower.all_steps >= CORE_SAMPLE_MOST_STEPS;
+    result.status = is_there ? CORE_SAMPLE_FOUND : is_given_up ? CORE_SAMPLE_FAILED : CORE_SAMPLE_RUNNING;
+    return result;
+}
