@@ -73,7 +73,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_NORMAL_ERROR elvis_real(2e-13LF)
 #else
-#define CORE_NORMAL_ERROR elvis_real(2e-6LF)
+#define CORE_NORMAL_ERROR elvis_real(1e-6LF)
 #endif
 // Offsets from xi, in reference coordinates, below which rounding counts more than what the linearization leaves out.
 #if ELVIS_REAL_IS_DOUBLE
@@ -248,10 +248,10 @@ void main() {
             const elvis_real change = bend_here * distance;
             const bool is_at_root = (distance <= CORE_LAST_STEP && change * inverse_size <= CORE_NORMAL_ERROR * size &&
                                      change * distance * speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
-                                    distance <= elvis_real(4) * core_max_norm(frame.xi_error) ||
+                                    distance <= core_max_norm(frame.xi_error) ||
                                     // Rounding is most of the error: nothing more is to be had.
                                     (bend_here * piece.radius * piece.radius <= piece.error &&
-                                     distance <= (moves < 3u ? elvis_real(0.0625LF) : elvis_real(1)) * speed * crossing.half_width);
+                                     distance <= (moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * speed * crossing.half_width);
             const elvis_vec3 root = xi + to_root;
             // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face.
             const bool is_inside = core_excess(root.x, root.y, root.z) <=

@@ -118,6 +118,15 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     REQUIRE(contours.status == 0);
     CHECK(nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["contour_pixels"].get<int>() > 20);
 
+    const Outcome levels = place.run("render ball.h5 --field sphere --isosurface 0.3 --isosurface 0.6 --size 64x64 --lighting default "
+                                     "--validation -o ball.png --stats stats.json");
+    INFO(levels.err);
+    REQUIRE(levels.status == 0);
+    const auto of_levels = nlohmann::json::parse(read_file(place.path("stats.json")))["counts"];
+    CHECK(of_levels["isosurface_pixels"].get<int>() > 400);
+    CHECK(of_levels["undecided_isosurface_pixels"].get<int>() < 10);
+    CHECK(of_levels["excluded_pieces"].get<int>() > 100);
+
     for (const std::string precision : {"float32", "float64"}) {
         const Outcome render = place.run("render ball.h5 --field sphere --cut-plane 0,0,1,0 --size 64x64 --precision " +
                                          precision + " --validation -o ball.png --buffers ball.buffers.h5 --stats stats.json");
@@ -271,6 +280,14 @@ TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with
     CHECK_THAT(fault(R"x({"type": "implicit", "expression": "x + sine(y)"})x"), Contains("surfaces[0]") && Contains("sine"));
     CHECK_THAT(fault(R"({"type": "mesh", "file": "nothing.stl"})"), Contains("nothing.stl") && Contains("cannot be read"));
     CHECK_THAT(fault(R"({"type": "boundary", "outside": [1, 0, 0]})"), Contains("outside"));
+    CHECK_THAT(fault(R"({"type": "boundary", "values": [1]})"), Contains("'surfaces[0].values' means nothing"));
+    CHECK_THAT(fault(R"({"type": "isosurface"})"), Contains("'surfaces[0].values' is missing"));
+    CHECK_THAT(fault(R"({"type": "isosurface", "values": [0.5], "color": [1, 0, 0], "color_field": "x"})"),
+               Contains("'surfaces[0].color'"));
+    CHECK_THAT(fault(R"({"type": "isosurface", "values": [0.5], "color_field": "temprature"})"), Contains("temprature"));
+    // Nothing is where the field does not get to.
+    CHECK(hits(R"({"type": "isosurface", "values": [0.5]})") > 250);
+    CHECK(hits(R"({"type": "isosurface", "values": [50]})") == 0);
 }
 
 TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
