@@ -85,8 +85,11 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 // Where rounding of the field moves a crossing by more than this, over the volume's size, the pixel is undecided.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_DEPTH_TOLERANCE elvis_real(3e-12LF)
+// Share of the bound of that which is met at worst.
+#define CORE_BLUR_SHARE elvis_real(0.015625LF)
 #else
 #define CORE_DEPTH_TOLERANCE elvis_real(4e-6LF)
+#define CORE_BLUR_SHARE elvis_real(0.125LF)
 #endif
 // E over how much the polynomial varies, above which it is not believed.
 #if CORE_USES_COLLEAGUE
@@ -466,8 +469,8 @@ void main() {
             const bool is_behind_start = root_t > ray.least_t + ray.widths_behind * half_width && root_t > ray.least_t;
             const bool is_hit = is_settled && is_confirmed && is_inside && is_behind_start;
             const bool is_undecided = !is_hit && (is_settled ? !is_confirmed : is_last);
-            // The last step may be small by chance; errors are a tenth of their bound or less.
-            const elvis_real blur = max(abs(step), elvis_real(0.125LF) * half_width);
+            // The last step may be small by chance.
+            const elvis_real blur = max(abs(step), CORE_BLUR_SHARE * half_width);
             const bool is_blurred = is_hit && CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size;
             n_crossings += is_settled && is_confirmed ? 1u : 0u;
             n_undecided += is_undecided ? 1u : 0u;

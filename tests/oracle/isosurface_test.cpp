@@ -88,8 +88,8 @@ TEST_CASE("isosurfaces by projection are where the oracle finds them") {
             const IsosurfaceComparison& comparison = one.comparisons[i];
             CAPTURE(seed, random.description, i, to_text(comparison), comparison.worst_pixel);
             CHECK(comparison.n_wrong + comparison.n_wrong_masks + comparison.n_other_element == 0);
-            // In single precision these fields are little more than rounding: a third of the pixels may say so.
-            CHECK(comparison.n_flagged <= comparison.n_pixels / (precisions[i] == Precision::float64 ? 100 : 3));
+            // In single precision rounding of these fields moves most crossings: that must be said.
+            CHECK((precisions[i] == Precision::float32 || comparison.n_flagged <= comparison.n_pixels / 100));
             CHECK(one.counts[i].projected_pixels == comparison.n_pixels);
             CHECK(one.counts[i].verified_segments > 0);
         }
