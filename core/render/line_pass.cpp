@@ -37,6 +37,8 @@ struct ListedParameters {
     std::uint32_t with_mesh_lines;
     std::uint32_t subdivisions;
     std::uint32_t open_count;
+    /** On faces. */
+    std::uint32_t is_closed;
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
@@ -57,12 +59,29 @@ std::vector<BindingLayout> bindings_up_to(std::uint32_t last) {
     return bindings;
 }
 
+/** Whether all rays start at one point, or all of them in front of the volume. */
+bool start_on_one_side(const CutPlaneGeometry& view, const std::array<double, 6>& bounds) {
+    const auto &direction = view.rows[3], &reference = view.rows[6];
+    bool is_parallel = true, is_behind = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        is_parallel = is_parallel && view.rows[4][axis] == 0 && view.rows[5][axis] == 0;
+    }
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        double depth = reference[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            depth += direction[axis] * (bounds[axis + 3 * ((corner >> axis) & 1)] - reference[axis]);
+        }
+        is_behind = is_behind && depth > 0;
+    }
+    return !is_parallel || is_behind;
+}
+
 } // namespace
 
 LinePass::LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces,
-                   std::uint32_t quadric_rows)
-    : m_device(device), m_volume(volume), m_data(data), m_faces(faces), m_quadric_rows(quadric_rows),
-      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+                   bool is_whole_boundary, std::uint32_t quadric_rows)
+    : m_device(device), m_volume(volume), m_data(data), m_faces(faces), m_is_whole_boundary(is_whole_boundary),
+      m_quadric_rows(quadric_rows), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
@@ -135,7 +154,7 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
 void LinePass::look_closer(const std::vector<ClassKernels>& kernels, std::unique_ptr<ComposedKernel> ClassKernels::*which,
                            std::uint32_t n_listed, std::uint32_t most_a_dispatch, const std::vector<const Buffer*>& bindings,
                            const ShownComponent& component, const LineRequest& lines, std::uint32_t subdivisions,
-                           std::uint32_t open_count, const Layer& layer) const {
+                           std::uint32_t open_count, bool is_closed, const Layer& layer) const {
     for (const ClassKernels& of_class : kernels) {
         for (std::uint32_t first = 0; first < n_listed; first += most_a_dispatch) {
             const std::uint32_t count = std::min(most_a_dispatch, n_listed - first);
@@ -149,7 +168,8 @@ void LinePass::look_closer(const std::vector<ClassKernels>& kernels, std::unique
                                               static_cast<std::uint32_t>(lines.isovalues.size()),
                                               lines.mesh_lines ? 1u : 0u,
                                               subdivisions,
-                                              open_count};
+                                              open_count,
+                                              is_closed ? 1u : 0u};
             (of_class.*which)->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_width));
         }
     }
@@ -209,16 +229,28 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
         std::unique_ptr<ComposedKernel> ClassKernels::*kernel;
         std::uint32_t subdivisions;
     };
-    std::vector<Round> rounds = {{search, 0}, {search, few}};
-    if (lines.subdivisions > few) {
-        rounds.push_back({search, lines.subdivisions});
-    }
-    if (m_faces || m_quadric_rows > 0) {
-        rounds.push_back({exclude, few});
-        if (lines.subdivisions > few) {
-            rounds.push_back({exclude, lines.subdivisions});
+    // Level by level where lines are excluded, too: what decides a pixel is found early, and deep walks are for few. Each class lists
+    // what it leaves open: of several, all levels at once, so that lists stay short.
+    const std::uint32_t step = kernels.size() > 1 ? lines.subdivisions : few_subdivisions;
+    std::vector<Round> rounds = {{search, 0}};
+    if (m_quadric_rows > 0) {
+        rounds.insert(rounds.end(), {{exclude, few}, {search, lines.subdivisions}});
+    } else {
+        rounds.push_back({search, few});
+        if (m_faces) {
+            rounds.push_back({exclude, few});
+        } else if (lines.subdivisions > few) {
+            rounds.push_back({search, lines.subdivisions});
         }
     }
+    for (std::uint32_t most = few; (m_faces || m_quadric_rows > 0) && most < lines.subdivisions;) {
+        most = std::min(most + step, lines.subdivisions);
+        if (m_faces) {
+            rounds.push_back({search, most});
+        }
+        rounds.push_back({exclude, most});
+    }
+    const bool is_closed = m_is_whole_boundary && start_on_one_side(view, m_data.bounds());
     const Buffer* from = &*m_list;
     std::uint32_t n_left = n_listed;
     for (std::uint32_t round = 0; round < rounds.size(); ++round) {
@@ -226,7 +258,7 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
         const Buffer* to = from == &*m_open ? &*m_still_open : &*m_open;
         const std::uint32_t count = is_last ? 0 : 2 + round;
         look_closer(kernels, rounds[round].kernel, n_left, round == 0 ? listed_a_dispatch : open_a_dispatch,
-                    of_lists(*from, *to), component, lines, rounds[round].subdivisions, count, layer);
+                    of_lists(*from, *to), component, lines, rounds[round].subdivisions, count, is_closed, layer);
         from = to;
         n_left = is_last ? 0 : n_of(count);
     }

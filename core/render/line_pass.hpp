@@ -24,10 +24,10 @@ class LinePass {
 public:
     /**
      * On these faces, which must outlive it, or on shapes of one solver (SurfaceSolver::quadric_rows). `data` must have
-     * derivative bounds.
+     * derivative bounds. `is_whole_boundary`: what of it faces away is never seen.
      */
     LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces,
-             std::uint32_t quadric_rows);
+             bool is_whole_boundary, std::uint32_t quadric_rows);
 
     /** Compiles what lines with or without contours need. */
     void provide(bool with_contours);
@@ -42,7 +42,7 @@ public:
 private:
     struct ClassKernels {
         std::uint32_t element_class = 0;
-        /** What the element that a pixel shows tells; a closer look; what is surely no line, on faces and quadrics. */
+        /** What the element that a pixel shows tells; a closer look; what is seen at silhouettes, on faces and quadrics. */
         std::unique_ptr<ComposedKernel> settle, search, exclude;
     };
     std::vector<ClassKernels> compile(bool with_contours) const;
@@ -50,15 +50,16 @@ private:
     void look_closer(const std::vector<ClassKernels>& kernels, std::unique_ptr<ComposedKernel> ClassKernels::*which,
                      std::uint32_t n_listed, std::uint32_t most_a_dispatch, const std::vector<const Buffer*>& bindings,
                      const ShownComponent& component, const LineRequest& lines, std::uint32_t subdivisions,
-                     std::uint32_t open_count, const Layer& layer) const;
+                     std::uint32_t open_count, bool is_closed, const Layer& layer) const;
 
     /** Evaluations, listed pixels, and those that each round leaves open. */
-    static constexpr std::size_t n_counts = 7;
+    static constexpr std::size_t n_counts = 40;
 
     const Device& m_device;
     const RuntimeVolume& m_volume;
     const DeviceVolume& m_data;
     const FaceSet* m_faces;
+    bool m_is_whole_boundary;
     std::uint32_t m_quadric_rows;
     std::uint32_t m_tile_width;
     /** Without contours, with them. */

@@ -184,14 +184,17 @@ LinePass& Renderer::Impl::line_pass(const Surface& surface) {
     data.provide_derivative_bounds();
     if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
         const std::uint32_t rows = solvers.at(solver_key(*shape)).quadric_rows();
-        return current->lines_on_shapes.try_emplace(rows, device, volume, data, nullptr, rows).first->second;
+        return current->lines_on_shapes.try_emplace(rows, device, volume, data, nullptr, false, rows).first->second;
     }
     if (std::holds_alternative<Isosurfaces>(surface.geometry)) {
-        return current->lines_on_shapes.try_emplace(0, device, volume, data, nullptr, 0).first->second;
+        return current->lines_on_shapes.try_emplace(0, device, volume, data, nullptr, false, 0).first->second;
     }
     follow_geometry();
     const FaceGeometry faces = *face_geometry(surface);
-    return current->lines_on_faces.try_emplace(faces, device, volume, data, &face_set(faces), 0).first->second;
+    const auto* boundary = std::get_if<BoundaryFaces>(&faces);
+    const bool is_whole_boundary = boundary != nullptr && boundary->groups.empty();
+    return current->lines_on_faces.try_emplace(faces, device, volume, data, &face_set(faces), is_whole_boundary, 0)
+        .first->second;
 }
 
 /** Drops what belongs to another shape of the elements. */

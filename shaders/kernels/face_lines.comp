@@ -151,14 +151,12 @@ void main() {
         const core_cell cell = own.cell;
         n_evaluations += is_active ? 1u : 0u;
 
-        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle.
+        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle, if that is needed.
         const elvis_real cell_radius = abs(cell.region.radius - cell.region.beyond - cell.step);
         elvis_real near_x = cell.middle.x, near_y = cell.middle.y, near_z = cell.middle.z;
         core_project(near_x, near_y, near_z);
         const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
         const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
-        const bool moves_on = is_active && own.square.all_hit && !cell.is_outside && is_far && moves < CORE_MAX_MOVES;
-        moves = moves_on ? moves + 1u : 0u;
         const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, curvature);
         // Another sheet of the surface, farther behind than a smooth one departs from its plane: hidden by this one.
         const elvis_vec3 there =
@@ -172,7 +170,7 @@ void main() {
         const bool is_facing = own.enters == enters;
 #endif
 
-        const bool is_judged = is_active && !moves_on && !is_out;
+        const bool is_judged = is_active && !is_out;
         const bool is_inside = own.square.all_hit && cell.is_inside;
         const bool finds_mesh = is_judged && is_facing && wants_mesh && own.square.all_hit && cell.is_crossed;
         bool finds_contour = false, leaves_contour = false;
@@ -190,9 +188,13 @@ void main() {
         wants_contour = wants_contour && !finds_contour;
         wants_mesh = wants_mesh && !finds_mesh;
         const bool leaves_mesh = is_judged && wants_mesh && !is_inside;
-        const bool is_divided = (leaves_contour || leaves_mesh) && level < core_subdivisions;
-        is_contour_open = is_contour_open || (leaves_contour && !is_divided);
-        is_mesh_open = is_mesh_open || (leaves_mesh && !is_divided);
+        const bool is_left_open = leaves_contour || leaves_mesh;
+        const bool moves_on = is_left_open && own.square.all_hit && is_far && moves < CORE_MAX_MOVES;
+        moves = moves_on ? moves + 1u : 0u;
+        const bool is_divided = is_left_open && !moves_on && level < core_subdivisions;
+        const bool stays_open = !moves_on && !is_divided;
+        is_contour_open = is_contour_open || (leaves_contour && stays_open);
+        is_mesh_open = is_mesh_open || (leaves_mesh && stays_open);
         goes_on = wants_contour || wants_mesh;
 
         level += is_divided ? 1u : 0u;

@@ -1,11 +1,16 @@
-// Which of the listed pixels surely meet no line on faces of one class: those that kernels/face_lines.comp leaves open, at
+// Which of the listed pixels surely meet a line, or none, on faces of one class: those that kernels/face_lines.comp leaves open, at
 // silhouettes and sharp edges, and where something may hide a part of the pixel.
 //
 // Patches of faces (library/face_patch.glsl) that reach into the pyramid of the pixel's rays are divided in the directions of their
 // parameters. Squares are dropped that lie outside of the pyramid, and whatever is seen of those is no line if the field takes no
 // isovalue on them, and they touch no edge of the face. A square that is not dropped is halved in both directions until it is
 // smaller than the pixel halved core_subdivisions times; if one is left, the pixel stays undecided. What is hidden counts, too: a
-// pixel may stay undecided for its sake, but is never wrong.
+// pixel may stay undecided for its sake, but is never wrong. Of a closed boundary, though, rays enter and leave the volume in
+// turns: all that they meet first they enter by, or all leave by, as the pixel's own ray; squares that are met the other way are
+// dropped, too.
+//
+// A square of the face that the pixel shows may lie inside of the pyramid as a whole, facing the viewer like the pixel's point. Then
+// a line on it is met.
 
 layout(local_size_x = 32) in;
 
@@ -19,6 +24,7 @@ layout(local_size_x = 32) in;
 #include "library/face_line_bindings.glsl"
 #include "library/cell.glsl"
 #include "library/driver_limit.glsl"
+#include "library/surroundings.glsl"
 #if CORE_WITH_CONTOURS
 #include "library/shown_model.glsl"
 #endif
@@ -77,6 +83,39 @@ bool core_is_outside_pyramid(core_pyramid p, elvis_vec3 middle, elvis_vec3 a, el
                    core_outside_side(p.lower, middle - p.lower_point, a, b, error))) > elvis_real(0);
 }
 
+#if ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL || ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+// Both sides of a flat element face the viewer.
+bool core_is_crossed_towards(elvis_real side, core_frame frame, int face, elvis_real change, elvis_vec3 direction) {
+    return side < elvis_real(0);
+}
+#else
+// Whether all rays of the pixel certainly leave the element by its face near a point, if `side` is 1, or enter it, if that is -1.
+// `change`: by how much the Jacobian may differ there, relative to the one at the point.
+bool core_is_crossed_towards(elvis_real side, core_frame frame, int face, elvis_real change, elvis_vec3 direction) {
+    const elvis_vec3 outward = core_face_constraint(face).xyz;
+    const elvis_vec3 ray = core_to_xi(frame, direction);
+    const elvis_vec3 next = core_to_xi(frame, elvis_real(0.5LF) * core_direction_column.xyz);
+    const elvis_vec3 below = core_to_xi(frame, elvis_real(0.5LF) * core_direction_row.xyz);
+    const elvis_vec3 size = abs(ray) + abs(next) + abs(below);
+    const elvis_real error = core_model_norm1(outward) * max(max(size.x, size.y), size.z) * change / (elvis_real(1) - change);
+    const elvis_real least = side * dot(outward, ray) - abs(dot(outward, next)) - abs(dot(outward, below));
+    return frame.is_sound && change < elvis_real(0.5LF) && least > error;
+}
+#endif
+
+// By how much points are inside of the half space, at least.
+elvis_real core_inside_side(elvis_vec3 normal, elvis_vec3 from_point, elvis_vec3 a, elvis_vec3 b, elvis_real error) {
+    return dot(normal, from_point) - abs(dot(normal, a)) - abs(dot(normal, b)) - error;
+}
+
+// Whether it lies inside for certain.
+bool core_is_inside_pyramid(core_pyramid p, elvis_vec3 middle, elvis_vec3 a, elvis_vec3 b, elvis_real error) {
+    return min(min(core_inside_side(p.left, middle - p.left_point, a, b, error),
+                   core_inside_side(p.right, middle - p.right_point, a, b, error)),
+               min(core_inside_side(p.upper, middle - p.upper_point, a, b, error),
+                   core_inside_side(p.lower, middle - p.lower_point, a, b, error))) > elvis_real(0);
+}
+
 bool core_box_outside_pyramid(core_pyramid p, core_node node, float error) {
     const elvis_vec3 lower = elvis_vec3(node.lower) - core_reference_in_hierarchy.xyz;
     const elvis_vec3 upper = elvis_vec3(node.upper) - core_reference_in_hierarchy.xyz;
@@ -106,10 +145,19 @@ void main() {
                                       length(core_base_row.xyz + t * core_direction_row.xyz));
     const elvis_real least_size = pixel_size / elvis_real(1u << core_subdivisions);
 
+    const core_place place = core_places[pixel];
+    const bool enters = (place.class_and_face & CORE_PLACE_ENTERS) != 0u;
+    const elvis_real away = enters ? elvis_real(1) : elvis_real(-1);
+    core_tangent tangent;
+    tangent.point = (along.base + rows_down * along.base_row).xyz + t * direction;
+    tangent.normal = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+    const core_surroundings around = core_look_around(uvec2(pixel % core_size.x, pixel / core_size.x), pixel, is_pixel, tangent);
+    const bool may_find = core_class_of(place) == core_class && !around.is_hidden;
+
     const uint known = core_marks[pixel].flags;
     bool asks_contour = is_pixel && (word & CORE_LIST_CONTOUR) != 0u && (known & CORE_FLAG_CONTOUR) == 0u;
     bool asks_mesh = is_pixel && (word & CORE_LIST_MESH_LINE) != 0u && (known & CORE_FLAG_MESH_LINE) == 0u;
-    bool is_contour_open = false, is_mesh_open = false, rests_on_estimates = false;
+    bool is_contour_open = false, is_mesh_open = false, has_contour = false, has_mesh_line = false, rests_on_estimates = false;
     uint stack[CORE_STACK_SIZE];
     stack[0] = 0u;
     uint stack_size = asks_contour || asks_mesh ? 1u : 0u;
@@ -159,7 +207,8 @@ void main() {
         const elvis_vec3 most = abs(a) + abs(b);
         const elvis_real radius = max(max(most.x, most.y), most.z) + elvis_real(8) * CORE_ROUNDOFF;
         const core_patch region = core_patch(-a - b, a - b, b - a, a + b, elvis_real(8) * CORE_ROUNDOFF, radius);
-        const elvis_real bend = elvis_fetch_core_curvatures(element, 0u) * radius * radius;
+        const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
+        const elvis_real bend = curvature * radius * radius;
         const elvis_vec3 image_a = jacobian * a, image_b = jacobian * b;
         const elvis_vec3 shift = elvis_origin(element) - core_reference.xyz;
         const elvis_real stretch = length(jacobian[0]) + length(jacobian[1]) + length(jacobian[2]);
@@ -169,17 +218,32 @@ void main() {
         const bool is_outside =
             is_upper || core_is_outside_pyramid(pyramid, middle, image_a, image_b, bend * stretch + noise);
 
-        const bool is_square = is_active && !is_outside;
+        // library/prediction.glsl
+        const core_frame inverse = core_frame_at(position, jacobian, noise);
+        const elvis_real change =
+            elvis_real(2) * curvature * radius + max(max(inverse.xi_error.x, inverse.xi_error.y), inverse.xi_error.z);
+        const bool is_hidden =
+            core_is_closed != 0u && core_is_crossed_towards(away, inverse, int(of_face.y), change, direction);
+        const elvis_real all_error = elvis_real(2) * (bend * stretch + noise);
+        const bool is_shown = may_find && element == place.element && int(of_face.y) == core_face_of(place);
+        const bool is_in_front = dot(direction, middle - tangent.point) + (t + along.reference_distance) * dot(direction, direction) >
+                                 length(direction) * (length(image_a) + length(image_b) + all_error);
+        const bool is_seen = is_shown && is_in_front && core_is_inside_pyramid(pyramid, middle, image_a, image_b, all_error) &&
+                             core_is_crossed_towards(-away, inverse, int(of_face.y), change, direction);
+
+        const bool is_square = is_active && !is_outside && !is_hidden;
         const elvis_real edge = max(abs(u), abs(v)) + half_size;
         const bool touches_edge = edge >= elvis_real(1) - elvis_real(16) * CORE_ROUNDOFF ||
                                   (frame.is_triangle && u + v + elvis_real(2) * half_size >= elvis_real(-16) * CORE_ROUNDOFF);
-        const bool leaves_mesh = is_square && asks_mesh && touches_edge;
-        bool leaves_contour = false;
+        const bool finds_mesh = is_square && asks_mesh && is_seen && touches_edge;
+        const bool leaves_mesh = is_square && asks_mesh && touches_edge && (is_shown || !is_mesh_open);
+        bool finds_contour = false, leaves_contour = false;
 #if CORE_WITH_CONTOURS
         elvis_real value;
         const core_model model = core_shown_model(element, xi, region, value);
         const core_level_test test = core_test_levels(model, region);
-        leaves_contour = is_square && asks_contour && !test.is_excluded;
+        finds_contour = is_square && asks_contour && is_seen && test.is_met;
+        leaves_contour = is_square && asks_contour && !test.is_excluded && (is_shown || !is_contour_open);
         const bool has_estimate = is_square && core_is_model_estimated(element);
         rests_on_estimates = rests_on_estimates || has_estimate;
 #endif
@@ -187,8 +251,11 @@ void main() {
         const bool splits = (leaves_contour || leaves_mesh) && !is_small;
         is_contour_open = is_contour_open || (leaves_contour && is_small);
         is_mesh_open = is_mesh_open || (leaves_mesh && is_small);
-        asks_contour = asks_contour && !is_contour_open;
-        asks_mesh = asks_mesh && !is_mesh_open;
+        has_contour = has_contour || finds_contour;
+        has_mesh_line = has_mesh_line || finds_mesh;
+        // Only what is seen could still decide what is open.
+        asks_contour = asks_contour && !finds_contour && (may_find || !is_contour_open);
+        asks_mesh = asks_mesh && !finds_mesh && (may_find || !is_mesh_open);
         for (uint turn = 0u; turn < (splits ? 1u : 0u); ++turn) {
             for (uint k = 0u; k < 4u; ++k) {
                 squares[n_squares] = (level + 1u) | ((2u * across + (k & 1u)) << 4) | ((2u * down + (k >> 1)) << 18);
@@ -197,14 +264,15 @@ void main() {
         }
     }
     const bool is_cut_short = n_squares > 0u || stack_size > 0u || core_has_driver_given_up(core_size.x >> 31);
-    const bool is_contour_undecided = is_contour_open || (asks_contour && is_cut_short);
-    const bool is_mesh_undecided = is_mesh_open || (asks_mesh && is_cut_short);
+    const bool is_contour_undecided = !has_contour && (is_contour_open || (asks_contour && is_cut_short));
+    const bool is_mesh_undecided = !has_mesh_line && (is_mesh_open || (asks_mesh && is_cut_short));
     const bool is_last = core_open_count == 0u;
     const uint open = (is_contour_undecided ? CORE_LIST_CONTOUR : 0u) | (is_mesh_undecided ? CORE_LIST_MESH_LINE : 0u);
     for (uint turn = 0u; turn < (is_pixel && !is_last && open != 0u ? 1u : 0u); ++turn) {
         core_open[atomicAdd(core_counts[core_open_count], 1u)] = pixel | open;
     }
-    const uint flags = (is_last && is_contour_undecided ? CORE_FLAG_CONTOUR_UNDECIDED : 0u) |
+    const uint flags = (has_contour ? CORE_FLAG_CONTOUR : 0u) | (has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) |
+                       (is_last && is_contour_undecided ? CORE_FLAG_CONTOUR_UNDECIDED : 0u) |
                        (is_last && is_mesh_undecided ? CORE_FLAG_MESH_UNDECIDED : 0u) |
                        (rests_on_estimates ? CORE_FLAG_ESTIMATED : 0u);
     for (uint turn = 0u; turn < (is_pixel && flags != 0u ? 1u : 0u); ++turn) {

@@ -9,9 +9,9 @@
 // may show in the pixel: a line that is met is met, but that none is met rests on a plane three times the pixel's size.
 //
 // What then stays open is listed for the next round: after a first one without halving, which most pixels need no more than, one
-// with it. On quadrics without ends a last one (CORE_BY_SEGMENTS) looks for pixels that surely meet no line. There, a cell is all
-// that its rays can meet of the quadric (library/quadric_segment.glsl), which needs no plane and shrinks with the cell at
-// silhouettes, too. If the pixel shows the quadric's front, then its back counts as hidden where the front is.
+// with it. On quadrics without ends the last ones (CORE_BY_SEGMENTS) look at silhouettes, too. There, a cell is all that its rays
+// can meet of the quadric (library/quadric_segment.glsl), which shrinks with the cell and needs no plane of the whole pixel. If the
+// pixel shows the front of the quadric, then its back counts as hidden, and a line on the front is met.
 
 layout(local_size_x = 32) in;
 
@@ -51,7 +51,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #include "library/cell.glsl"
 #include "library/cell_walk.glsl"
 #include "library/surroundings.glsl"
-#if CORE_BY_SEGMENTS
+#if CORE_SHAPE_ROWS > 0
 #include "library/quadric_segment.glsl"
 #endif
 #if CORE_WITH_CONTOURS
@@ -61,7 +61,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #define CORE_NO_ELEMENT 0xffffffffu
 // Turns of one pixel: far above what lines of a smooth field take, well below where drivers end loops. Near silhouettes any number
 // would be used up, for which the other pixels of a group wait.
-#define CORE_WORK_LIMIT (core_subdivisions <= CORE_FEW_SUBDIVISIONS ? 150u : 600u)
+#define CORE_WORK_LIMIT (core_subdivisions <= CORE_FEW_SUBDIVISIONS ? 150u : 2000u)
 #define CORE_MAX_MOVES 8u
 #define CORE_ROUGH_LEVEL 2u
 // Cosine of the angle below which a pixel shows so much of the surface that nothing is learned.
@@ -123,7 +123,13 @@ void main() {
 #endif
     // Where the surface is not smooth, only lines that are met are looked for, and not twice.
     const bool is_searched = is_smooth || core_subdivisions <= CORE_FEW_SUBDIVISIONS;
-    const bool is_known = is_usable && is_searched;
+#if CORE_SHAPE_ROWS > 0 && !CORE_BY_SEGMENTS
+    // Segments decide more.
+    const bool is_left = core_subdivisions > 0u && core_is_quadric_front(column, row, tangent.point);
+#else
+    const bool is_left = false;
+#endif
+    const bool is_known = is_usable && is_searched && !is_left;
     bool is_contour_open = wants_contour && !is_known, is_mesh_open = wants_mesh && !is_known;
     bool has_contour = false, has_mesh_line = false, rests_on_estimates = false;
     uint stack[CORE_STACK_SIZE];
@@ -188,10 +194,14 @@ void main() {
         const elvis_vec3 origin = shift - position;
 #if CORE_BY_SEGMENTS
         const core_segment segment = core_quadric_segment(cell_column, cell_row, elvis_real(0.5LF) * cell_size, is_front);
+        const core_front front = core_quadric_front(cell_column, cell_row, elvis_real(0.5LF) * cell_size, segment);
+        const bool is_plane = front.is_known;
         core_cut_square part;
-        part.corner0 = part.corner2 = segment.from;
-        part.corner1 = part.corner3 = segment.to;
-        part.error = segment.width;
+        part.corner0 = is_plane ? front.square.corner0 : segment.from;
+        part.corner1 = is_plane ? front.square.corner1 : segment.to;
+        part.corner2 = is_plane ? front.square.corner2 : segment.from;
+        part.corner3 = is_plane ? front.square.corner3 : segment.to;
+        part.error = is_plane ? front.square.error + front.departure : segment.width;
         const bool is_absent = segment.is_absent;
         // That of no face: what looks as if it lay in one may cross it.
         const int own_face = CORE_N_FACES;
@@ -199,7 +209,7 @@ void main() {
 #else
         const core_cut_square part =
             core_tangent_square(tangent, cell_column, cell_row, is_large ? elvis_real(1.5LF) : elvis_real(0.5LF) * cell_size);
-        const bool is_absent = false;
+        const bool is_plane = true, is_absent = false;
         const int own_face = CORE_NO_FACE;
         const elvis_real error = part.error + departure + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
 #endif
@@ -209,41 +219,40 @@ void main() {
                                             origin + part.corner3, curvature, normal, direction, own_face);
         n_evaluations += is_active ? 1u : 0u;
 
-        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle.
+        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle, if that is needed.
         const elvis_real cell_radius = abs(cell.region.radius - cell.region.beyond - cell.step);
         elvis_real near_x = cell.middle.x, near_y = cell.middle.y, near_z = cell.middle.z;
         core_project(near_x, near_y, near_z);
         const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
         const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
-        const bool moves_on = is_active && !is_absent && !cell.is_outside && is_far && moves < CORE_MAX_MOVES;
-        moves = moves_on ? moves + 1u : 0u;
         const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, curvature);
-        const bool is_out = is_absent || cell.is_outside || (CORE_BY_SEGMENTS == 0 && is_clear);
+        const bool is_out = is_absent || cell.is_outside || (is_plane && is_clear);
 
-        const bool is_judged = is_active && !moves_on && !is_out;
+        const bool is_judged = is_active && !is_out;
         bool finds_contour = false, leaves_contour = false;
 #if CORE_WITH_CONTOURS
         elvis_real value;
         const core_model model = core_shown_model(safe_element, xi, cell.region, value);
         const core_level_test test = core_test_levels(model, cell.region);
-        finds_contour = is_judged && wants_contour && !is_large && CORE_BY_SEGMENTS == 0 && cell.is_inside && test.is_met;
+        finds_contour = is_judged && wants_contour && !is_large && is_plane && cell.is_inside && test.is_met;
         leaves_contour = is_judged && wants_contour && !finds_contour && !test.is_excluded;
         const bool has_estimate = is_judged && core_is_model_estimated(safe_element);
         rests_on_estimates = rests_on_estimates || has_estimate;
 #endif
-        const bool finds_mesh = is_judged && wants_mesh && !is_large && CORE_BY_SEGMENTS == 0 && cell.is_crossed;
+        const bool finds_mesh = is_judged && wants_mesh && !is_large && is_plane && cell.is_crossed;
         has_contour = has_contour || finds_contour;
         has_mesh_line = has_mesh_line || finds_mesh;
         wants_contour = wants_contour && !finds_contour;
         wants_mesh = wants_mesh && !finds_mesh;
         const bool leaves_mesh = is_judged && wants_mesh && !cell.is_inside;
         // The large cell is only asked whether it excludes all: what it leaves open stays so unless a line is found in the pixel.
-        const bool is_divided = (leaves_contour || leaves_mesh) && level < most_level;
-        is_contour_open = is_contour_open || (leaves_contour && (!is_divided || is_large));
-        is_mesh_open = is_mesh_open || (leaves_mesh && (!is_divided || is_large));
-        // Nothing is found here that could decide what is open.
-        wants_contour = wants_contour && !(CORE_BY_SEGMENTS != 0 && is_contour_open);
-        wants_mesh = wants_mesh && !(CORE_BY_SEGMENTS != 0 && is_mesh_open);
+        const bool is_left_open = leaves_contour || leaves_mesh;
+        const bool moves_on = is_left_open && is_far && moves < CORE_MAX_MOVES;
+        moves = moves_on ? moves + 1u : 0u;
+        const bool is_divided = is_left_open && !moves_on && level < most_level;
+        const bool stays_open = !moves_on && (!is_divided || is_large);
+        is_contour_open = is_contour_open || (leaves_contour && stays_open);
+        is_mesh_open = is_mesh_open || (leaves_mesh && stays_open);
         // A pixel that lies in one element as a whole meets no other.
         const bool is_settled = is_judged && is_smooth && level == 0u && cell.is_inside && !leaves_contour;
         goes_on = (wants_contour || wants_mesh) && !is_settled;

@@ -22,6 +22,8 @@ layout(push_constant) uniform core_parameters {
     uint core_subdivisions;
     // Which of the counts is that of core_open; 0 in the last round.
     uint core_open_count;
+    // The faces are all of the boundary, and all rays start on the same side of it.
+    uint core_is_closed;
 };
 
 elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
