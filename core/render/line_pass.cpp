@@ -76,6 +76,25 @@ bool start_on_one_side(const CutPlaneGeometry& view, const std::array<double, 6>
     return !is_parallel || is_behind;
 }
 
+/** Each class lists what it leaves open: makes that one entry a pixel, with all that is open there. Returns their number. */
+std::uint32_t unite_entries(const Buffer& list, std::uint32_t n_entries) {
+    // CORE_LIST_PIXEL of place.glsl.
+    constexpr std::uint32_t pixel_bits = (1u << 30) - 1;
+    std::vector<std::uint32_t> entries = list.read_items<std::uint32_t>(n_entries);
+    const auto pixel = [](std::uint32_t entry) { return entry & pixel_bits; };
+    std::sort(entries.begin(), entries.end(), [&](std::uint32_t a, std::uint32_t b) { return pixel(a) < pixel(b); });
+    std::size_t n_united = 0;
+    for (const std::uint32_t entry : entries) {
+        if (n_united > 0 && pixel(entries[n_united - 1]) == pixel(entry)) {
+            entries[n_united - 1] |= entry;
+        } else {
+            entries[n_united++] = entry;
+        }
+    }
+    list.write_items(std::span<const std::uint32_t>(entries.data(), n_united));
+    return static_cast<std::uint32_t>(n_united);
+}
+
 } // namespace
 
 LinePass::LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces,
@@ -229,9 +248,7 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
         std::unique_ptr<ComposedKernel> ClassKernels::*kernel;
         std::uint32_t subdivisions;
     };
-    // Level by level where lines are excluded, too: what decides a pixel is found early, and deep walks are for few. Each class lists
-    // what it leaves open: of several, all levels at once, so that lists stay short.
-    const std::uint32_t step = kernels.size() > 1 ? lines.subdivisions : few_subdivisions;
+    // Level by level where lines are excluded, too: what decides a pixel is found early, and deep walks are for few.
     std::vector<Round> rounds = {{search, 0}};
     if (m_quadric_rows > 0) {
         rounds.insert(rounds.end(), {{exclude, few}, {search, lines.subdivisions}});
@@ -244,7 +261,7 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
         }
     }
     for (std::uint32_t most = few; (m_faces || m_quadric_rows > 0) && most < lines.subdivisions;) {
-        most = std::min(most + step, lines.subdivisions);
+        most = std::min(most + few_subdivisions, lines.subdivisions);
         if (m_faces) {
             rounds.push_back({search, most});
         }
@@ -261,6 +278,9 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
                     of_lists(*from, *to), component, lines, rounds[round].subdivisions, count, is_closed, layer);
         from = to;
         n_left = is_last ? 0 : n_of(count);
+        if (kernels.size() > 1 && n_left > 0) {
+            n_left = unite_entries(*to, n_left);
+        }
     }
     counts.field_evaluations += n_of(0);
 }
