@@ -65,7 +65,7 @@ elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 // Turns of one pixel: all pixels of an invocation stay below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
 // Evaluations in one element, beyond which the ray is left to projection.
-#define CORE_MOST_EVALUATIONS 48u
+#define CORE_MOST_EVALUATIONS 96u
 // Times the mapping is linearized anew nearer to the piece before it is halved.
 #define CORE_MAX_MOVES 8u
 
