@@ -245,7 +245,7 @@ void warn_about(const FrameCounts& counts) {
         spdlog::warn("nothing is hit: the picture shows background only");
     }
     if (counts.newton_failures > 0) {
-        spdlog::warn("{} inversions of the mapping failed; their pixels carry flag 8", counts.newton_failures);
+        spdlog::warn("{} inversions of the mapping failed; their pixels carry flag 8, of isosurfaces flag 64 if that leaves them open", counts.newton_failures);
     }
     if (counts.nan_pixels > 0) {
         spdlog::warn("{} pixels show values that are not finite", counts.nan_pixels);
