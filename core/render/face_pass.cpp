@@ -9,7 +9,7 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t tile_height = 16;
-/** Words of a tile's list: shaders/library/face_tiles.glsl. */
+/** Words of a tile's list: shaders/library/ray_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
@@ -76,8 +76,8 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         request.buffers = {{"core_nodes", own.nodes.get()}};
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
-        request.name = "face_tiles";
-        request.kernel = "kernels/face_tiles.comp";
+        request.name = "ray_tiles";
+        request.kernel = "kernels/ray_tiles.comp";
         request.bindings = {
             {0, BindingType::uniform_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(TilesParameters);

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t tile_height = 16;
 /** Rows of an invocation: all its pixels share the iterations that drivers grant. */
 constexpr std::uint32_t rows_an_invocation = 4;
-/** Words of a tile's list: shaders/library/face_tiles.glsl. */
+/** Words of a tile's list: shaders/library/ray_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
@@ -53,7 +53,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
         own.defines.emplace_back("CORE_HAS_ONE_ISOVALUE", has_one_isovalue ? "1" : "0");
         if (role == Role::tiles) {
             own.name = "isosurface_tiles";
-            own.kernel = "kernels/face_tiles.comp";
+            own.kernel = "kernels/ray_tiles.comp";
             own.push_constant_bytes = sizeof(TilesParameters);
         } else {
             own.name = "isosurface";
@@ -129,6 +129,9 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
     const Buffer& isovalues = provide(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
     write_reals(isovalues, m_precision, m_values);
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    if (m_level_set.rests_on_estimates()) {
+        layer.marks.write_items(std::span<const Mark>(std::vector<Mark>(layer.n_pixels(), Mark{0, pixel_flag::estimated})));
+    }
     std::uint32_t left = 0;
     if (m_method == IsosurfaceMethod::interval) {
         draw_by_intervals(first_surface, target, counts);

@@ -14,7 +14,7 @@ constexpr std::uint64_t block = 65536;
 constexpr std::uint32_t group_size = 32;
 /** Of a model, its range included; of a node. */
 constexpr std::uint32_t record_size = 8;
-constexpr std::size_t lower = 5, upper = 6;
+constexpr std::size_t lower = 5, upper = 6, estimated = 7;
 
 struct Parameters {
     std::uint32_t first, n_elements;
@@ -52,10 +52,13 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
 }
 
 void LevelSet::make_models(const LevelComponent& component) {
+    m_is_all_estimated = true;
+    std::vector<std::vector<std::uint32_t>> models(m_classes.size());
     for (std::size_t index = 0; index < m_classes.size(); ++index) {
         ClassLevels& levels = m_classes[index];
         const std::uint64_t n_elements = m_volume.classes()[index].n_elements;
         levels.ranges.clear();
+        levels.is_estimated.clear();
         const Buffer output(m_device, std::max<std::uint64_t>(std::min(block, n_elements), 1) * record_size * sizeof(float));
         const std::array<const Buffer*, 1> bindings = {&output};
         for (std::uint64_t first = 0; first < n_elements; first += block) {
@@ -63,10 +66,20 @@ void LevelSet::make_models(const LevelComponent& component) {
             const Parameters parameters{static_cast<std::uint32_t>(first), count, component.first, component.end};
             levels.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
             const auto words = output.read_items<std::uint32_t>(std::size_t{count} * record_size);
-            levels.models->write_uints(first, words);
+            models[index].insert(models[index].end(), words.begin(), words.end());
             for (std::size_t at = 0; at < words.size(); at += record_size) {
                 levels.ranges.push_back({std::bit_cast<float>(words[at + lower]), std::bit_cast<float>(words[at + upper])});
+                levels.is_estimated.push_back(words[at + estimated] != 0);
+                m_is_all_estimated = m_is_all_estimated && levels.is_estimated.back();
             }
+        }
+    }
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        for (std::size_t at = estimated; m_is_all_estimated && at < models[index].size(); at += record_size) {
+            models[index][at] = 0;
+        }
+        if (!models[index].empty()) {
+            m_classes[index].models->write_uints(0, models[index]);
         }
     }
     m_component = component;
@@ -93,7 +106,8 @@ void LevelSet::choose(std::span<const double> isovalues, const LevelComponent& c
             all.resize(6 * count);
             m_volume.bounds(info.first_element + first, count, all);
             for (std::uint64_t i = 0; i < count; ++i) {
-                if (!skips_by_range || holds_any(levels.ranges[first + i], isovalues)) {
+                const bool may_be_skipped = skips_by_range && (m_is_all_estimated || !levels.is_estimated[first + i]);
+                if (!may_be_skipped || holds_any(levels.ranges[first + i], isovalues)) {
                     chosen.push_back(static_cast<std::uint32_t>(first + i));
                     const auto box = all.begin() + static_cast<std::ptrdiff_t>(6 * i);
                     boxes.insert(boxes.end(), box, box + 6);

@@ -25,8 +25,8 @@ struct LevelComponent {
 
 /**
  * For the field or expression that `data` has selected, with its derivative bounds: a linear model of it in every element
- * (shaders/library/level_model.glsl), and hierarchies over the elements that can hold an isovalue, one for each class. What is
- * left out rests on ranges that are as certain as the bounds are.
+ * (shaders/library/level_model.glsl), and hierarchies over the elements that can hold an isovalue, one for each class. Elements
+ * of which the range is only estimated are kept, so that rays past them can be flagged, unless all are: see rests_on_estimates().
  */
 class LevelSet {
 public:
@@ -37,6 +37,8 @@ public:
 
     /** `core_nodes`, in which leaves are local elements, and `core_models`. Valid as long as this. Of classes with elements. */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
+    /** Elements have been left out, or rays pass them by, on the word of estimates: that is so everywhere, and not flagged by kernels. */
+    bool rests_on_estimates() const { return m_is_all_estimated; }
     /** Chosen ones. */
     std::uint64_t n_elements(std::uint32_t element_class) const { return m_classes[element_class].n_chosen; }
 
@@ -45,6 +47,7 @@ private:
         std::unique_ptr<RecordBuffer> nodes, models;
         std::unique_ptr<ComposedKernel> kernel;
         std::vector<FieldRange> ranges;
+        std::vector<bool> is_estimated;
         std::uint64_t n_chosen = 0;
     };
     struct Choice {
@@ -60,6 +63,7 @@ private:
     std::array<double, 3> m_centre;
     std::vector<ClassLevels> m_classes;
     LevelComponent m_component{0, 0};
+    bool m_is_all_estimated = false;
     Choice m_choice;
 };
 

@@ -6,7 +6,7 @@
 // misses before anything is evaluated, give Newton's method its start, and say where no ray like this one crosses a patch twice.
 // Pixels that meet a patch for which that is not certain, near silhouettes, are left to kernels/faces_careful.comp.
 //
-// A work group is a tile of pixels, an invocation one of its columns; its list (kernels/face_tiles.comp) is in the order of
+// A work group is a tile of pixels, an invocation one of its columns; its list (kernels/ray_tiles.comp) is in the order of
 // depth, so that the search ends at the first patch behind the crossing found. The next pixel of a column starts where this one's
 // crossing moves to. Tiles whose lists hold inner nodes of the hierarchy are drawn by a second version (CORE_DESCENDS).
 //
@@ -19,7 +19,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/face_frame.glsl"
 #include "library/face_patch.glsl"
 #include "library/face_point.glsl"
-#include "library/face_tiles.glsl"
+#include "library/ray_tiles.glsl"
 #include "library/hierarchy.glsl"
 #include "library/samples.glsl"
 #include "library/pixel_ray.glsl"

@@ -19,7 +19,7 @@ layout(local_size_x = 32) in;
 #include "library/face_frame.glsl"
 #include "library/face_patch.glsl"
 #include "library/face_point.glsl"
-#include "library/face_tiles.glsl"
+#include "library/ray_tiles.glsl"
 #include "library/hierarchy.glsl"
 #include "library/samples.glsl"
 #include "library/pixel_ray.glsl"

@@ -1,6 +1,6 @@
 // The first point of each pixel's ray at which the field takes one of the isovalues, in the elements of one class.
 //
-// A work group is a tile of pixels; its list (kernels/face_tiles.comp) names the leaves of a hierarchy over the elements whose range
+// A work group is a tile of pixels; its list (kernels/ray_tiles.comp) names the leaves of a hierarchy over the elements whose range
 // holds an isovalue, in the order of depth, so that the search ends at the first leaf behind the crossing found.
 //
 // The part of a ray in an element's box is cut down by the linearized mapping, and then a piece at a time is looked at, front to
@@ -20,7 +20,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "library/precision.glsl"
 #include "library/cut_frame.glsl"
-#include "library/face_tiles.glsl"
+#include "library/ray_tiles.glsl"
 #include "library/hierarchy.glsl"
 #include "library/samples.glsl"
 #include "library/place.glsl"
@@ -180,6 +180,8 @@ void main() {
                     a = elvis_real(span.x);
                     b = next = last = elvis_real(span.y);
                     element = span.x <= span.y ? node.child : CORE_NO_ELEMENT;
+                    const bool is_dismissed = is_linearized && inside.x <= inside.y && part.x > part.y;
+                    flags |= is_dismissed && level.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
                     used = moves = 0u;
                     wide = elvis_real(0);
                     bend = elvis_real(2) * elvis_real(level.remainder) / (CORE_EXTENT * CORE_EXTENT);

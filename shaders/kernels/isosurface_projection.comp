@@ -310,15 +310,16 @@ void main() {
                 const vec2 inside = core_linear_span(start, motion, float(curvature), span);
                 const vec2 open = core_level_span(model, start, motion, float(curvature), inside);
                 const bool is_missed = is_linearized && inside.x > inside.y;
-                const bool is_certified = is_linearized && !is_missed && open.x > open.y;
-                n_certified += is_certified ? 1u : 0u;
+                const bool is_excluded = is_linearized && !is_missed && open.x > open.y;
+                n_certified += is_excluded && !model.is_estimated ? 1u : 0u;
+                flags |= is_excluded && model.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
 #if !CORE_PLAIN
                 span = is_linearized ? open : span;
 #endif
                 bend = elvis_real(2) * elvis_real(model.remainder) / (CORE_EXTENT * CORE_EXTENT);
                 span_end = elvis_real(span.y);
                 n_parts = 0u;
-                const bool is_begun = !is_missed && !is_certified &&
+                const bool is_begun = !is_missed && !is_excluded &&
                                       core_part_begin(walk_ray, element, elvis_real(span.x), min(span_end, elvis_real(span.x) + walk_ray.reach), false, part);
                 phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
             }

@@ -56,5 +56,5 @@ void main() {
     core_numbers[at + 4u] = is_known ? float(model.remainder) + rounding : CORE_LEVEL_UNKNOWN;
     core_numbers[at + 5u] = is_known ? float(model.value - reach) - rounding : -CORE_LEVEL_UNKNOWN;
     core_numbers[at + 6u] = is_known ? float(model.value + reach) + rounding : CORE_LEVEL_UNKNOWN;
-    core_numbers[at + 7u] = 0.0;
+    core_numbers[at + 7u] = core_is_model_estimated(core_first + i) ? 1.0 : 0.0;
 }

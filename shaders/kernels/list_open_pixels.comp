@@ -28,6 +28,6 @@ void main() {
     const uint before = subgroupExclusiveAdd(is_listed ? 1u : 0u);
     if (is_listed) {
         core_list[first + before] = pixel;
-        core_marks[pixel] = core_mark(0u, 0u);
+        core_marks[pixel] = core_mark(0u, core_marks[pixel].flags & CORE_FLAG_ESTIMATED);
     }
 }

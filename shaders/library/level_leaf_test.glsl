@@ -1,4 +1,4 @@
-// Whether the rays of a tile can meet an isovalue in an element; for kernels/face_tiles.comp.
+// Whether the rays of a tile can meet an isovalue in an element; for kernels/ray_tiles.comp.
 
 #include "library/samples.glsl"
 #include "library/linearization.glsl"
@@ -41,5 +41,6 @@ bool core_leaf_is_met(uint element, core_beam beam, vec2 span) {
     const uint first = core_isovalue_from(elvis_real(least - error));
     const bool can_hold = !(error < CORE_LEVEL_UNKNOWN) ||
                           (first < CORE_N_ISOVALUES && float(core_isovalue_at(min(first, CORE_N_ISOVALUES - 1u))) <= most + error);
-    return linearization.exponents == 0u || (can_hold && !is_outside);
+    // What rests on estimates is left to the pixels, which flag it.
+    return linearization.exponents == 0u || ((can_hold || model.is_estimated) && !is_outside);
 }

@@ -1,4 +1,4 @@
-// For each tile of pixels, what its rays can meet of a hierarchy over patches of faces: neighbouring pixels share most of their way
+// For each tile of pixels, what its rays can meet of a hierarchy (over patches of faces, or elements): neighbouring pixels share most of their way
 // through the hierarchy, so it is gone once for all of them.
 
 layout(local_size_x = 32) in;
@@ -6,7 +6,7 @@ layout(local_size_x = 32) in;
 #include "library/precision.glsl"
 #include "library/cut_frame.glsl"
 #include "library/hierarchy.glsl"
-#include "library/face_tiles.glsl"
+#include "library/ray_tiles.glsl"
 
 // What stands for a leaf: its item, or the node. A kernel can dismiss leaves for a reason of its own, too.
 #ifndef CORE_LEAF_WORD
