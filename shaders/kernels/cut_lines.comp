@@ -33,7 +33,6 @@ layout(push_constant) uniform core_parameters {
     uint core_subdivisions;
 };
 
-elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 
 #include "library/driver_limit.glsl"
 #include "library/cell.glsl"

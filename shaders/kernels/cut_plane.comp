@@ -43,7 +43,6 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
 #if CORE_LINES
 layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
-elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 
 #include "library/cell.glsl"
 #include "library/shown_model.glsl"

@@ -50,12 +50,10 @@ layout(push_constant) uniform core_parameters {
     uint core_has_beyond;
 };
 
-elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 #include "library/isovalues.glsl"
-
 #include "library/look_beyond.glsl"
 #include "library/driver_limit.glsl"
-#include "library/cell.glsl"
+#include "library/element_frame.glsl"
 #include "library/shown_model.glsl"
 #include "library/ray_piece.glsl"
 #include "library/level_model.glsl"

@@ -48,7 +48,6 @@ layout(push_constant) uniform core_parameters {
     uint core_has_beyond;
 };
 
-#define CORE_HAS_ONE_ISOVALUE 0
 #include "library/isovalues.glsl"
 elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 

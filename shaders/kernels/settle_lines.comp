@@ -40,7 +40,6 @@ layout(push_constant) uniform core_parameters {
     uint core_with_mesh_lines;
 };
 
-elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 
 #include "library/driver_limit.glsl"
 #include "library/cell.glsl"

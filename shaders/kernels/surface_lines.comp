@@ -45,7 +45,6 @@ layout(push_constant) uniform core_parameters {
     uint core_open_count;
 };
 
-elvis_real core_isovalue(uint i) { return core_isovalues[i]; }
 
 #include "library/driver_limit.glsl"
 #include "library/cell.glsl"

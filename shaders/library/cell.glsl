@@ -15,6 +15,7 @@
 #define CORE_CELL
 
 #include "library/element_frame.glsl"
+#include "library/isovalues.glsl"
 #include "library/model.glsl"
 #include "library/prediction.glsl"
 #include "library/shape_region.glsl"
@@ -133,18 +134,6 @@ struct core_level_test {
     bool is_excluded, is_met;
 };
 
-// The kernel brings core_n_isovalues and core_isovalue(i), in ascending order.
-uint core_first_isovalue(elvis_real from) {
-    uint low = 0u, high = core_n_isovalues;
-    while (low < high) {
-        const uint middle = (low + high) / 2u;
-        const bool is_below = core_isovalue(middle) < from;
-        low = is_below ? middle + 1u : low;
-        high = is_below ? high : middle;
-    }
-    return low;
-}
-
 core_level_test core_test_levels(core_model f, core_patch cell) {
     const elvis_real c0 = dot(f.slope, cell.corner0), c1 = dot(f.slope, cell.corner1);
     const elvis_real c2 = dot(f.slope, cell.corner2), c3 = dot(f.slope, cell.corner3);
@@ -153,12 +142,12 @@ core_level_test core_test_levels(core_model f, core_patch cell) {
                                                                 (cell.beyond + elvis_real(4) * CORE_ROUNDOFF * cell.radius)) +
                              elvis_real(4) * CORE_ROUNDOFF * abs(f.value) + CORE_MODEL_TINY;
     const elvis_real least = f.value + min(min(c0, c1), min(c2, c3)), most = f.value + max(max(c0, c1), max(c2, c3));
-    const uint first = core_first_isovalue(least - error);
-    const uint first_sure = core_first_isovalue(least + error);
+    const uint first = core_isovalue_from(least - error);
+    const uint first_sure = core_isovalue_from(least + error);
     const bool is_known = core_model_is_known(f);
     core_level_test test;
-    test.is_excluded = is_known && (first == core_n_isovalues || core_isovalue(first) > most + error);
-    test.is_met = is_known && first_sure < core_n_isovalues && core_isovalue(first_sure) <= most - error;
+    test.is_excluded = is_known && (first == core_n_isovalues || core_isovalue_at(first) > most + error);
+    test.is_met = is_known && first_sure < core_n_isovalues && core_isovalue_at(first_sure) <= most - error;
     return test;
 }
 

@@ -26,4 +26,3 @@ layout(push_constant) uniform core_parameters {
     uint core_is_closed;
 };
 
-elvis_real core_isovalue(uint i) { return core_isovalues[i]; }

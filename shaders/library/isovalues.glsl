@@ -1,6 +1,13 @@
 // The isovalues, ascending, as buffer core_isovalues and number core_n_isovalues, which the kernel brings. One with
 // CORE_HAS_ONE_ISOVALUE saves loops over them; core_begin_isovalues comes first.
 
+#ifndef CORE_ISOVALUES
+#define CORE_ISOVALUES
+
+#ifndef CORE_HAS_ONE_ISOVALUE
+#define CORE_HAS_ONE_ISOVALUE 0
+#endif
+
 #if CORE_HAS_ONE_ISOVALUE
 
 #define CORE_N_ISOVALUES 1u
@@ -36,5 +43,7 @@ uint core_isovalues_end(uint first, elvis_real most) {
     }
     return end;
 }
+
+#endif
 
 #endif

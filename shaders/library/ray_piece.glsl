@@ -7,7 +7,11 @@
 //
 //     f(s) = value + slope s + e,   |e| <= error,   wherever the piece lies in the element.
 //
-// The kernel brings library/isovalues.glsl, library/cell.glsl and library/shown_model.glsl.
+// The kernel brings library/isovalues.glsl, library/element_frame.glsl and library/shown_model.glsl.
+
+#include "library/model.glsl"
+#include "library/prediction.glsl"
+#include "library/shape_region.glsl"
 
 struct core_piece {
     // Offset of the middle, and its change along the ray, in reference coordinates.
