@@ -24,20 +24,12 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/hierarchy.glsl"
 #include "library/samples.glsl"
 #include "library/place.glsl"
+#include "library/finite.glsl"
 #include "library/pixel_ray.glsl"
+#include "library/isosurface_bindings.glsl"
 #include "library/linearization.glsl"
 
-layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
-// Three numbers a pixel.
-layout(set = 0, binding = 2, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
-layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
-layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
-layout(set = 0, binding = 6, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
-layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
-layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
-// An upper bound of the surface's normal curvatures, without sign.
-layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_tiles_per_row;
@@ -340,17 +332,9 @@ void main() {
             core_marks[pixel].flags |= flags;
         }
         for (uint turn = 0u; turn < (is_hit ? 1u : 0u); ++turn) {
-            core_marks[pixel].owner = core_surface << CORE_OWNER_BITS;
-            core_samples[pixel].value = best_isovalue;
-            core_samples[pixel].depth = (best_t + along.reference_distance) * stretch;
-            core_samples[pixel].number = best_number;
-            const elvis_vec3 normal = elvis_vec3(normal_x, normal_y, normal_z);
-            const elvis_real size = (dot(normal, ray.direction) > elvis_real(0) ? elvis_real(-1) : elvis_real(1)) / length(normal);
-            core_normals[3u * pixel] = size * normal.x;
-            core_normals[3u * pixel + 1u] = size * normal.y;
-            core_normals[3u * pixel + 2u] = size * normal.z;
-            core_places[pixel] = core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS);
-            core_bending[pixel] = core_is_finite(best_bend) ? min(best_bend, CORE_FAR) : CORE_FAR;
+            core_store_crossing(pixel, core_surface, best_isovalue, (best_t + along.reference_distance) * stretch, best_number,
+                                elvis_vec3(normal_x, normal_y, normal_z), ray.direction,
+                                core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS), best_bend);
         }
         row += 1u;
     }

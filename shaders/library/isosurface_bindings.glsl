@@ -1,0 +1,27 @@
+// Buffers of the kernels that draw isosurfaces, and how what they have found gets into the picture.
+
+layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
+// Three numbers a pixel.
+layout(set = 0, binding = 2, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+layout(set = 0, binding = 6, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
+layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
+layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
+// An upper bound of the surface's normal curvatures, without sign.
+layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
+
+// `depth`: from the ray's origin. `normal`: of any length and on any side. `bend`: as in core_bending, or not finite.
+void core_store_crossing(uint pixel, uint surface, elvis_real isovalue, elvis_real depth, uint number, elvis_vec3 normal,
+                         elvis_vec3 direction, core_place place, elvis_real bend) {
+    core_marks[pixel].owner = surface << CORE_OWNER_BITS;
+    core_samples[pixel].value = isovalue;
+    core_samples[pixel].depth = depth;
+    core_samples[pixel].number = number;
+    const elvis_real scale = (dot(normal, direction) > elvis_real(0) ? elvis_real(-1) : elvis_real(1)) / length(normal);
+    core_normals[3u * pixel] = scale * normal.x;
+    core_normals[3u * pixel + 1u] = scale * normal.y;
+    core_normals[3u * pixel + 2u] = scale * normal.z;
+    core_places[pixel] = place;
+    core_bending[pixel] = core_is_finite(bend) ? min(bend, CORE_FAR) : CORE_FAR;
+}
