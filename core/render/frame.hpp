@@ -6,6 +6,7 @@
 
 #include <core/render/lighting.hpp>
 #include <core/render/surface.hpp>
+#include <core/render/volume_rendering.hpp>
 
 #include <array>
 #include <cstdint>
@@ -40,6 +41,8 @@ struct FrameRequest {
     std::uint32_t time_step = 0;
     /** The nearest hit wins. */
     std::vector<Surface> surfaces;
+    /** In front of the nearest surface, all of which are opaque if there is one. */
+    std::optional<VolumeRendering> volume;
     /** Surfaces show their colours as they are if absent. */
     std::optional<Lighting> lighting;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
@@ -55,6 +58,7 @@ inline constexpr std::uint32_t newton_failure = 8;
 inline constexpr std::uint32_t nan = 16;
 inline constexpr std::uint32_t isosurface = 32;
 inline constexpr std::uint32_t isosurface_undecided = 64;
+inline constexpr std::uint32_t volume_tolerance = 128;
 inline constexpr std::uint32_t undecided = 256;
 inline constexpr std::uint32_t mesh_line_undecided = 512;
 inline constexpr std::uint32_t work_limit = 1024;
@@ -95,6 +99,12 @@ struct FrameCounts {
     std::uint64_t segments = 0, segment_degrees = 0;
     std::uint64_t verified_segments = 0;
     std::uint64_t undecided_segments = 0;
+    /** Pixels that the volume itself colours; those where its tolerance was not reached. */
+    std::uint64_t volume_pixels = 0;
+    std::uint64_t inexact_volume_pixels = 0;
+    /** Parts of rays in elements that were integrated, that were passed over as empty; of the first, steps and breakpoints met. */
+    std::uint64_t volume_segments = 0, empty_segments = 0;
+    std::uint64_t volume_steps = 0, volume_breakpoints = 0;
     /** Pixels that had to be looked at more closely for lines. */
     std::uint64_t refined_pixels = 0;
 };
