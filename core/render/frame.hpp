@@ -41,7 +41,7 @@ struct FrameRequest {
     std::uint32_t time_step = 0;
     /** The nearest hit wins. */
     std::vector<Surface> surfaces;
-    /** In front of the nearest surface, all of which are opaque if there is one. */
+    /** Light of the volume itself. */
     std::optional<VolumeRendering> volume;
     /** Surfaces show their colours as they are if absent. */
     std::optional<Lighting> lighting;
@@ -70,6 +70,8 @@ struct FrameCounts {
     std::uint64_t pixels = 0;
     std::uint64_t hit_pixels = 0;
     std::uint64_t field_evaluations = 0;
+    /** Of the mapping alone, where volume rendering follows rays. */
+    std::uint64_t mapping_evaluations = 0;
     std::uint64_t newton_failures = 0;
     std::uint64_t newton_iterations = 0;
     std::uint64_t undecided_pixels = 0;

@@ -91,6 +91,17 @@ void MergePass::keep(const Layer& layer) {
     ++m_n_veils;
 }
 
+void MergePass::fill_empty() {
+    if (m_is_empty) {
+        std::vector<double> colors(4 * m_picture->n_pixels());
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            colors[i] = m_background[i % 4];
+        }
+        write_reals(m_picture->colors, m_precision, colors);
+        m_picture->marks.fill(0);
+    }
+}
+
 void MergePass::finish() {
     const auto n_pixels = static_cast<std::uint32_t>(m_picture->n_pixels());
     const PixelParameters parameters{n_pixels, pixel_groups_x};

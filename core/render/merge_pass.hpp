@@ -13,6 +13,11 @@
 
 namespace elvis {
 
+/** Colours and depths of a transparent layer, CORE_FAR where it is not seen. */
+struct Veil {
+    Buffer colors, depths;
+};
+
 class MergePass {
 public:
     MergePass(const Device& device, Precision precision);
@@ -32,13 +37,17 @@ public:
     /** Puts the transparent layers over the picture. */
     void finish();
 
+    /** Colours of the background, if nothing was merged. */
+    void fill_empty();
+    /** Depth of the nearest opaque surface, one real a pixel, CORE_FAR where there is none; null if nothing was merged. */
+    const Buffer* depths() const { return m_is_empty ? nullptr : m_depths.get(); }
+    /** Transparent layers; in each pixel they are in order, the nearest first. */
+    std::size_t n_veils() const { return m_n_veils; }
+    const Veil& veil(std::size_t i) const { return m_veils[i]; }
+
     const Layer& picture() const { return *m_picture; }
 
 private:
-    /** Colours and depths of a transparent layer. */
-    struct Veil {
-        Buffer colors, depths;
-    };
     void keep(const Layer& layer);
 
     const Device& m_device;

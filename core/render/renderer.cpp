@@ -12,6 +12,7 @@
 #include <core/render/renderer.hpp>
 #include <core/render/shown_field.hpp>
 #include <core/render/surface_pass.hpp>
+#include <core/render/volume_pass.hpp>
 
 #include <core/base/error.hpp>
 
@@ -68,6 +69,7 @@ struct FieldPasses {
     std::map<std::uint32_t, LinePass> lines_on_shapes;
     std::optional<IsosurfacePass> isosurfaces;
     std::optional<PointValuePass> point_values;
+    std::optional<VolumePass> volume;
 };
 
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
@@ -127,6 +129,8 @@ struct Renderer::Impl {
     IsosurfacePass& isosurface_pass(const Isosurfaces& wanted);
     void draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
                           const LayerTarget& target, FrameCounts& counts);
+    void provide_volume_pass(const FrameRequest& request);
+    void draw_volume(const FrameRequest& request, FrameCounts& counts);
     const EdgeSet& edge_set(const FaceGeometry& faces);
     std::vector<ElementFace> chosen_faces(const FaceGeometry& faces) const;
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
@@ -134,7 +138,7 @@ struct Renderer::Impl {
     void draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target, FrameCounts& counts);
     template <class Real>
     void read(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) const;
-    CutPlaneGeometry view(const FrameRequest& request, const Surface& surface) const;
+    CutPlaneGeometry view(const FrameRequest& request, const SurfaceGeometry& geometry) const;
     double offset_of(const Surface& surface) const { return fields.offset(surface.field); }
     bool is_flat() const { return volume.dimension() == 2; }
 };
@@ -146,7 +150,7 @@ void Renderer::Impl::check(const FrameRequest& request) const {
         throw Error("image", "a picture of " + std::to_string(request.width) + " x " + std::to_string(request.height) +
                                  " pixels cannot be drawn");
     }
-    if (request.surfaces.empty()) {
+    if (request.surfaces.empty() && !request.volume) {
         throw Error("picture", "has nothing to show");
     }
     for (const Surface& surface : request.surfaces) {
@@ -154,6 +158,9 @@ void Renderer::Impl::check(const FrameRequest& request) const {
         if (isosurfaces && (isosurfaces->values.empty() || !std::is_sorted(isosurfaces->values.begin(), isosurfaces->values.end()))) {
             throw Error("isosurface", "needs values, in ascending order");
         }
+    }
+    if (request.volume && is_flat()) {
+        throw Error(volume.path(), "is two-dimensional: there is no volume to be rendered");
     }
     for (const Surface& surface : request.surfaces) {
         const auto* wires = std::get_if<WireFrame>(&surface.geometry);
@@ -315,6 +322,10 @@ void Renderer::Impl::keep_fields(const FrameRequest& request) {
             keys.insert(ShownFields::key(isosurfaces->field));
         }
     }
+    if (request.volume) {
+        selections.push_back(fields.selection(request.volume->field, request.time_step));
+        keys.insert(ShownFields::key(request.volume->field));
+    }
     // Bounds of derivatives, on which passes rest, are made anew for another step.
     const bool is_other_step = passes_step != request.time_step;
     std::erase_if(passes, [&](const auto& entry) { return is_other_step || !keys.contains(entry.first); });
@@ -339,9 +350,9 @@ std::uint32_t Renderer::Impl::flags_of_range(const Surface& surface, std::uint32
 }
 
 /** The rays of the picture, anchored at the surface if it is a plane, else at the middle of the volume. */
-CutPlaneGeometry Renderer::Impl::view(const FrameRequest& request, const Surface& surface) const {
+CutPlaneGeometry Renderer::Impl::view(const FrameRequest& request, const SurfaceGeometry& geometry) const {
     CutPlane plane;
-    if (const auto* given = std::get_if<CutPlane>(&surface.geometry)) {
+    if (const auto* given = std::get_if<CutPlane>(&geometry)) {
         plane = *given;
     } else {
         const std::array<double, 6>& bounds = data.bounds();
@@ -356,7 +367,7 @@ CutPlaneGeometry Renderer::Impl::view(const FrameRequest& request, const Surface
 void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
                                       const LayerTarget& target, FrameCounts& counts) {
     constexpr std::uint32_t first = 1;
-    const CutPlaneGeometry rays = view(request, surface);
+    const CutPlaneGeometry rays = view(request, surface.geometry);
     IsosurfacePass& pass = *passes.at(ShownFields::key(wanted.field)).isosurfaces;
     pass.draw(rays, first, target, counts);
     const ShownComponent component = fields.component(surface.field);
@@ -370,9 +381,36 @@ void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface
     }
 }
 
+void Renderer::Impl::provide_volume_pass(const FrameRequest& request) {
+    const VolumeRendering& wanted = *request.volume;
+    select(wanted.field, request.time_step);
+    const Clock::time_point start = Clock::now();
+    if (!current->volume) {
+        data.provide_derivative_bounds();
+        current->volume.emplace(device, volume, data);
+    }
+    current->volume->choose(wanted, fields.offset(wanted.field), fields.component(wanted.field));
+    times.compile_milliseconds += milliseconds_since(start);
+}
+
+void Renderer::Impl::draw_volume(const FrameRequest& request, FrameCounts& counts) {
+    const Camera& camera = request.camera;
+    ViewStart start{camera.eye, std::nullopt};
+    if (camera.orthographic) {
+        Vector3 along{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            along[axis] = camera.look_at[axis] - camera.eye[axis];
+        }
+        const double size = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+        start.direction = Vector3{along[0] / size, along[1] / size, along[2] / size};
+    }
+    merge_pass.fill_empty();
+    current->volume->draw(view(request, BoundaryFaces{}), start, merge_pass, counts);
+}
+
 void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target,
                                    FrameCounts& counts) {
-    const CutPlaneGeometry rays = view(request, surface);
+    const CutPlaneGeometry rays = view(request, surface.geometry);
     const ShownComponent component = fields.component(surface.field);
     // A layer holds one surface; each class of faces counts as one, so that the nearest wins.
     constexpr std::uint32_t first = 1;
@@ -405,7 +443,7 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
                                   std::vector<SurfaceFacts>& facts) {
     const Surface& surface = request.surfaces[index];
     const double offset = offset_of(surface);
-    const CutPlaneGeometry rays = view(request, surface);
+    const CutPlaneGeometry rays = view(request, surface.geometry);
     const bool is_plane = std::holds_alternative<CutPlane>(surface.geometry);
     facts.push_back({offset, is_plane ? std::optional<Vector3>(rays.normal) : std::nullopt});
     const std::uint32_t common_flags = flags_of_range(surface, request.time_step, offset);
@@ -455,6 +493,7 @@ void Renderer::Impl::read(const Layer& from, const std::vector<SurfaceFacts>& fa
         counts.estimated_pixels += has(pixel_flag::estimated);
         counts.isosurface_pixels += has(pixel_flag::isosurface);
         counts.undecided_isosurface_pixels += has(pixel_flag::isosurface_undecided);
+        counts.inexact_volume_pixels += has(pixel_flag::volume_tolerance);
         counts.contour_pixels += has(pixel_flag::contour);
         counts.undecided_contour_pixels += has(pixel_flag::contour_undecided);
         counts.mesh_line_pixels += has(pixel_flag::mesh_line);
@@ -513,7 +552,7 @@ Frame Renderer::render(const FrameRequest& wanted) {
         impl.layer = std::make_unique<Layer>(impl.device, impl.precision, request.width, request.height);
     }
     // A single surface that hides what is behind it needs no merging.
-    const bool is_alone = request.surfaces.size() == 1 && !request.surfaces[0].is_see_through();
+    const bool is_alone = request.surfaces.size() == 1 && !request.surfaces[0].is_see_through() && !request.volume;
     if (!is_alone) {
         impl.merge_pass.begin(request.width, request.height, request.background);
     }
@@ -529,8 +568,13 @@ Frame Renderer::render(const FrameRequest& wanted) {
         wall += timer.wall_milliseconds();
         device += timer.milliseconds();
     }
+    if (request.volume) {
+        impl.provide_volume_pass(request);
+    }
     const DeviceTimer timer(impl.device);
-    if (!is_alone) {
+    if (request.volume) {
+        impl.draw_volume(request, frame.counts);
+    } else if (!is_alone) {
         impl.merge_pass.finish();
     }
     frame.render_milliseconds = wall + timer.wall_milliseconds();

@@ -6,6 +6,8 @@
 // The field is taken to first order from the point that was evaluated, so that what Newton's method leaves counts twice only. Its
 // error is bounded as in library/ray_piece.glsl.
 //
+// A sample is good enough where the bounds of its errors say so, else where Newton's method has come to rest.
+//
 // The kernel brings library/ray_part.glsl and library/shown_model.glsl.
 
 #define CORE_SAMPLE_RUNNING 0u
@@ -21,6 +23,8 @@ struct core_follower {
     elvis_real known, known_x, known_y, known_z, slope_x, slope_y, slope_z;
     // Parameter wanted in the end, and the one that is looked for; the prediction for that.
     elvis_real goal, at, x, y, z;
+    // The part of the ray from the goal on, or back, over which `bend` is wanted; error of the field that is good enough.
+    elvis_real span, enough;
     uint steps, all_steps;
 };
 
@@ -28,6 +32,8 @@ struct core_ray_sample {
     uint status;
     // Of the field at the parameter, its change with it, and its error.
     elvis_real value, slope, error;
+    // How far the field may be from the line through value and slope, over the follower's span.
+    elvis_real bend;
     bool is_known;
     // Of the point in reference coordinates: offset of the point from xi, change with the parameter, rounding.
     elvis_vec3 xi, q, w;
@@ -51,6 +57,7 @@ void core_predict(inout core_follower follower, elvis_real at) {
 
 void core_follow_to(inout core_follower follower, elvis_real goal) {
     follower.goal = goal;
+    follower.span = follower.enough = elvis_real(0);
     follower.all_steps = 0u;
     core_predict(follower, goal);
 }
@@ -76,10 +83,13 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
     // Where the bound says nothing, two predictions that agree do, as in library/newton.glsl.
     result.beyond = min(core_prediction_error(curvature, step), change) + result.rounding;
 
+    const elvis_vec3 far = result.q + follower.span * result.w;
+    const elvis_real reach = max(step, core_max_norm(far));
     core_patch region;
-    region.corner0 = region.corner1 = region.corner2 = region.corner3 = result.q;
+    region.corner0 = region.corner1 = result.q;
+    region.corner2 = region.corner3 = far;
     region.beyond = result.beyond;
-    region.radius = step + result.beyond;
+    region.radius = reach + result.beyond;
     elvis_real value;
     const core_model model = core_shown_model(element, result.xi, region, value);
     result.gradient = model.slope;
@@ -88,13 +98,23 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
     result.is_known = core_model_is_known(model);
     result.value = result.is_known ? model.value + dot(model.slope, result.q) : value;
     result.slope = dot(model.slope, result.w);
+    // Remainders go with the square of the distance, but for rounding.
+    const elvis_real share = (step + result.beyond) / region.radius;
+    const elvis_real remainder = region.radius > elvis_real(0) ? model.remainder * share * share : model.remainder;
     // Without a model: what rounding alone does.
-    result.error = (result.is_known ? CORE_MODEL_UP * (model.remainder + blur) : elvis_real(64) * CORE_ROUNDOFF * abs(value) + blur) +
+    result.error = (result.is_known ? CORE_MODEL_UP * (remainder + blur) +
+                                          (elvis_real(1) - share) * CORE_MODEL_OPERATIONS * CORE_ROUNDOFF * (abs(model.value) + size * step)
+                                    : elvis_real(64) * CORE_ROUNDOFF * abs(value) + blur) +
                    elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
+    result.bend = result.is_known ? model.remainder + size * core_prediction_error(curvature, reach) : CORE_UNKNOWN;
+    // What the slope is off does to a polynomial over the span, which has slopes at both ends: an eighth.
+    const elvis_real slope_error = elvis_real(2) * remainder / max(step + result.beyond, elvis_real(1e-30LF)) * core_max_norm(result.w) +
+                                   elvis_real(2) * curvature * step * size * core_max_norm(result.w);
+    const bool is_enough = result.is_known && result.error + elvis_real(0.125LF) * abs(follower.span) * slope_error <= follower.enough;
     result.is_finite = core_is_finite(value + core_max_norm(position));
 
     const bool is_sound = result.frame.is_sound && core_is_finite(step + core_max_norm(result.w));
-    const bool is_found = is_sound && change <= elvis_real(4) * result.rounding;
+    const bool is_found = is_sound && (change <= elvis_real(4) * result.rounding || is_enough);
     follower.steps += 1u;
     follower.all_steps += 1u;
     const bool is_stuck = !is_found && (!is_sound || follower.steps >= CORE_SAMPLE_STEPS);

@@ -1,0 +1,71 @@
+/**
+ * @file volume_pass.hpp
+ * Draws the volume itself: light emitted and absorbed along rays.
+ */
+#pragma once
+
+#include <core/render/cut_plane_geometry.hpp>
+#include <core/render/frame.hpp>
+#include <core/render/layer.hpp>
+#include <core/render/merge_pass.hpp>
+#include <core/volume/device_volume.hpp>
+#include <core/volume/element_chains.hpp>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace elvis {
+
+/** The kernels of one volume and of the field that the transfer function is of, for each element class. */
+class VolumePass {
+public:
+    /** `data` has that field selected, and its derivative bounds. Kernels are compiled when first needed, most by choose(). */
+    VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+
+    /** What the next pictures show; the field lacks `offset` on the device. */
+    void choose(const VolumeRendering& wanted, double offset, const ShownComponent& component);
+
+    /**
+     * Draws in front of the opaque surfaces of a picture, and between its transparent ones, which are not put over it before. `view` is the
+     * geometry of any plane: only its rays matter.
+     */
+    void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, FrameCounts& counts);
+
+private:
+    struct ClassKernels {
+        std::uint32_t element_class = 0;
+        std::uint64_t first_element = 0, n_elements = 0;
+        std::unique_ptr<ComposedKernel> tiles, seek;
+        std::array<std::unique_ptr<ComposedKernel>, 5> march;
+        std::optional<Buffer> tile_lists;
+    };
+    struct Picture;
+    KernelRequest request_of(const ClassKernels& kernels, const char* name) const;
+    const ComposedKernel& march_kernel(ClassKernels& kernels);
+    void list_starts(ClassKernels& kernels, const Picture& picture);
+    bool seek(const ClassKernels& kernels, const Picture& picture, FrameCounts& counts);
+    bool march(ClassKernels& kernels, const Picture& picture, FrameCounts& counts);
+    void march_all(const Picture& picture, FrameCounts& counts);
+
+    const Device& m_device;
+    const DeviceVolume& m_data;
+    Precision m_precision;
+    std::uint32_t m_tile_width;
+    double m_extent = 0;
+    ElementChains m_chains;
+    std::vector<ClassKernels> m_kernels;
+    ComposedKernel m_begin, m_veil, m_finish;
+    Buffer m_frame, m_counts;
+    VolumeRendering m_wanted;
+    ShownComponent m_component;
+    std::uint32_t m_n_breakpoints = 0;
+    double m_steepest = 0;
+    std::optional<Buffer> m_breakpoints, m_pieces;
+    /** Kept from frame to frame. */
+    std::optional<Buffer> m_states;
+};
+
+} // namespace elvis

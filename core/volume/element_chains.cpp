@@ -1,0 +1,150 @@
+#include <core/volume/element_chains.hpp>
+
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t no_link = 0xffffffffu;
+constexpr std::uint32_t faces_a_record = 8;
+constexpr std::uint32_t place_of_curvature = 7;
+constexpr std::uint32_t words_a_node = 8;
+/** Elements or faces asked for at once. */
+constexpr std::uint64_t block = 1u << 16;
+
+std::uint32_t n_faces_of(elvis_shape shape) {
+    switch (shape) {
+    case ELVIS_SHAPE_HEXAHEDRON: return 6;
+    case ELVIS_SHAPE_TETRAHEDRON: return 4;
+    case ELVIS_SHAPE_QUADRILATERAL: return 4;
+    case ELVIS_SHAPE_TRIANGLE: return 3;
+    default: return 5;
+    }
+}
+
+/** Whether a ray can start in the box. */
+bool can_start_in(std::span<const double> box, const ViewStart& start) {
+    if (!start.direction) {
+        bool is_in = true;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double slack = 1e-5 * (std::abs(start.eye[axis]) + std::abs(box[axis]) + std::abs(box[axis + 3]));
+            is_in = is_in && start.eye[axis] >= box[axis] - slack && start.eye[axis] <= box[axis + 3] + slack;
+        }
+        return is_in;
+    }
+    double middle = 0, reach = 0, size = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double along = (*start.direction)[axis];
+        middle += along * (0.5 * (box[axis] + box[axis + 3]) - start.eye[axis]);
+        reach += std::abs(along) * 0.5 * (box[axis + 3] - box[axis]);
+        size += std::abs(along) * (std::abs(box[axis]) + std::abs(box[axis + 3]) + std::abs(start.eye[axis]));
+    }
+    return std::abs(middle) <= reach + 1e-5 * size;
+}
+
+} // namespace
+
+ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_volume(volume), m_centre(data.centre()), m_classes(volume.classes().size()) {
+    std::vector<std::vector<std::uint32_t>> links(m_classes.size());
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        links[index].assign(faces_a_record * volume.classes()[index].n_elements, no_link);
+    }
+    read_faces(links);
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        const ClassInfo& info = volume.classes()[index];
+        if (info.n_elements == 0) {
+            continue;
+        }
+        ClassChains& chains = m_classes[index];
+        chains.is_open.resize(info.n_elements);
+        const std::span<const float> curvatures = data.curvatures(index);
+        for (std::uint64_t element = 0; element < info.n_elements; ++element) {
+            const auto own = std::span(links[index]).subspan(faces_a_record * element, n_faces_of(info.shape));
+            chains.is_open[element] = std::ranges::find(own, no_link) != own.end();
+            links[index][faces_a_record * element + place_of_curvature] = std::bit_cast<std::uint32_t>(curvatures[element]);
+        }
+        chains.links = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, faces_a_record);
+        chains.links->write_uints(0, links[index]);
+        // Room for all elements, so that kernels composed with it stay valid.
+        chains.nodes = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, words_a_node);
+        chains.boxes.resize(6 * info.n_elements);
+        for (std::uint64_t first = 0; first < info.n_elements; first += block) {
+            const std::uint64_t count = std::min(block, info.n_elements - first);
+            std::vector<double> boxes(6 * count);
+            volume.bounds(info.first_element + first, count, boxes);
+            std::ranges::copy(boxes, chains.boxes.begin() + static_cast<std::ptrdiff_t>(6 * first));
+        }
+    }
+}
+
+void ElementChains::read_faces(std::vector<std::vector<std::uint32_t>>& links) const {
+    const auto place_of = [&](std::int64_t element) -> std::uint32_t* {
+        for (std::size_t index = 0; index < m_classes.size(); ++index) {
+            const ClassInfo& info = m_volume.classes()[index];
+            const std::int64_t local = element - static_cast<std::int64_t>(info.first_element);
+            if (local >= 0 && static_cast<std::uint64_t>(local) < info.n_elements) {
+                return links[index].data() + faces_a_record * static_cast<std::uint64_t>(local);
+            }
+        }
+        return nullptr;
+    };
+    std::vector<elvis_face> faces;
+    const std::uint64_t n_faces = m_volume.n_faces();
+    for (std::uint64_t first = 0; first < n_faces; first += block) {
+        const std::uint64_t count = std::min(block, n_faces - first);
+        faces.assign(count, elvis_face{});
+        m_volume.faces(first, count, faces);
+        for (const elvis_face& face : faces) {
+            std::uint32_t* const one = place_of(face.element);
+            std::uint32_t* const other = place_of(face.neighbour);
+            if (one && other && face.local_face >= 0 && face.neighbour_local_face >= 0) {
+                one[face.local_face] = static_cast<std::uint32_t>(face.neighbour);
+                other[face.neighbour_local_face] = static_cast<std::uint32_t>(face.element);
+            }
+        }
+    }
+}
+
+void ElementChains::look_from(const ViewStart& start) {
+    if (m_start == start) {
+        return;
+    }
+    std::vector<double> boxes;
+    std::vector<std::uint32_t> chosen;
+    for (ClassChains& chains : m_classes) {
+        boxes.clear();
+        chosen.clear();
+        for (std::size_t element = 0; element < chains.is_open.size(); ++element) {
+            const auto box = std::span<const double>(chains.boxes).subspan(6 * element, 6);
+            if (chains.is_open[element] || can_start_in(box, start)) {
+                chosen.push_back(static_cast<std::uint32_t>(element));
+                boxes.insert(boxes.end(), box.begin(), box.end());
+            }
+        }
+        chains.n_starts = chosen.size();
+        if (chosen.empty()) {
+            continue;
+        }
+        const Hierarchy hierarchy(boxes, m_centre);
+        std::vector<HierarchyNode> nodes(hierarchy.nodes().begin(), hierarchy.nodes().end());
+        for (HierarchyNode& node : nodes) {
+            node.child = node.is_leaf() ? chosen[node.child] : node.child;
+        }
+        std::vector<std::uint32_t> words(words_a_node * nodes.size());
+        std::memcpy(words.data(), nodes.data(), nodes.size() * sizeof(HierarchyNode));
+        chains.nodes->write_uints(0, words);
+    }
+    m_start = start;
+}
+
+std::vector<FetchBuffer> ElementChains::host_buffers(std::uint32_t element_class) const {
+    return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_links", m_classes[element_class].links.get()}};
+}
+
+} // namespace elvis

@@ -1,0 +1,60 @@
+/**
+ * @file element_chains.hpp
+ * How rays go from element to element through shared faces, and where they can come in.
+ */
+#pragma once
+
+#include <core/hierarchy/hierarchy.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/shader/composer.hpp>
+#include <core/volume/device_volume.hpp>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace elvis {
+
+/** A point, and in a parallel view the plane across it that all rays begin in. */
+struct ViewStart {
+    std::array<double, 3> eye{};
+    /** Of unit length; none of a perspective view. */
+    std::optional<std::array<double, 3>> direction;
+
+    bool operator==(const ViewStart&) const = default;
+};
+
+class ElementChains {
+public:
+    /** `data` has curvatures: a field has been selected. */
+    ElementChains(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+
+    /** Elements in which rays can start: those with a face without known neighbour, and those that may hold the start of a ray. */
+    void look_from(const ViewStart& start);
+
+    /**
+     * `core_nodes`, a hierarchy over those in which leaves are local elements; and `core_links`: for each local face of an element the
+     * neighbour among all elements of the volume, all bits where none is known, and at place 7 the bits of the mapping's curvature.
+     * Valid as long as this. Of classes with elements.
+     */
+    std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
+    std::uint64_t n_starts(std::uint32_t element_class) const { return m_classes[element_class].n_starts; }
+
+private:
+    struct ClassChains {
+        std::unique_ptr<RecordBuffer> nodes, links;
+        std::vector<bool> is_open;
+        std::uint64_t n_starts = 0;
+        /** Six numbers an element. */
+        std::vector<double> boxes;
+    };
+    void read_faces(std::vector<std::vector<std::uint32_t>>& links) const;
+
+    const RuntimeVolume& m_volume;
+    std::array<double, 3> m_centre;
+    std::vector<ClassChains> m_classes;
+    std::optional<ViewStart> m_start;
+};
+
+} // namespace elvis

@@ -1,0 +1,257 @@
+// Light along the rays of pixels, from element to element of one class (library/volume_state.glsl).
+//
+// In each element: where the ray leaves it, by evaluations of the mapping alone (library/ray_part.glsl); then samples of the field, as
+// the integrator wants them, and its integral of what lies between. Lanes do both together, each in its own element.
+
+layout(local_size_x = CORE_TILE_WIDTH) in;
+
+#include "library/precision.glsl"
+#include "library/cut_frame.glsl"
+#include "library/hierarchy.glsl"
+#include "library/samples.glsl"
+#include "library/pixel_ray.glsl"
+#include "library/volume_state.glsl"
+
+layout(set = 0, binding = 1, std430) buffer core_states_block { core_volume_state core_states[]; };
+// Depth of what hides the volume, CORE_FAR where nothing does; only with core_has_depths. Depth where the ray is to wait, likewise.
+layout(set = 0, binding = 2, std430) readonly buffer core_depths_block { elvis_real core_depths[]; };
+layout(set = 0, binding = 6, std430) readonly buffer core_stops_block { elvis_real core_stops[]; };
+layout(set = 0, binding = 3, std430) readonly buffer core_breakpoints_block { elvis_real core_breakpoints[]; };
+layout(set = 0, binding = 4, std430) readonly buffer core_pieces_block { elvis_vec4 core_pieces[]; };
+// Rays that this dispatch has moved, evaluations of mapping and field, of the mapping alone, segments, empty segments, steps,
+// breakpoints, Newton failures.
+layout(set = 0, binding = 5, std430) buffer core_counts_block { uint core_counts[]; };
+layout(push_constant) uniform core_parameters {
+    uvec2 core_size;
+    uint core_first_row;
+    uint core_first_element, core_n_elements;
+    uint core_first_component, core_end_component;
+    uint core_n_breakpoints;
+    uint core_has_depths, core_has_stops;
+    uint core_zero;
+    // The diagonal of the volume's bounds.
+    float core_extent;
+    // Of a channel; of the field's density and light with its value, at most; world length of steps.
+    float core_tolerance, core_steepest, core_step;
+};
+
+#define CORE_CENTRE core_reference.xyz
+#include "library/driver_limit.glsl"
+#include "library/ray_part.glsl"
+#include "library/walk_ray.glsl"
+#include "library/shown_model.glsl"
+#include "library/ray_sample.glsl"
+#include "library/transfer.glsl"
+#include "library/volume_light.glsl"
+#if CORE_INTEGRATES_EXACTLY
+#include "library/volume_exact.glsl"
+#include "library/volume_polynomials.glsl"
+#else
+#include "library/volume_steps.glsl"
+#endif
+
+// Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
+#define CORE_MOST_ELEMENTS 48u
+#define CORE_WORK_LIMIT 1500u
+// Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
+#define CORE_MOST_HOPS 16u
+// Below this share nothing behind can be seen.
+#define CORE_OPAQUE 0.125
+
+// Goes on from element to element towards the point of the ray at t, until one holds it: its position in the class; or
+// CORE_NO_ELEMENT, and in `other` the element of another class in which to go on, if there is one.
+uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint other) {
+    other = CORE_NO_LINK;
+    uint hops = 0u;
+    bool is_found = false;
+    elvis_real x = CORE_CENTROID.x, y = CORE_CENTROID.y, z = CORE_CENTROID.z;
+    uint steps = 0u;
+    bool is_over = false;
+    while (!is_over) {
+        elvis_vec3 position;
+        elvis_mat3 jacobian;
+        elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
+        const core_frame frame = core_frame_at(position, jacobian, ray.error);
+        const elvis_vec3 step = core_to_xi(frame, core_part_target(ray, element, t) - position);
+        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(step, elvis_vec3(-4), elvis_vec3(4));
+        steps += 1u;
+        const bool is_there = core_max_norm(step) <= elvis_real(4) * core_max_norm(frame.xi_error) || steps >= 8u;
+        elvis_real worst = elvis_real(-4);
+        uint worst_face = 0u;
+        for (int face = 0; face < CORE_N_FACES; ++face) {
+            const elvis_vec4 constraint = core_face_constraint(face);
+            const elvis_real excess = dot(constraint.xyz, next) + constraint.w;
+            worst_face = excess > worst ? uint(face) : worst_face;
+            worst = max(worst, excess);
+        }
+        is_found = is_there && worst <= elvis_real(4) * core_max_norm(frame.xi_error);
+        const bool leaves = is_there && !is_found;
+        const uint link = elvis_fetch_core_links(element, worst_face);
+        const bool is_own = link != CORE_NO_LINK && link >= core_first_element && link - core_first_element < core_n_elements;
+        hops += leaves ? 1u : 0u;
+        other = leaves && !is_own ? link : other;
+        is_over = is_found || (leaves && !is_own) || hops >= CORE_MOST_HOPS || !frame.is_sound;
+        element = leaves && is_own ? link - core_first_element : element;
+        steps = leaves ? 0u : steps;
+        elvis_real new_x = next.x, new_y = next.y, new_z = next.z;
+        core_project(new_x, new_y, new_z);
+        x = leaves ? CORE_CENTROID.x : new_x;
+        y = leaves ? CORE_CENTROID.y : new_y;
+        z = leaves ? CORE_CENTROID.z : new_z;
+    }
+    return is_found ? element : CORE_NO_ELEMENT;
+}
+
+void main() {
+    const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
+    const bool is_pixel = column < core_size.x && row < core_size.y;
+    const uint pixel = is_pixel ? row * core_size.x + column : 0u;
+    core_volume_state state = core_states[pixel];
+    const core_cut_column along = core_cut_begin(elvis_real(column));
+    const core_ray pixel_ray = core_pixel_ray(along, elvis_real(row));
+    const core_walk_ray ray = core_walk_ray_of(pixel_ray, elvis_real(core_extent));
+    elvis_real end = CORE_FAR, stop = CORE_FAR;
+    for (uint turn = 0u; turn < core_has_depths; ++turn) {
+        end = core_depths[pixel] / ray.speed - along.reference_distance;
+    }
+    for (uint turn = 0u; turn < core_has_stops; ++turn) {
+        stop = core_stops[pixel] / ray.speed - along.reference_distance;
+    }
+    const elvis_real to = min(end, stop);
+    const uint status_at_end = stop < end ? CORE_RAY_WAITS : CORE_RAY_ENDS;
+
+    uint element = state.element, status = is_pixel ? state.status : CORE_RAY_ENDS, flags = 0u;
+    const bool is_without = status == CORE_RAY_SEEKS && element == CORE_NO_ELEMENT;
+    const bool is_own = element >= core_first_element && element - core_first_element < core_n_elements;
+    const bool is_mine = is_without || ((status == CORE_RAY_SEEKS || status == CORE_RAY_GOES) && is_own);
+    const bool begins = is_mine && status == CORE_RAY_SEEKS && !is_without;
+    elvis_real chain = state.chain, done = state.done;
+    const elvis_real start = begins ? chain : state.start;
+    const uint start_element = begins ? element : state.start_element;
+    status = is_without ? CORE_RAY_ENDS : is_mine && chain >= to ? status_at_end : begins ? CORE_RAY_GOES : status;
+    core_light light = core_light(state.red, state.green, state.blue, state.left, state.error);
+    const elvis_real tolerance = elvis_real(core_tolerance);
+
+    uint n_elements = 0u, n_evaluations = 0u, n_mappings = 0u, n_segments = 0u, n_empty = 0u, n_steps = 0u, n_breakpoints = 0u;
+    uint n_failures = 0u, work = 0u;
+    core_part part;
+    part.element = 0u;
+    part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
+    part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
+    part.turns = 0u;
+    bool goes = is_mine && status == CORE_RAY_GOES;
+    while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
+        n_elements += 1u;
+        const uint local = element - core_first_element;
+        // Where the ray leaves.
+        uint ending = CORE_PART_NONE;
+        for (uint turn = 0u; turn < 1u; ++turn) {
+            const bool is_possible = core_part_begin(ray, local, chain, chain + ray.reach, true, part);
+            ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
+        }
+        while (ending == CORE_PART_OPEN) {
+            ending = core_part_turn(ray, true, part);
+            n_mappings += 1u;
+            work += 1u;
+        }
+        const bool is_met = ending == CORE_PART_FOUND && part.enter <= chain + elvis_real(4) * ray.tolerance + part.enter_error;
+        const bool is_estimated = is_met && part.is_estimated;
+        flags |= is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+        const elvis_real leave = is_met ? max(part.leave, chain) : chain;
+        // What is too short to matter is the next one's.
+        const bool is_joined = chain - done <= elvis_real(16) * ray.tolerance;
+        const elvis_real from = is_joined ? done : chain, until = min(leave, to);
+
+        // What lies between.
+        const bool has_segment = is_met && from < until;
+        n_segments += has_segment ? 1u : 0u;
+        core_integral integral = core_integral_begin(from, has_segment ? until : from, ray.speed);
+        const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - start), until - from);
+        const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0)) /
+                                  (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
+        core_follower follower;
+        follower.known = part.anchor;
+        follower.known_x = part.x;
+        follower.known_y = part.y;
+        follower.known_z = part.z;
+        follower.slope_x = part.slope_x;
+        follower.slope_y = part.slope_y;
+        follower.slope_z = part.slope_z;
+        core_follow_to(follower, core_integral_at(integral));
+        follower.span = from - follower.goal;
+        follower.enough = enough;
+        bool is_broken = false;
+        while (integral.wants != CORE_WANTS_NOTHING && !is_broken) {
+            work += 1u;
+            const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
+            n_evaluations += 1u;
+            const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
+            is_broken = is_nan || has_failed;
+            n_failures += has_failed ? 1u : 0u;
+            flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
+            for (uint turn = 0u; turn < (result.status == CORE_SAMPLE_FOUND && !is_broken ? 1u : 0u); ++turn) {
+                core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead);
+                core_follow_to(follower, core_integral_at(integral));
+                follower.span = follower.goal == from ? until - from : from - follower.goal;
+                follower.enough = enough;
+            }
+        }
+        n_steps += integral.n_steps;
+        n_breakpoints += integral.n_breakpoints;
+        flags |= has_segment && core_is_model_estimated(local) ? CORE_FLAG_ESTIMATED : 0u;
+        // What is no number hides all behind it, in a colour of its own.
+        for (uint turn = 0u; turn < ((flags & CORE_FLAG_NAN) != 0u && is_broken ? 1u : 0u); ++turn) {
+            core_add_light(light, elvis_vec3(1, 0, 1), elvis_real(0));
+        }
+
+        // Where to go on.
+        done = max(done, until);
+        const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
+        const bool is_over = is_opaque || is_stopped;
+        chain = is_over ? chain : leave;
+        const uint link = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
+        uint next = link;
+        const bool is_lost = !is_over && (!is_met || part.leave_face < 0);
+        for (uint turn = 0u; turn < (is_lost ? 1u : 0u); ++turn) {
+            const elvis_real probe = chain + elvis_real(4) * ray.tolerance;
+            uint other;
+            const uint found = core_find_around(ray, local, probe, other);
+            next = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+            chain = probe;
+        }
+        element = is_over ? element : next;
+        status = is_opaque ? CORE_RAY_ENDS : is_stopped ? status_at_end : next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+        goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;
+    }
+    const bool is_cut_short = core_has_driver_given_up(core_zero);
+    const bool seeks = status == CORE_RAY_SEEKS;
+    flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
+    for (uint turn = 0u; turn < (is_mine ? 1u : 0u); ++turn) {
+        state.done = done;
+        state.chain = seeks ? CORE_FAR : chain;
+        state.start = start;
+        state.start_element = start_element;
+        state.red = light.red;
+        state.green = light.green;
+        state.blue = light.blue;
+        state.left = light.left;
+        state.error = light.error;
+        state.element = seeks ? CORE_NO_ELEMENT : element;
+        state.status = is_cut_short ? CORE_RAY_ENDS : status;
+        state.flags |= flags;
+        core_states[pixel] = state;
+    }
+    const uint all_moved = subgroupAdd(is_mine ? 1u : 0u), all_evaluations = subgroupAdd(n_evaluations);
+    const uint all_mappings = subgroupAdd(n_mappings), all_segments = subgroupAdd(n_segments), all_empty = subgroupAdd(n_empty);
+    const uint all_steps = subgroupAdd(n_steps), all_breakpoints = subgroupAdd(n_breakpoints), all_failures = subgroupAdd(n_failures);
+    if (subgroupElect()) {
+        atomicAdd(core_counts[0], all_moved);
+        atomicAdd(core_counts[1], all_evaluations);
+        atomicAdd(core_counts[2], all_mappings);
+        atomicAdd(core_counts[3], all_segments);
+        atomicAdd(core_counts[4], all_empty);
+        atomicAdd(core_counts[5], all_steps);
+        atomicAdd(core_counts[6], all_breakpoints);
+        atomicAdd(core_counts[7], all_failures);
+    }
+}

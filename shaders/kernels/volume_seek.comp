@@ -1,0 +1,140 @@
+// For rays that look for their next chain (library/volume_state.glsl): the nearest start in the elements of one class.
+//
+// A hierarchy over the elements in which rays can start, of which each tile of pixels has a list (kernels/ray_tiles.comp).
+
+layout(local_size_x = CORE_TILE_WIDTH) in;
+
+#include "library/precision.glsl"
+#include "library/cut_frame.glsl"
+#include "library/ray_tiles.glsl"
+#include "library/hierarchy.glsl"
+#include "library/samples.glsl"
+#include "library/pixel_ray.glsl"
+#include "library/volume_state.glsl"
+
+layout(set = 0, binding = 1, std430) buffer core_states_block { core_volume_state core_states[]; };
+layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+// Rays that look for a start, evaluations.
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(push_constant) uniform core_parameters {
+    uvec2 core_size;
+    uint core_tiles_per_row;
+    uint core_first_row;
+    // Among all elements of the volume.
+    uint core_first_element;
+    uint core_zero;
+    // The diagonal of the volume's bounds.
+    float core_extent;
+};
+
+#define CORE_CENTRE core_reference.xyz
+#include "library/driver_limit.glsl"
+#include "library/ray_part.glsl"
+#include "library/walk_ray.glsl"
+
+// Turns of a ray, with all loops inside below where drivers end them.
+#define CORE_WORK_LIMIT 2500u
+
+// Whether the ray comes into the element through a face without neighbour, or one that is as near within rounding.
+bool core_enters_chain(core_part part, core_walk_ray ray) {
+    const elvis_real since = part.enter - part.anchor;
+    const elvis_vec3 at = elvis_vec3(part.x, part.y, part.z) + since * elvis_vec3(part.slope_x, part.slope_y, part.slope_z);
+    const elvis_real near =
+        elvis_real(8) * ray.tolerance * (abs(part.slope_x) + abs(part.slope_y) + abs(part.slope_z)) + elvis_real(64) * CORE_ROUNDOFF;
+    bool enters = false;
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        const bool is_open = elvis_fetch_core_links(part.element, uint(face)) == CORE_NO_LINK;
+        const bool is_near = face == part.enter_face || dot(constraint.xyz, at) + constraint.w > -near;
+        enters = enters || (is_open && is_near);
+    }
+    return enters;
+}
+
+void main() {
+    const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
+    const bool is_pixel = column < core_size.x && row < core_size.y;
+    const uint pixel = is_pixel ? row * core_size.x + column : 0u;
+    const uint list = (gl_WorkGroupID.x + row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
+    const core_volume_state state = core_states[pixel];
+    const bool is_mine = is_pixel && state.status == CORE_RAY_SEEKS;
+    const uint n_listed = core_tiles[is_pixel ? list : 0u] & ~CORE_TILE_INNER;
+    const uint n_entries = is_mine ? n_listed : 0u;
+    const core_cut_column along = core_cut_begin(elvis_real(column));
+    const core_ray pixel_ray = core_pixel_ray(along, elvis_real(row));
+    const core_walk_ray ray = core_walk_ray_of(pixel_ray, elvis_real(core_extent));
+
+    // The first chain may start at the eye.
+    const bool is_first = state.start_element == CORE_NO_ELEMENT;
+    const elvis_real from = is_first ? pixel_ray.least_t : state.start;
+    elvis_real best = state.chain;
+    uint best_element = state.element;
+
+    uint stack[CORE_STACK_SIZE];
+    uint stack_size = 0u, entry = 0u, work = 0u, n_evaluations = 0u;
+    core_part part;
+    part.element = 0u;
+    part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
+    part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
+    part.turns = 0u;
+    bool is_searching = false, has_entered = false;
+    while ((is_searching || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
+        work += 1u;
+        while (!is_searching && (stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
+            work += 1u;
+            const bool is_popped = stack_size > 0u;
+            const uint at = list + 1u + 2u * min(entry, n_listed - 1u);
+            const uint word = is_popped ? stack[stack_size - (is_popped ? 1u : 0u)] : core_tiles[at];
+            const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(best);
+            stack_size -= is_popped ? 1u : 0u;
+            entry = is_popped ? entry : (is_behind ? n_entries : entry + 1u);
+            const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
+            const vec2 span = core_box_span(node, pixel_ray);
+            const bool is_touched = !is_behind && span.x <= span.y && span.y >= float(from) && span.x <= float(best);
+            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+                stack[stack_size] = node.child + 1u;
+                stack[stack_size + 1u] = node.child;
+                stack_size += 2u;
+            }
+            for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
+                const elvis_real begin = is_first ? max(elvis_real(span.x), from) : elvis_real(span.x);
+                is_searching = core_part_begin(ray, node.child, begin, min(elvis_real(span.y), begin + ray.reach), false, part);
+                has_entered = false;
+            }
+        }
+        // A start that is not the one wanted is followed to where the ray leaves.
+        const uint ending = is_searching ? core_part_turn(ray, is_searching, part) : CORE_PART_NONE;
+        n_evaluations += is_searching ? 1u : 0u;
+        const uint element = core_first_element + part.element;
+        const bool is_entry = is_searching && part.is_inside && !has_entered;
+        has_entered = has_entered || is_entry;
+        const bool is_at_eye = part.enter_face < 0 && is_first && part.enter <= from;
+        const bool is_tied = abs(part.enter - state.start) <= elvis_real(2) * ray.tolerance;
+        const bool is_after = is_first || (is_tied ? element > state.start_element : part.enter > state.start);
+        bool is_start = false;
+        for (uint turn = 0u; turn < (is_entry && is_after ? 1u : 0u); ++turn) {
+            is_start = is_at_eye || core_enters_chain(part, ray);
+        }
+        const bool is_better = is_start && (part.enter < best || (part.enter == best && element < best_element));
+        best = is_better ? part.enter : best;
+        best_element = is_better ? element : best_element;
+        const bool goes_on = ending == CORE_PART_FOUND && !is_start && part.resume < part.last;
+        const elvis_real resume = max(part.resume, part.leave) + ray.tolerance;
+        is_searching = is_searching && !is_start && ending == CORE_PART_OPEN;
+        for (uint turn = 0u; turn < (goes_on ? 1u : 0u); ++turn) {
+            is_searching = core_part_begin(ray, part.element, resume, part.last, false, part);
+            has_entered = false;
+        }
+    }
+    const bool is_cut_short = is_searching || stack_size > 0u || entry < n_entries || core_has_driver_given_up(core_zero);
+    for (uint turn = 0u; turn < (is_mine ? 1u : 0u); ++turn) {
+        core_states[pixel].chain = best;
+        core_states[pixel].element = best_element;
+        core_states[pixel].flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
+    }
+    const uint all_open = subgroupAdd(is_mine ? 1u : 0u), all_evaluations = subgroupAdd(n_evaluations);
+    if (subgroupElect()) {
+        atomicAdd(core_counts[0], all_open);
+        atomicAdd(core_counts[1], all_evaluations);
+    }
+}

@@ -1,0 +1,162 @@
+// The volume rendering integral along a ray's part in one element, by polynomials through samples with slopes: at both ends of a
+// step, which makes a cubic, and where that may not be good enough inside, which makes a quintic. Steps adapt to what each channel may
+// be off.
+//
+//     core_integral integral = core_integral_begin(from, to, per_parameter);
+//     while (integral.wants != CORE_WANTS_NOTHING) {
+//         (take a sample at core_integral_at(integral));
+//         core_integral_add(integral, ...);
+//     }
+//
+// The sample inside is not in the middle, so that fields that are symmetric in the element do not look simpler than they are.
+//
+// What a polynomial is off is estimated from the Chebyshev coefficients of its highest terms, two degrees of which are taken to go on as a
+// geometric series with ratio 1/4; and not less than a small part of how far the field may be from a line (library/ray_sample.glsl),
+// so that a field that happens to agree in all samples is not believed where bounds say that it may do much in between.
+//
+// The kernel brings library/volume_exact.glsl.
+
+#define CORE_WANTS_NOTHING 0u
+#define CORE_WANTS_END 1u
+#define CORE_WANTS_LEFT 2u
+#define CORE_WANTS_RIGHT 3u
+#define CORE_WANTS_INNER 4u
+
+#define CORE_INNER_AT elvis_real(0.4375LF)
+// Steps are not made shorter than this part of the segment.
+#define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
+// Shares of how far the field may be from a line that a cubic and a quintic are taken to be off at least.
+#define CORE_CUBIC_DOUBT elvis_real(0.015625LF)
+#define CORE_QUINTIC_DOUBT elvis_real(0.00006103515625LF)
+// Share of what is left of the tolerance that any step may use.
+#define CORE_LEAST_SHARE elvis_real(0.0625LF)
+
+struct core_integral {
+    elvis_real from, to;
+    // The step; slopes are those with the ray's parameter.
+    elvis_real left, left_value, left_slope;
+    elvis_real right, right_value, right_slope;
+    elvis_real end_value, end_slope;
+    elvis_real inner_value, inner_slope;
+    uint wants;
+    // Largest error of a sample, and deviation from a line over the whole segment.
+    elvis_real error, bend;
+    uint n_steps, n_breakpoints;
+};
+
+core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per_parameter) {
+    core_integral integral;
+    integral.from = integral.left = from;
+    integral.to = integral.right = to;
+    integral.left_value = integral.left_slope = integral.right_value = integral.right_slope = elvis_real(0);
+    integral.end_value = integral.end_slope = integral.inner_value = integral.inner_slope = elvis_real(0);
+    integral.wants = from < to ? CORE_WANTS_END : CORE_WANTS_NOTHING;
+    integral.error = integral.bend = elvis_real(0);
+    integral.n_steps = integral.n_breakpoints = 0u;
+    return integral;
+}
+
+// Where the next sample is wanted.
+elvis_real core_integral_at(core_integral integral) {
+    const elvis_real inner = integral.left + CORE_INNER_AT * (integral.right - integral.left);
+    return integral.wants == CORE_WANTS_END    ? integral.to
+           : integral.wants == CORE_WANTS_LEFT ? integral.left
+           : integral.wants == CORE_WANTS_RIGHT ? integral.right
+                                                : inner;
+}
+
+struct core_fitted {
+    core_polynomial p;
+    elvis_real error;
+};
+
+// `with_inner`: a quintic.
+core_fitted core_fit_step(core_integral integral, bool with_inner) {
+    const elvis_real width = integral.right - integral.left;
+    const elvis_real c0 = integral.left_value, c3 = integral.right_value;
+    const elvis_real c1 = c0 + width * integral.left_slope / elvis_real(3), c2 = c3 - width * integral.right_slope / elvis_real(3);
+    const elvis_real cubic = c3 - c0 + elvis_real(3) * (c1 - c2), square = elvis_real(3) * (c0 - elvis_real(2) * c1 + c2);
+    // What is added to it: t^2 (1 - t)^2 (shift + tilt (t - at)).
+    const elvis_real at = CORE_INNER_AT, rest = elvis_real(1) - CORE_INNER_AT;
+    const elvis_real there = rest * rest * rest * c0 + elvis_real(3) * rest * at * (rest * c1 + at * c2) + at * at * at * c3;
+    const elvis_real slope_there =
+        elvis_real(3) * (rest * rest * (c1 - c0) + elvis_real(2) * rest * at * (c2 - c1) + at * at * (c3 - c2));
+    const elvis_real bubble = at * at * rest * rest, bubble_slope = elvis_real(2) * at * rest * (rest - at);
+    const elvis_real shift = with_inner ? (integral.inner_value - there) / bubble : elvis_real(0);
+    const elvis_real tilt =
+        with_inner ? (width * integral.inner_slope - slope_there - bubble_slope * shift) / bubble : elvis_real(0);
+    core_fitted fitted;
+    fitted.p.c[0] = c0;
+    fitted.p.c[1] = (elvis_real(2) * c0 + elvis_real(3) * c1) / elvis_real(5);
+    fitted.p.c[2] = (c0 + elvis_real(6) * c1 + elvis_real(3) * c2 + shift - at * tilt) / elvis_real(10);
+    fitted.p.c[3] = (c3 + elvis_real(6) * c2 + elvis_real(3) * c1 + shift + rest * tilt) / elvis_real(10);
+    fitted.p.c[4] = (elvis_real(2) * c3 + elvis_real(3) * c2) / elvis_real(5);
+    fitted.p.c[5] = c3;
+    // Chebyshev coefficients of the two highest degrees.
+    const elvis_real part = width / (integral.to - integral.from), line = integral.bend * part * part;
+    const elvis_real quartic = shift - at * tilt - elvis_real(2) * tilt;
+    const elvis_real of_cubic = max(max(abs(cubic) / elvis_real(32), abs(square / elvis_real(8) + cubic * elvis_real(0.1875LF)) / elvis_real(4)),
+                                    CORE_CUBIC_DOUBT * line);
+    const elvis_real of_quintic =
+        max(max(abs(tilt) / elvis_real(512),
+                abs(quartic / elvis_real(128) + tilt * elvis_real(0.01953125LF)) / elvis_real(4)),
+            CORE_QUINTIC_DOUBT * line);
+    const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
+    fitted.error = (with_inner ? of_quintic : of_cubic) / elvis_real(3) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    return fitted;
+}
+
+// A sample where one was wanted, and as much of the integral as that allows. `per_parameter`: length of the ray for its parameter.
+// `tolerance`: what each channel may be off in the end; `ahead`: how much of the ray is left at most, from `from` on.
+void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error, elvis_real bend,
+                       elvis_real per_parameter, elvis_real tolerance, elvis_real ahead) {
+    integral.error = max(integral.error, error);
+    const uint given = integral.wants;
+    const bool is_end = given == CORE_WANTS_END, is_left = given == CORE_WANTS_LEFT, is_inner = given == CORE_WANTS_INNER;
+    integral.end_value = is_end ? value : integral.end_value;
+    integral.end_slope = is_end ? slope : integral.end_slope;
+    integral.left_value = is_left ? value : integral.left_value;
+    integral.left_slope = is_left ? slope : integral.left_slope;
+    const bool is_right = is_end || given == CORE_WANTS_RIGHT;
+    integral.right_value = is_right ? value : integral.right_value;
+    integral.right_slope = is_right ? slope : integral.right_slope;
+    integral.inner_value = is_inner ? value : integral.inner_value;
+    integral.inner_slope = is_inner ? slope : integral.inner_slope;
+    integral.bend = is_end || is_left ? max(integral.bend, bend) : integral.bend;
+    integral.wants = is_end ? CORE_WANTS_LEFT : CORE_WANTS_NOTHING;
+    bool has_inner = is_inner;
+    while (integral.wants == CORE_WANTS_NOTHING && integral.left < integral.to) {
+        const elvis_real width = integral.right - integral.left;
+        const elvis_real budget = max(tolerance - light.error, elvis_real(0));
+        const elvis_real allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
+        const core_fitted fitted = core_fit_step(integral, has_inner);
+        core_light next = light;
+        uint n_breakpoints = 0u;
+        core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, elvis_real(0.25LF) * allowed, n_breakpoints);
+        const bool is_shortest = width <= CORE_SHORTEST_STEP * (integral.to - integral.from);
+        // The rest is not of the polynomial's making.
+        const bool is_rounding = fitted.error <= elvis_real(2) * integral.error;
+        const bool is_good = next.error - light.error <= allowed || (has_inner && (is_shortest || is_rounding));
+        const bool is_shorter = !is_good && has_inner;
+        integral.n_steps += is_good ? 1u : 0u;
+        integral.n_breakpoints += is_good ? n_breakpoints : 0u;
+        if (is_good) {
+            light = next;
+        }
+        // On: to the end, or as far again and a little more. Back: to the sample inside, without a new one.
+        const elvis_real inner = integral.left + CORE_INNER_AT * width;
+        const elvis_real reach = integral.right + elvis_real(1.5LF) * width;
+        const bool is_last = reach >= integral.to;
+        const elvis_real next_right = is_good ? (is_last ? integral.to : reach) : is_shorter ? inner : integral.right;
+        integral.left_value = is_good ? integral.right_value : integral.left_value;
+        integral.left_slope = is_good ? integral.right_slope : integral.left_slope;
+        integral.left = is_good ? integral.right : integral.left;
+        integral.right_value = is_good && is_last ? integral.end_value : is_shorter ? integral.inner_value : integral.right_value;
+        integral.right_slope = is_good && is_last ? integral.end_slope : is_shorter ? integral.inner_slope : integral.right_slope;
+        integral.right = next_right;
+        integral.wants = is_good ? (is_last || integral.left >= integral.to ? CORE_WANTS_NOTHING : CORE_WANTS_RIGHT)
+                         : is_shorter ? CORE_WANTS_NOTHING
+                                      : CORE_WANTS_INNER;
+        has_inner = false;
+    }
+}
