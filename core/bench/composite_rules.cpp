@@ -56,7 +56,8 @@ Rule rule_of(CompositeRule rule) {
 } // namespace
 
 const char* name_of(CompositeRule rule) {
-    constexpr std::array<const char*, 6> names{"Riemann", "midpoint", "trapezoid", "Simpson", "Gauss-Legendre", "Gauss-Kronrod"};
+    constexpr std::array<const char*, 6> names{"Riemann", "midpoint",       "trapezoid",
+                                               "Simpson", "Gauss-Legendre", "Gauss-Kronrod"};
     return names[static_cast<std::size_t>(rule)];
 }
 

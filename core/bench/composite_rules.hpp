@@ -1,7 +1,7 @@
 /**
  * @file composite_rules.hpp
- * Quadrature of a function of one variable by the same rule in many intervals, and how fast its error falls: what B. Nelson (2012),
- * section 6.3, says of functions with a breakpoint.
+ * Quadrature of a function of one variable by the same rule in many intervals, and how fast its error falls: what B. Nelson
+ * (2012), section 6.3, says of functions with a breakpoint.
  */
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace elvis {
 
 enum class CompositeRule {
-    riemann,        ///< the value at the start of each interval
+    riemann, ///< the value at the start of each interval
     midpoint,
     trapezoid,
     simpson,
@@ -48,10 +48,10 @@ std::vector<RuleError> rule_errors(CompositeRule rule, const RealFunction& funct
                                    std::span<const std::size_t> n_intervals);
 
 /**
- * The power by which errors fall with the number of intervals: the slope of a line through their logarithms by least squares. Where a
- * breakpoint lies in its interval changes with their number and moves the error by a factor between 0 and 1: the line is drawn
- * through the largest error of every `window` neighbours. Errors below `least` are rounding, and left out; NaN if fewer than two
- * are left.
+ * The power by which errors fall with the number of intervals: the slope of a line through their logarithms by least squares.
+ * Where a breakpoint lies in its interval changes with their number and moves the error by a factor between 0 and 1: the line
+ * is drawn through the largest error of every `window` neighbours. Errors below `least` are rounding, and left out; NaN if
+ * fewer than two are left.
  */
 double measured_order(std::span<const RuleError> errors, double least = 1e-13, std::size_t window = 1);
 

@@ -26,7 +26,8 @@ TEST_CASE("the cubics meet at the breakpoint") {
     CHECK((BrokenCubic::value(0.54001) - BrokenCubic::value(0.54)) / 1e-5 == Approx(-1.5704).margin(1e-4));
     for (const double t : {0.2, 0.54, 0.7, 1.0}) {
         CAPTURE(t);
-        CHECK((BrokenCubic::integral(t) - BrokenCubic::integral(t - 1e-4)) / 1e-4 == Approx(BrokenCubic::value(t - 0.5e-4)).margin(1e-8));
+        CHECK((BrokenCubic::integral(t) - BrokenCubic::integral(t - 1e-4)) / 1e-4 ==
+              Approx(BrokenCubic::value(t - 0.5e-4)).margin(1e-8));
     }
 }
 
@@ -70,7 +71,9 @@ TEST_CASE("every rule is exact for polynomials below its order") {
             const RealFunction polynomial = [degree](double t) { return std::cos(degree * std::acos(t)); };
             const auto antiderivative = [degree](double t) {
                 const double n = degree, angle = std::acos(t);
-                return degree == 0 ? t : degree == 1 ? 0.5 * t * t : 0.5 * (std::cos((n + 1) * angle) / (n + 1) - std::cos((n - 1) * angle) / (n - 1));
+                return degree == 0   ? t
+                       : degree == 1 ? 0.5 * t * t
+                                     : 0.5 * (std::cos((n + 1) * angle) / (n + 1) - std::cos((n - 1) * angle) / (n - 1));
             };
             const double error = std::abs(integrate(rule, polynomial, -1, 0.9, 1) - (antiderivative(0.9) - antiderivative(-1)));
             CAPTURE(name_of(rule), degree, error);
@@ -104,7 +107,8 @@ TEST_CASE("a breakpoint leaves all rules but Riemann's at second order") {
         const std::vector<RuleError> errors = rule_errors(rule, BrokenCubic::value, 0, 1, BrokenCubic::integral(1), numbers);
         // Twelve numbers of intervals, and the breakpoint has been nearly everywhere in its interval.
         const double order = measured_order(errors, 1e-13, 12);
-        WARN(name_of(rule) << ": order " << order << ", error " << errors.back().error << " with " << errors.back().n_samples << " samples");
+        WARN(name_of(rule) << ": order " << order << ", error " << errors.back().error << " with " << errors.back().n_samples
+                           << " samples");
         CHECK(order == Approx(rule == CompositeRule::riemann ? 1 : 2).margin(0.05));
     }
 }

@@ -9,7 +9,9 @@
 namespace elvis::oracle {
 namespace {
 
-std::array<double, 3> random_color(Random& random) { return {random.between(0, 1), random.between(0, 1), random.between(0, 1)}; }
+std::array<double, 3> random_color(Random& random) {
+    return {random.between(0, 1), random.between(0, 1), random.between(0, 1)};
+}
 
 } // namespace
 
@@ -85,9 +87,11 @@ RandomTransfer random_transfer(std::uint64_t seed, double low, double high, doub
     std::vector<double> values;
     for (int i = 0; i < std::max(n_left, 1); ++i)
         // Now and then at a breakpoint of the density.
-        values.push_back(n_left <= 0 || random.one_in(3)
-                             ? transfer.density[static_cast<std::size_t>(random.whole(0, static_cast<int>(transfer.density.size()) - 1))].value
-                             : value());
+        values.push_back(
+            n_left <= 0 || random.one_in(3)
+                ? transfer.density[static_cast<std::size_t>(random.whole(0, static_cast<int>(transfer.density.size()) - 1))]
+                      .value
+                : value());
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
     for (const double at : values) {

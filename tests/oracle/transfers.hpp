@@ -13,8 +13,8 @@ namespace elvis::oracle {
 
 /**
  * Three peaks of density, shaped as tents, for the field x^2 + y^2 + z^2 in [-1,1] x [-1,1] x [-2,4]: at 1, 4 and 9, and empty
- * between. `width`: of their feet, over the field's range of 18. A ray straight through all of them keeps about a quarter of the
- * light behind.
+ * between. `width`: of their feet, over the field's range of 18. A ray straight through all of them keeps about a quarter of
+ * the light behind.
  */
 TransferFunction sphere_peaks(double width);
 

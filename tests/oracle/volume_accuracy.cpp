@@ -162,9 +162,11 @@ VolumeComparison compare(const Model& model, const VolumeOptics& optics, const C
         bool is_rounding = false;
         if (is_above && !is_flagged) {
             // Between what the field would give if it were a little lower or higher, in each channel.
-            const Line line = line_of(pixel_ray(camera, frame.width, frame.height, static_cast<long double>(pixel % frame.width),
-                                                static_cast<long double>(pixel / frame.width)));
-            const Color one = color_over(below.integrate(line), background), other = color_over(above.integrate(line), background);
+            const Line line =
+                line_of(pixel_ray(camera, frame.width, frame.height, static_cast<long double>(pixel % frame.width),
+                                  static_cast<long double>(pixel / frame.width)));
+            const Color one = color_over(below.integrate(line), background),
+                        other = color_over(above.integrate(line), background);
             is_rounding = true;
             for (std::size_t c = 0; c < 4; ++c)
                 is_rounding = is_rounding && drawn[c] >= std::min({right[c], one[c], other[c]}) - tolerance &&
@@ -212,16 +214,17 @@ VolumeAccuracy measure_volume(const Device* device, const VolumeScene& scene, co
     const VolumeOptics optics{scalar_of_field(model.volume, 0), scene.transfer};
     const std::size_t n_pixels = std::size_t{settings.size} * settings.size;
     VolumeAccuracy result;
-    result.exact = draw_volume(model, optics, scene.camera, settings.size, settings.size,
-                               settings.n_pixels == 0 ? std::vector<std::size_t>{} : sampled_pixels(n_pixels, settings.n_pixels, 1));
+    result.exact =
+        draw_volume(model, optics, scene.camera, settings.size, settings.size,
+                    settings.n_pixels == 0 ? std::vector<std::size_t>{} : sampled_pixels(n_pixels, settings.n_pixels, 1));
     if (device == nullptr)
         return result;
     const RuntimeVolume volume = open_volume(scene.path);
     for (const Precision precision : settings.precisions) {
         Renderer renderer(*device, volume, precision);
         const Frame frame = renderer.render(volume_request(scene, settings, model.diagonal));
-        result.comparisons.push_back(compare(model, optics, scene.camera, scene.background, result.exact, frame, settings.tolerance,
-                                             field_rounding(precision)));
+        result.comparisons.push_back(compare(model, optics, scene.camera, scene.background, result.exact, frame,
+                                             settings.tolerance, field_rounding(precision)));
         result.counts.push_back(frame.counts);
         result.render_milliseconds.push_back(frame.render_milliseconds);
     }
@@ -236,8 +239,8 @@ std::string to_text(const VolumeComparison& c) {
                   "  where flagged                          %.3g in %zu pixels\n"
                   "  above the tolerance                    %zu: %zu flagged, %zu within the field's rounding, %zu wrong\n"
                   "  the oracle's own estimate              %.3g",
-                  c.n_pixels, c.n_touched, c.error, c.worst_channel, c.worst_pixel, c.mean_error, c.flagged_error, c.n_flagged, c.n_above,
-                  c.n_above_flagged, c.n_above_rounding, c.n_wrong, c.oracle_error);
+                  c.n_pixels, c.n_touched, c.error, c.worst_channel, c.worst_pixel, c.mean_error, c.flagged_error, c.n_flagged,
+                  c.n_above, c.n_above_flagged, c.n_above_rounding, c.n_wrong, c.oracle_error);
     return text;
 }
 

@@ -51,7 +51,8 @@ struct VolumeComparison {
     std::size_t n_above_rounding = 0;
     /** The rest: neither flagged nor rounding. */
     std::size_t n_wrong = 0;
-    /** Largest of a channel, opacity included, where it is not flagged and where it is; and the mean over pixels of the largest. */
+    /** Largest of a channel, opacity included, where it is not flagged and where it is; and the mean over pixels of the
+     * largest. */
     double error = 0, flagged_error = 0, mean_error = 0;
     /** A wrong pixel, or else that of the largest error. */
     std::size_t worst_pixel = 0, worst_channel = 0;

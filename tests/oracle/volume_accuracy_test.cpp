@@ -125,7 +125,8 @@ TEST_CASE("what hides a volume hides it from a depth on") {
     VolumeTracer tracer(model, optics);
     std::size_t n_less = 0;
     for (std::size_t pixel = 0; pixel < 100; ++pixel) {
-        const Line line = line_of(pixel_ray(scene.camera, 10, 10, static_cast<long double>(pixel % 10), static_cast<long double>(pixel / 10)));
+        const Line line = line_of(
+            pixel_ray(scene.camera, 10, 10, static_cast<long double>(pixel % 10), static_cast<long double>(pixel / 10)));
         CAPTURE(pixel);
         const double expected = pixel < 25   ? 1
                                 : pixel < 50 ? tracer.integrate(line, 8.5).transmittance

@@ -46,7 +46,8 @@ nlohmann::json to_json(const VolumeComparison& c, const FrameCounts& counts, dou
             {"above_rounding", c.n_above_rounding},
             {"wrong", c.n_wrong},
             {"oracle_error", c.oracle_error},
-            {"evaluations_per_pixel", static_cast<double>(counts.field_evaluations) / static_cast<double>(std::max<std::uint64_t>(counts.pixels, 1))},
+            {"evaluations_per_pixel",
+             static_cast<double>(counts.field_evaluations) / static_cast<double>(std::max<std::uint64_t>(counts.pixels, 1))},
             {"segments", counts.volume_segments},
             {"empty_segments", counts.empty_segments},
             {"steps", counts.volume_steps},
@@ -95,7 +96,9 @@ public:
             for (std::uint64_t seed = m_arguments.seed; seed < m_arguments.seed + m_arguments.count; ++seed)
                 add(random_scene(seed, file.path()), static_cast<std::int64_t>(seed));
         } else {
-            add(file_scene(m_arguments.scene, m_arguments.transfer.empty() ? TransferFunction{} : read_transfer(m_arguments.transfer)), -1);
+            add(file_scene(m_arguments.scene,
+                           m_arguments.transfer.empty() ? TransferFunction{} : read_transfer(m_arguments.transfer)),
+                -1);
         }
         return report();
     }
@@ -123,11 +126,12 @@ private:
             row[precision] = to_json(comparison, one.counts[i], one.render_milliseconds[i]);
             // Of many scenes only the bad ones.
             if (!m_arguments.is_json && (seed < 0 || comparison.n_wrong > 0)) {
-                std::printf("%s%s: %s: error %.3g, mean %.3g; %zu above, %zu flagged, %zu by rounding, %zu wrong; pixel %zu; %.4g evaluations "
+                std::printf("%s%s: %s: error %.3g, mean %.3g; %zu above, %zu flagged, %zu by rounding, %zu wrong; pixel %zu; "
+                            "%.4g evaluations "
                             "a pixel\n",
-                            seed < 0 ? "" : ("seed " + std::to_string(seed) + ", ").c_str(), precision, scene.description.c_str(),
-                            comparison.error, comparison.mean_error, comparison.n_above, comparison.n_above_flagged,
-                            comparison.n_above_rounding, comparison.n_wrong, comparison.worst_pixel,
+                            seed < 0 ? "" : ("seed " + std::to_string(seed) + ", ").c_str(), precision,
+                            scene.description.c_str(), comparison.error, comparison.mean_error, comparison.n_above,
+                            comparison.n_above_flagged, comparison.n_above_rounding, comparison.n_wrong, comparison.worst_pixel,
                             static_cast<double>(one.counts[i].field_evaluations) / static_cast<double>(one.counts[i].pixels));
                 std::fflush(stdout);
             }
@@ -149,21 +153,26 @@ private:
                                      {"tolerance", m_arguments.settings.tolerance},
                                      {"step", m_arguments.settings.step},
                                      {"size", m_arguments.settings.size},
-                                     {"oracle", {{"rays", m_oracle_rays}, {"seconds", m_oracle_seconds}, {"failures", m_oracle_failures},
-                                                 {"error", m_oracle_error}}},
+                                     {"oracle",
+                                      {{"rays", m_oracle_rays},
+                                       {"seconds", m_oracle_seconds},
+                                       {"failures", m_oracle_failures},
+                                       {"error", m_oracle_error}}},
                                      {"good", is_good}};
             std::printf("%s\n", all.dump(1).c_str());
             return is_good ? 0 : 1;
         }
         for (std::size_t i = 0; i < m_sums.size(); ++i)
-            std::printf("%s, %zu scenes, %.3g ms and %.4g evaluations a pixel: %s\n%s\n", name_of(m_arguments.settings.precisions[i]),
-                        m_n_scenes, m_milliseconds[i] / static_cast<double>(m_pixels[i]),
+            std::printf("%s, %zu scenes, %.3g ms and %.4g evaluations a pixel: %s\n%s\n",
+                        name_of(m_arguments.settings.precisions[i]), m_n_scenes,
+                        m_milliseconds[i] / static_cast<double>(m_pixels[i]),
                         static_cast<double>(m_evaluations[i]) / static_cast<double>(m_pixels[i]),
                         m_sums[i].n_wrong == 0 ? "good" : "WRONG", to_text(m_sums[i]).c_str());
-        std::printf("oracle: %.3g rays a second, %zu of %zu with light of a volume, %.3g pieces each, estimate %.2g, %llu failures\n",
-                    static_cast<double>(m_oracle_rays) / m_oracle_seconds, m_oracle_touched, m_oracle_rays,
-                    static_cast<double>(m_oracle_pieces) / static_cast<double>(std::max<std::size_t>(m_oracle_touched, 1)), m_oracle_error,
-                    static_cast<unsigned long long>(m_oracle_failures));
+        std::printf(
+            "oracle: %.3g rays a second, %zu of %zu with light of a volume, %.3g pieces each, estimate %.2g, %llu failures\n",
+            static_cast<double>(m_oracle_rays) / m_oracle_seconds, m_oracle_touched, m_oracle_rays,
+            static_cast<double>(m_oracle_pieces) / static_cast<double>(std::max<std::size_t>(m_oracle_touched, 1)),
+            m_oracle_error, static_cast<unsigned long long>(m_oracle_failures));
         return is_good ? 0 : 1;
     }
 
@@ -183,7 +192,8 @@ private:
 
 int main(int argc, char** argv) {
     elvis::oracle::Arguments arguments;
-    CLI::App app("Volumes drawn by ElVis, compared with the oracle channel by channel. Fails if a pixel is off by more than the tolerance, "
+    CLI::App app("Volumes drawn by ElVis, compared with the oracle channel by channel. Fails if a pixel is off by more than "
+                 "the tolerance, "
                  "does not say so, and a field within its rounding would not explain it.");
     std::vector<std::string> integrators;
     for (const auto& [name, integrator] : elvis::oracle::integrators)

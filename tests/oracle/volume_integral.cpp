@@ -84,7 +84,8 @@ const Quadrature& quadrature() {
 
 // The integral over [a, b], halved until both rules agree, or as nearly as values with this relative rounding can.
 template <class Function>
-Rgb integrate_adaptively(const Function& function, double a, double b, double tolerance, double rounding, int depth, double& error) {
+Rgb integrate_adaptively(const Function& function, double a, double b, double tolerance, double rounding, int depth,
+                         double& error) {
     const Quadrature& rule = quadrature();
     const double half = 0.5 * (b - a), middle = 0.5 * (a + b);
     Rgb kronrod = Rgb::Zero(), gauss = Rgb::Zero(), size = Rgb::Zero();
@@ -206,7 +207,9 @@ std::vector<OwnedPiece> VolumeTracer::owned_pieces(const Line& line, double unti
             const double from = std::max(piece.from, reached), to = std::min(piece.to, until);
             if (!(from < to))
                 continue;
-            const auto s_of = [&](double t) { return std::clamp((2 * t - piece.from - piece.to) / (piece.to - piece.from), -1.0, 1.0); };
+            const auto s_of = [&](double t) {
+                return std::clamp((2 * t - piece.from - piece.to) / (piece.to - piece.from), -1.0, 1.0);
+            };
             const double begin = from == piece.from ? -1 : s_of(from), end = to == piece.to ? 1 : s_of(to);
             reached = to;
             owned.push_back({std::move(piece), begin, end});
@@ -236,7 +239,8 @@ void VolumeTracer::add(const OwnedPiece& owned, VolumeFormula formula, VolumeLig
         const auto above = std::upper_bound(m_breakpoints.begin(), m_breakpoints.end(), value);
         const double from = above == m_breakpoints.begin() ? *above : *std::prev(above);
         const double length = 0.5 * (cuts[i] - cuts[i - 1]) * (piece.to - piece.from);
-        add_smooth_piece(part_of(piece.field, cuts[i - 1], cuts[i], from), optics_about(m_transfer, value, from), length, formula, light);
+        add_smooth_piece(part_of(piece.field, cuts[i - 1], cuts[i], from), optics_about(m_transfer, value, from), length,
+                         formula, light);
     }
 }
 
@@ -268,7 +272,8 @@ VolumePicture draw_volume(const Model& model, const VolumeOptics& optics, const 
                     const Line line = line_of(pixel_ray(camera, width, height, static_cast<long double>(pixel % width),
                                                         static_cast<long double>(pixel / width)));
                     const bool is_hidden = !depths.empty() && !std::isnan(depths[pixel]);
-                    picture.answers[i] = tracer.integrate(line, is_hidden ? depths[pixel] : std::numeric_limits<double>::infinity());
+                    picture.answers[i] =
+                        tracer.integrate(line, is_hidden ? depths[pixel] : std::numeric_limits<double>::infinity());
                 }
             });
     }

@@ -40,8 +40,8 @@ struct VolumeLight {
     /** The share of what is behind that arrives. */
     double transmittance = 1;
     /**
-     * Estimate for each of them: what quadrature and the field's series leave, without rounding. A series' error moves steps, too,
-     * which is not in it.
+     * Estimate for each of them: what quadrature and the field's series leave, without rounding. A series' error moves steps,
+     * too, which is not in it.
      */
     double error = 0;
     /** Between neighbouring cuts. */
@@ -73,8 +73,8 @@ public:
                           VolumeFormula formula = VolumeFormula::emission);
 
     /**
-     * From front to back. Where elements overlap, the one entered first owns the ray to its exit; where two are entered at once, as
-     * far as rounding tells, either does.
+     * From front to back. Where elements overlap, the one entered first owns the ray to its exit; where two are entered at
+     * once, as far as rounding tells, either does.
      */
     std::vector<OwnedPiece> owned_pieces(const Line& line, double until = std::numeric_limits<double>::infinity());
 
@@ -104,8 +104,8 @@ struct VolumePicture {
 };
 
 /**
- * `pixels`: those that are wanted; all if empty. `depths`: one a pixel of the picture, beyond which the volume is hidden (NaN: it
- * is not); none is hidden if empty.
+ * `pixels`: those that are wanted; all if empty. `depths`: one a pixel of the picture, beyond which the volume is hidden (NaN:
+ * it is not); none is hidden if empty.
  */
 VolumePicture draw_volume(const Model& model, const VolumeOptics& optics, const Camera& camera, std::uint32_t width,
                           std::uint32_t height, std::vector<std::size_t> pixels = {}, std::span<const double> depths = {});
