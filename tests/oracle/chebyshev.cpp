@@ -110,6 +110,33 @@ double ChebyshevSeries::operator()(double s) const {
     return m_coefficients[0] + s * next - after;
 }
 
+// 2 T_k = T'_{k+1} / (k + 1) - T'_{k-1} / (k - 1)
+ChebyshevSeries ChebyshevSeries::antiderivative() const {
+    const auto c = [this](std::size_t k) { return k < m_coefficients.size() ? m_coefficients[k] : 0; };
+    ChebyshevSeries integral;
+    integral.m_coefficients.resize(m_coefficients.size() + 1);
+    double at_start = 0;
+    for (std::size_t k = integral.m_coefficients.size() - 1; k > 0; --k) {
+        integral.m_coefficients[k] = ((k == 1 ? 2 : 1) * c(k - 1) - c(k + 1)) / (2 * static_cast<double>(k));
+        at_start += (k % 2 == 0 ? 1 : -1) * integral.m_coefficients[k];
+    }
+    integral.m_coefficients[0] = -at_start;
+    return integral;
+}
+
+ChebyshevSeries ChebyshevSeries::derivative() const {
+    ChebyshevSeries slope;
+    slope.m_coefficients.resize(std::max<std::size_t>(degree(), 1));
+    double next = 0, after = 0;
+    for (std::size_t k = degree(); k > 0; --k) {
+        const double here = after + 2 * static_cast<double>(k) * m_coefficients[k];
+        slope.m_coefficients[k - 1] = k == 1 ? 0.5 * here : here;
+        after = next;
+        next = here;
+    }
+    return slope;
+}
+
 double ChebyshevSeries::tail() const { return vector_of(m_coefficients).tail(static_cast<Eigen::Index>(degree() / 4)).cwiseAbs().maxCoeff(); }
 
 double ChebyshevSeries::size() const { return vector_of(m_coefficients).cwiseAbs().maxCoeff(); }

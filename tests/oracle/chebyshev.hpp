@@ -19,6 +19,9 @@ public:
     explicit ChebyshevSeries(std::span<const double> values);
 
     double operator()(double s) const;
+    /** Its integral from -1. */
+    ChebyshevSeries antiderivative() const;
+    ChebyshevSeries derivative() const;
     std::size_t degree() const { return m_coefficients.size() - 1; }
 
     /** Largest coefficient of the last quarter, and of all. */
