@@ -57,7 +57,7 @@ struct PixelParameters {
 };
 
 /** Bytes of one core_volume_state. */
-std::size_t state_bytes(Precision precision) { return 8 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
+std::size_t state_bytes(Precision precision) { return 9 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
 

@@ -52,7 +52,7 @@ layout(push_constant) uniform core_parameters {
 
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 48u
-#define CORE_WORK_LIMIT 1500u
+#define CORE_WORK_LIMIT 800u
 // Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
 #define CORE_MOST_HOPS 16u
 // Below this share nothing behind can be seen.
@@ -125,7 +125,7 @@ void main() {
     const bool is_own = element >= core_first_element && element - core_first_element < core_n_elements;
     const bool is_mine = is_without || ((status == CORE_RAY_SEEKS || status == CORE_RAY_GOES) && is_own);
     const bool begins = is_mine && status == CORE_RAY_SEEKS && !is_without;
-    elvis_real chain = state.chain, done = state.done;
+    elvis_real chain = state.chain, done = state.done, step = state.step;
     const elvis_real start = begins ? chain : state.start;
     const uint start_element = begins ? element : state.start_element;
     status = is_without ? CORE_RAY_ENDS : is_mine && chain >= to ? status_at_end : begins ? CORE_RAY_GOES : status;
@@ -165,7 +165,7 @@ void main() {
         // What lies between.
         const bool has_segment = is_met && from < until;
         n_segments += has_segment ? 1u : 0u;
-        core_integral integral = core_integral_begin(from, has_segment ? until : from, ray.speed);
+        core_integral integral = core_integral_begin(from, has_segment ? until : from, ray.speed, step);
         const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - start), until - from);
         const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0)) /
                                   (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
@@ -178,10 +178,10 @@ void main() {
         follower.slope_y = part.slope_y;
         follower.slope_z = part.slope_z;
         core_follow_to(follower, core_integral_at(integral));
-        follower.span = from - follower.goal;
+        follower.span = core_integral_span(integral);
         follower.enough = enough;
         bool is_broken = false;
-        while (integral.wants != CORE_WANTS_NOTHING && !is_broken) {
+        while (integral.wants != CORE_WANTS_NOTHING && !is_broken && work < CORE_WORK_LIMIT) {
             work += 1u;
             const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
             n_evaluations += 1u;
@@ -190,9 +190,9 @@ void main() {
             n_failures += has_failed ? 1u : 0u;
             flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
             for (uint turn = 0u; turn < (result.status == CORE_SAMPLE_FOUND && !is_broken ? 1u : 0u); ++turn) {
-                core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead);
+                core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead, work);
                 core_follow_to(follower, core_integral_at(integral));
-                follower.span = follower.goal == from ? until - from : from - follower.goal;
+                follower.span = core_integral_span(integral);
                 follower.enough = enough;
             }
         }
@@ -204,10 +204,12 @@ void main() {
             core_add_light(light, elvis_vec3(1, 0, 1), elvis_real(0));
         }
 
-        // Where to go on.
-        done = max(done, until);
+        // Where to go on: in the same element, if there was no time for all of it.
+        const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken;
+        step = is_left_open ? integral.right - integral.left : CORE_FAR;
+        done = max(done, is_left_open ? integral.left : until);
         const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
-        const bool is_over = is_opaque || is_stopped;
+        const bool is_over = is_opaque || is_stopped || is_left_open;
         chain = is_over ? chain : leave;
         const uint link = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
         uint next = link;
@@ -220,7 +222,7 @@ void main() {
             chain = probe;
         }
         element = is_over ? element : next;
-        status = is_opaque ? CORE_RAY_ENDS : is_stopped ? status_at_end : next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+        status = is_opaque ? CORE_RAY_ENDS : is_left_open ? CORE_RAY_GOES : is_stopped ? status_at_end : next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
         goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;
     }
     const bool is_cut_short = core_has_driver_given_up(core_zero);
@@ -228,6 +230,7 @@ void main() {
     flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
     for (uint turn = 0u; turn < (is_mine ? 1u : 0u); ++turn) {
         state.done = done;
+        state.step = step;
         state.chain = seeks ? CORE_FAR : chain;
         state.start = start;
         state.start_element = start_element;

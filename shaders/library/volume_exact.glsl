@@ -13,9 +13,9 @@
 
 // Parts of a piece for quadrature, at first one for each of these optical depths; at most.
 #define CORE_DEPTH_A_PART elvis_real(2)
-#define CORE_MOST_QUADRATURE_PARTS 64u
-// Breakpoints met in one step.
-#define CORE_MOST_CROSSINGS 96u
+#define CORE_MOST_QUADRATURE_PARTS 16u
+// Breakpoints met in one step, beyond which it is not to be good.
+#define CORE_MOST_CROSSINGS 32u
 
 // Integral over s from 0 to 1 of p - from.
 elvis_real core_mean_above(core_polynomial p, elvis_real from) {
@@ -61,17 +61,18 @@ elvis_vec2 core_weighted_value(core_polynomial p, core_transfer_piece piece, elv
     return length * width * elvis_vec2(kronrod_sum, error_sum);
 }
 
-// A piece without breakpoints inside; `error`: of the field. Returns the number of field values that quadrature took of the polynomial.
-void core_add_piece(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, elvis_real allowed) {
+// A piece without breakpoints inside; `error`: of the field. `work` grows by what loops have done.
+void core_add_piece(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, elvis_real allowed, inout uint work) {
     const core_transfer_piece piece = core_fetch_piece(core_piece_index(core_bernstein_value(p, elvis_real(0.5LF))));
     const elvis_real depth =
         max(length * (piece.density + piece.density_slope * core_mean_above(p, piece.from)), elvis_real(0));
     const elvis_real through = elvis_exp(-depth);
     const elvis_real slope = max(max(abs(piece.color_slope.x), abs(piece.color_slope.y)), abs(piece.color_slope.z));
     elvis_vec2 weighted = elvis_vec2(0);
-    uint n_parts = slope * depth > elvis_real(0) ? uint(min(depth / CORE_DEPTH_A_PART, elvis_real(31))) + 1u : 0u;
+    uint n_parts = slope * depth > elvis_real(0) ? uint(min(depth / CORE_DEPTH_A_PART, elvis_real(CORE_MOST_QUADRATURE_PARTS - 1u))) + 1u : 0u;
     while (n_parts > 0u) {
         weighted = core_weighted_value(p, piece, length, n_parts);
+        work += n_parts;
         const bool is_good = light.left * slope * weighted.y <= allowed || n_parts >= CORE_MOST_QUADRATURE_PARTS;
         n_parts = is_good ? 0u : 2u * n_parts;
     }
@@ -81,7 +82,7 @@ void core_add_piece(inout core_light light, core_polynomial p, elvis_real length
 
 // All of a polynomial, on a part of a ray of this length, that is off by `error` at most.
 void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, elvis_real allowed,
-                         inout uint n_breakpoints) {
+                         inout uint n_breakpoints, inout uint work) {
     core_walk walk = core_walk_begin();
     elvis_real from = elvis_real(0);
     uint n_pieces = 0u;
@@ -89,12 +90,13 @@ void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real l
     while (!is_over) {
         const core_crossing crossing = core_next_crossing(p, error, core_n_breakpoints, walk);
         n_pieces += 1u;
+        work += 2u;
         is_over = crossing.kind == CORE_CROSSING_NONE || n_pieces > CORE_MOST_CROSSINGS;
         const elvis_real to = is_over ? elvis_real(1) : clamp(crossing.t, from, elvis_real(1));
         n_breakpoints += is_over ? 0u : 1u;
         for (uint turn = 0u; turn < (to > from ? 1u : 0u); ++turn) {
             const core_polynomial cell = core_after(core_before(p, to), from / to);
-            core_add_piece(light, cell, (to - from) * length, error, allowed);
+            core_add_piece(light, cell, (to - from) * length, error, allowed, work);
         }
         // Where the polynomial cannot tell on which side of the breakpoint the field is, and steps, which are where it crosses.
         for (uint turn = 0u; turn < (is_over ? 0u : 1u); ++turn) {

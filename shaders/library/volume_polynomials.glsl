@@ -11,23 +11,21 @@
 // The sample inside is not in the middle, so that fields that are symmetric in the element do not look simpler than they are.
 //
 // What a polynomial is off is estimated from the Chebyshev coefficients of its highest terms, two degrees of which are taken to go on as a
-// geometric series with ratio 1/4; and not less than a small part of how far the field may be from a line (library/ray_sample.glsl),
-// so that a field that happens to agree in all samples is not believed where bounds say that it may do much in between.
+// geometric series with ratio 1/4; of a cubic not less than a small part of how far the field may be from a line
+// (library/ray_sample.glsl): two samples alone are not believed where bounds say that it may do much in between.
 //
 // The kernel brings library/volume_exact.glsl.
 
 #define CORE_WANTS_NOTHING 0u
-#define CORE_WANTS_END 1u
+#define CORE_WANTS_RIGHT 1u
 #define CORE_WANTS_LEFT 2u
-#define CORE_WANTS_RIGHT 3u
-#define CORE_WANTS_INNER 4u
+#define CORE_WANTS_INNER 3u
 
 #define CORE_INNER_AT elvis_real(0.4375LF)
 // Steps are not made shorter than this part of the segment.
 #define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
-// Shares of how far the field may be from a line that a cubic and a quintic are taken to be off at least.
+// Share of how far the field may be from a line that a cubic is taken to be off at least.
 #define CORE_CUBIC_DOUBT elvis_real(0.015625LF)
-#define CORE_QUINTIC_DOUBT elvis_real(0.00006103515625LF)
 // Share of what is left of the tolerance that any step may use.
 #define CORE_LEAST_SHARE elvis_real(0.0625LF)
 
@@ -37,32 +35,39 @@ struct core_integral {
     elvis_real left, left_value, left_slope;
     elvis_real right, right_value, right_slope;
     elvis_real end_value, end_slope;
+    bool has_end, has_left;
     elvis_real inner_value, inner_slope;
     uint wants;
-    // Largest error of a sample, and deviation from a line over the whole segment.
+    // Largest error of a sample, and deviation from a line over the step.
     elvis_real error, bend;
     uint n_steps, n_breakpoints;
 };
 
-core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per_parameter) {
+// `step`: how long the first one may be, in the ray's parameter.
+core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per_parameter, elvis_real step) {
     core_integral integral;
     integral.from = integral.left = from;
-    integral.to = integral.right = to;
+    integral.to = to;
+    integral.right = elvis_real(1.5LF) * step < to - from ? from + step : to;
     integral.left_value = integral.left_slope = integral.right_value = integral.right_slope = elvis_real(0);
     integral.end_value = integral.end_slope = integral.inner_value = integral.inner_slope = elvis_real(0);
-    integral.wants = from < to ? CORE_WANTS_END : CORE_WANTS_NOTHING;
+    integral.has_end = false;
+    integral.wants = from < to ? CORE_WANTS_RIGHT : CORE_WANTS_NOTHING;
+    integral.has_left = false;
     integral.error = integral.bend = elvis_real(0);
     integral.n_steps = integral.n_breakpoints = 0u;
     return integral;
 }
 
-// Where the next sample is wanted.
+// Where the next sample is wanted, and how far from there its line is wanted.
 elvis_real core_integral_at(core_integral integral) {
     const elvis_real inner = integral.left + CORE_INNER_AT * (integral.right - integral.left);
-    return integral.wants == CORE_WANTS_END    ? integral.to
-           : integral.wants == CORE_WANTS_LEFT ? integral.left
-           : integral.wants == CORE_WANTS_RIGHT ? integral.right
-                                                : inner;
+    return integral.wants == CORE_WANTS_LEFT ? integral.left : integral.wants == CORE_WANTS_RIGHT ? integral.right : inner;
+}
+
+elvis_real core_integral_span(core_integral integral) {
+    const elvis_real width = integral.right - integral.left;
+    return integral.wants == CORE_WANTS_RIGHT ? -width : width;
 }
 
 struct core_fitted {
@@ -93,37 +98,36 @@ core_fitted core_fit_step(core_integral integral, bool with_inner) {
     fitted.p.c[4] = (elvis_real(2) * c3 + elvis_real(3) * c2) / elvis_real(5);
     fitted.p.c[5] = c3;
     // Chebyshev coefficients of the two highest degrees.
-    const elvis_real part = width / (integral.to - integral.from), line = integral.bend * part * part;
     const elvis_real quartic = shift - at * tilt - elvis_real(2) * tilt;
     const elvis_real of_cubic = max(max(abs(cubic) / elvis_real(32), abs(square / elvis_real(8) + cubic * elvis_real(0.1875LF)) / elvis_real(4)),
-                                    CORE_CUBIC_DOUBT * line);
-    const elvis_real of_quintic =
-        max(max(abs(tilt) / elvis_real(512),
-                abs(quartic / elvis_real(128) + tilt * elvis_real(0.01953125LF)) / elvis_real(4)),
-            CORE_QUINTIC_DOUBT * line);
+                                    CORE_CUBIC_DOUBT * integral.bend);
+    const elvis_real of_quintic = max(abs(tilt) / elvis_real(512),
+                                      abs(quartic / elvis_real(128) + tilt * elvis_real(0.01953125LF)) / elvis_real(4));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
     fitted.error = (with_inner ? of_quintic : of_cubic) / elvis_real(3) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
     return fitted;
 }
 
 // A sample where one was wanted, and as much of the integral as that allows. `per_parameter`: length of the ray for its parameter.
-// `tolerance`: what each channel may be off in the end; `ahead`: how much of the ray is left at most, from `from` on.
+// `tolerance`: what each channel may be off in the end; `ahead`: how much of the ray is left at most, from `from` on. `work` grows by what
+// loops have done. Up to integral.left light is settled.
 void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error, elvis_real bend,
-                       elvis_real per_parameter, elvis_real tolerance, elvis_real ahead) {
+                       elvis_real per_parameter, elvis_real tolerance, elvis_real ahead, inout uint work) {
     integral.error = max(integral.error, error);
-    const uint given = integral.wants;
-    const bool is_end = given == CORE_WANTS_END, is_left = given == CORE_WANTS_LEFT, is_inner = given == CORE_WANTS_INNER;
+    const bool is_left = integral.wants == CORE_WANTS_LEFT, is_inner = integral.wants == CORE_WANTS_INNER;
+    const bool is_right = integral.wants == CORE_WANTS_RIGHT, is_end = is_right && integral.right >= integral.to;
     integral.end_value = is_end ? value : integral.end_value;
     integral.end_slope = is_end ? slope : integral.end_slope;
+    integral.has_end = integral.has_end || is_end;
     integral.left_value = is_left ? value : integral.left_value;
     integral.left_slope = is_left ? slope : integral.left_slope;
-    const bool is_right = is_end || given == CORE_WANTS_RIGHT;
+    integral.has_left = integral.has_left || is_left;
     integral.right_value = is_right ? value : integral.right_value;
     integral.right_slope = is_right ? slope : integral.right_slope;
     integral.inner_value = is_inner ? value : integral.inner_value;
     integral.inner_slope = is_inner ? slope : integral.inner_slope;
-    integral.bend = is_end || is_left ? max(integral.bend, bend) : integral.bend;
-    integral.wants = is_end ? CORE_WANTS_LEFT : CORE_WANTS_NOTHING;
+    integral.bend = is_right ? bend : is_left ? max(integral.bend, bend) : integral.bend;
+    integral.wants = integral.has_left ? CORE_WANTS_NOTHING : CORE_WANTS_LEFT;
     bool has_inner = is_inner;
     while (integral.wants == CORE_WANTS_NOTHING && integral.left < integral.to) {
         const elvis_real width = integral.right - integral.left;
@@ -132,7 +136,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         const core_fitted fitted = core_fit_step(integral, has_inner);
         core_light next = light;
         uint n_breakpoints = 0u;
-        core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, elvis_real(0.25LF) * allowed, n_breakpoints);
+        core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, elvis_real(0.25LF) * allowed, n_breakpoints, work);
         const bool is_shortest = width <= CORE_SHORTEST_STEP * (integral.to - integral.from);
         // The rest is not of the polynomial's making.
         const bool is_rounding = fitted.error <= elvis_real(2) * integral.error;
@@ -147,14 +151,17 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         const elvis_real inner = integral.left + CORE_INNER_AT * width;
         const elvis_real reach = integral.right + elvis_real(1.5LF) * width;
         const bool is_last = reach >= integral.to;
+        // Of half a step, or of one about as long.
+        integral.bend *= is_shorter ? CORE_INNER_AT * CORE_INNER_AT : elvis_real(1);
         const elvis_real next_right = is_good ? (is_last ? integral.to : reach) : is_shorter ? inner : integral.right;
         integral.left_value = is_good ? integral.right_value : integral.left_value;
         integral.left_slope = is_good ? integral.right_slope : integral.left_slope;
         integral.left = is_good ? integral.right : integral.left;
-        integral.right_value = is_good && is_last ? integral.end_value : is_shorter ? integral.inner_value : integral.right_value;
-        integral.right_slope = is_good && is_last ? integral.end_slope : is_shorter ? integral.inner_slope : integral.right_slope;
+        integral.right_value = is_good && is_last && integral.has_end ? integral.end_value : is_shorter ? integral.inner_value : integral.right_value;
+        integral.right_slope = is_good && is_last && integral.has_end ? integral.end_slope : is_shorter ? integral.inner_slope : integral.right_slope;
         integral.right = next_right;
-        integral.wants = is_good ? (is_last || integral.left >= integral.to ? CORE_WANTS_NOTHING : CORE_WANTS_RIGHT)
+        const bool is_known = integral.left >= integral.to || (is_last && integral.has_end);
+        integral.wants = is_good ? (is_known ? CORE_WANTS_NOTHING : CORE_WANTS_RIGHT)
                          : is_shorter ? CORE_WANTS_NOTHING
                                       : CORE_WANTS_INNER;
         has_inner = false;

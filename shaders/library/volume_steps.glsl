@@ -11,6 +11,8 @@
 
 struct core_integral {
     elvis_real from, to;
+    // Up to here light is settled.
+    elvis_real left;
     uint wants;
     // Steps; samples taken.
     uint n_steps, n_samples;
@@ -19,9 +21,9 @@ struct core_integral {
     uint n_breakpoints;
 };
 
-core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per_parameter) {
+core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per_parameter, elvis_real step) {
     core_integral integral;
-    integral.from = from;
+    integral.from = integral.left = from;
     integral.to = to;
     integral.wants = from < to ? CORE_WANTS_VALUE : CORE_WANTS_NOTHING;
     integral.n_steps = from < to ? max(uint(min(ceil((to - from) * per_parameter / elvis_real(core_step)), elvis_real(16384))), 1u) : 0u;
@@ -34,8 +36,10 @@ elvis_real core_integral_at(core_integral integral) {
     return integral.from + (integral.to - integral.from) * elvis_real(integral.n_samples) / elvis_real(max(integral.n_steps, 1u));
 }
 
+elvis_real core_integral_span(core_integral integral) { return elvis_real(0); }
+
 void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error,
-                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead) {
+                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead, inout uint work) {
     const core_transfer_piece piece = core_fetch_piece(core_piece_index(value));
     const elvis_real density = core_density_at(piece, value);
     const elvis_vec3 color = density * core_color_at(piece, value);
