@@ -30,6 +30,8 @@ ColorMap read_color_map_file(const std::string& path);
 
 /** What tables of surfaces may deviate from the map in a channel: a hundredth of what a picture may. */
 inline constexpr double surface_table_tolerance = 1e-5;
+/** Of volumes: a tenth of it, as each point costs a root on each ray that takes its value. */
+inline constexpr double volume_table_tolerance = 1e-4;
 
 /** Points of the map and between them, linear in display RGB and within `tolerance` of the map in every channel. */
 std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map, double tolerance);

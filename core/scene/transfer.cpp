@@ -8,13 +8,10 @@ namespace elvis {
 
 namespace {
 
-/** A tenth of what a picture may: each point costs a root on each ray that takes its value. */
-constexpr double table_tolerance = 1e-4;
-
 std::array<double, 3> rgb_of(const Color& color) { return {color[0], color[1], color[2]}; }
 
 std::vector<TransferFunction::ColorPoint> colors_of(const SceneColorMap& map, const std::array<double, 2>& range) {
-    const ColorTable table = make_color_table(map, range, table_tolerance);
+    const ColorTable table = make_color_table(map, range, volume_table_tolerance);
     std::vector<TransferFunction::ColorPoint> points;
     if (const auto below = rgb_of(table.below); below != table.points.front().rgb) {
         points.push_back({table.points.front().value, below});

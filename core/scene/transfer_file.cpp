@@ -14,9 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-/** Nearer to the map than a picture can be off (see make_transfer_function). */
-constexpr double table_tolerance = 1e-4;
-
 double number_of(const json& value, const std::string& what, const std::string& path) {
     if (!value.is_number() || !std::isfinite(value.get<double>())) {
         throw Error(path, what + " is " + value.dump() + ", where a number is expected");
@@ -73,7 +70,7 @@ TransferFunction read_paraview(const json& document, const std::string& path) {
             }
         }
     }
-    for (const SceneColorMap::Point& point : piecewise_linear(map, table_tolerance)) {
+    for (const SceneColorMap::Point& point : piecewise_linear(map, volume_table_tolerance)) {
         transfer.color.push_back({point.position, point.rgb});
     }
     double unit_distance = 1;
