@@ -98,6 +98,18 @@ TEST_CASE("A peak with a colour has that colour everywhere") {
     }
 }
 
+TEST_CASE("Peaks in one place have their mean colour, up to where all of them end") {
+    TransferFunction transfer;
+    transfer.color = {{0, {0, 0, 0}}};
+    const std::vector<ScenePeak> same = {{1, 0.5, 3, Rgb{1, 0, 0}}, {1, 0.5, 1, Rgb{0, 1, 0}}};
+    add_peaks(same, transfer);
+    for (double value = 0.75; value < 1.25; value += 1.0 / 64) {
+        CHECK(color_at(transfer, value, 0) == Approx(0.75));
+        CHECK(color_at(transfer, value, 1) == Approx(0.25));
+    }
+    CHECK(cut_at_breakpoints(transfer).breakpoints == std::vector<double>{0.75, 1, 1.25});
+}
+
 TEST_CASE("Peaks add up, with each other and with the density given besides") {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> value(-1.5, 2.5), part(0, 1);

@@ -62,6 +62,10 @@ TEST_CASE("Pieces of a table agree with the functions they were cut from") {
             const TransferPiece& piece = table.piece_at(value);
             const double density = density_at(transfer, value);
             REQUIRE(std::abs(density_in(piece, value) - density) < 1e-13);
+            if (piece.density == 0 && piece.density_slope == 0) {
+                REQUIRE(piece.rgb == std::array<double, 3>{});
+                REQUIRE(piece.rgb_slope == std::array<double, 3>{});
+            }
             for (std::size_t channel = 0; channel < 3 && density > 0; ++channel) {
                 const double color = piece.rgb[channel] + (value - piece.from) * piece.rgb_slope[channel];
                 REQUIRE(std::abs(color - color_at(transfer, value, channel)) < 1e-13);
