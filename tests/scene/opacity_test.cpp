@@ -27,7 +27,8 @@ double vtk_rule(const OpacityPoint& a, const OpacityPoint& b, double t) {
     }
     const double s2 = s * s, s3 = s2 * s;
     const double slope = (1 - a.sharpness) * (b.opacity - a.opacity);
-    const double value = (2 * s3 - 3 * s2 + 1) * a.opacity + (3 * s2 - 2 * s3) * b.opacity + (s3 - 2 * s2 + s) * slope + (s3 - s2) * slope;
+    const double value =
+        (2 * s3 - 3 * s2 + 1) * a.opacity + (3 * s2 - 2 * s3) * b.opacity + (s3 - 2 * s2 + s) * slope + (s3 - s2) * slope;
     return std::clamp(value, std::min(a.opacity, b.opacity), std::max(a.opacity, b.opacity));
 }
 

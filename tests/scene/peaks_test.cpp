@@ -55,7 +55,8 @@ std::pair<double, double> errors(const TransferFunction& base, const std::vector
         of_density = std::max(of_density, std::abs(density - exact.density) / largest);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const double emission = density * color_at(transfer, value, channel);
-            of_emission = std::max(of_emission, std::abs(emission - exact.emission[channel]) / std::max(density, 1e-3 * largest));
+            of_emission =
+                std::max(of_emission, std::abs(emission - exact.emission[channel]) / std::max(density, 1e-3 * largest));
         }
     }
     return {of_density, of_emission};

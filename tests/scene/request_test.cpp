@@ -67,7 +67,8 @@ TEST_CASE("A scene's volume rendering is asked of the renderer with everything d
         CHECK(request.surfaces.size() == 1);
     }
     SECTION("beside surfaces") {
-        const FrameRequest request = stage.request(R"("volume_rendering": {}, "surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])");
+        const FrameRequest request =
+            stage.request(R"("volume_rendering": {}, "surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])");
         CHECK(request.volume);
         CHECK(request.surfaces.size() == 1);
     }
@@ -106,7 +107,8 @@ TEST_CASE("A scene's volume rendering is asked of the renderer with everything d
         CHECK_THAT(error_of([&] { stage.request(R"("volume_rendering": {"field": "nonsense"})"); }), Contains("nonsense"));
         CHECK_THAT(error_of([&] { stage.request(R"("volume_rendering": {"transfer": "nowhere.json"})"); }),
                    Contains("nowhere.json") && Contains("cannot be read"));
-        CHECK_THAT(error_of([&] { stage.request(R"("volume_rendering": {"color_map": {"name": "nonsense"}})"); }), Contains("viridis"));
+        CHECK_THAT(error_of([&] { stage.request(R"("volume_rendering": {"color_map": {"name": "nonsense"}})"); }),
+                   Contains("viridis"));
     }
 }
 
@@ -127,7 +129,8 @@ TEST_CASE("A colour bar shows the colours of the volume, once if a surface has t
         CHECK(bars(map + R"("volume_rendering": {}, "surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])").size() == 1);
     }
     CHECK(bars(R"("volume_rendering": {"color_map": {"name": "magma"}},
-                  "surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])").size() == 2);
+                  "surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])")
+              .size() == 2);
     CHECK(bars(R"("volume_rendering": {"field": "x"}, "surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])").size() == 2);
     // One colour tells nothing.
     CHECK(bars(R"("volume_rendering": {"transfer": {"color": [[0, 1, 0, 0]], "density": [[0, 1]]}})").empty());

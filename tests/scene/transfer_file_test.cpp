@@ -27,7 +27,8 @@ std::string fault(const std::string& text) {
 
 /** As ParaView exports presets; `more` stands behind the colours. */
 std::string paraview(const std::string& more, const std::string& space = "RGB") {
-    return R"([{"ColorSpace": ")" + space + R"(", "Creator": "someone", "DefaultMap": true, "Name": "levels", "NanColor": [1, 1, 0],
+    return R"([{"ColorSpace": ")" + space +
+           R"(", "Creator": "someone", "DefaultMap": true, "Name": "levels", "NanColor": [1, 1, 0],
         "RGBPoints": [-1, 0, 0, 1, 0, 1, 1, 1, 3, 1, 0, 0])" +
            more + "}]";
 }
@@ -50,7 +51,8 @@ TEST_CASE("What is wrong with a file of our own is said in one line") {
                Contains("'colour' is unknown; the nearest known key is 'color'"));
     CHECK_THAT(fault(R"({"color": [[0, 1, 0, 0]], "density": []})"), Contains("'density' is empty"));
     CHECK_THAT(fault(R"({"color": [[0, 1, 0, 0]], "density": 3})"), Contains("'density' must be a list of lists"));
-    CHECK_THAT(fault(R"({"color": [[0, 1, 0]], "density": [[0, 1]]})"), Contains("'color[0]' is [0,1,0], where a list of 4 numbers"));
+    CHECK_THAT(fault(R"({"color": [[0, 1, 0]], "density": [[0, 1]]})"),
+               Contains("'color[0]' is [0,1,0], where a list of 4 numbers"));
     CHECK_THAT(fault(R"({"color": [[0, 1, 0, 0], [1, 1, 0, 2]], "density": [[0, 1]]})"),
                Contains("'color[1]' is 2; it must be at least 0, at most 1"));
     CHECK_THAT(fault(R"({"color": [[0, 1, 0, 0]], "density": [[0, 1], [1, 1], [2, -1]]})"),
@@ -59,7 +61,8 @@ TEST_CASE("What is wrong with a file of our own is said in one line") {
     CHECK_THAT(fault(R"({"color": [[0, 1, 0, 0]], "density": [[0, 1e999]]})"), Contains("1e999"));
     CHECK_THAT(fault(R"({"color": [[0, 1, 0, 0]], "density": [[1, 1], [0.5, 1]]})"),
                Contains("'density[1]' has the value 0.5 after 1; values must ascend"));
-    CHECK_THAT(fault("{\"color\": [[0, 1, 0, 0]],\n \"density\": [[0, nan]]}"), Contains("transfer.json:2:") && Contains("is not JSON"));
+    CHECK_THAT(fault("{\"color\": [[0, 1, 0, 0]],\n \"density\": [[0, nan]]}"),
+               Contains("transfer.json:2:") && Contains("is not JSON"));
     CHECK_THAT(fault("[]"), Contains("RGBPoints"));
     CHECK_THAT(fault("7"), Contains("must be an object"));
     CHECK_THAT(fault(""), Contains("cannot be read, or is empty"));
@@ -107,13 +110,15 @@ TEST_CASE("What is wrong with a file of ParaView's is said in one line") {
     CHECK_THAT(fault(paraview(R"(, "Points": [0, 0.5, 0.5, 0, 1, 1.5, 0.5, 0])")), Contains("Points[5], an opacity, is 1.5"));
     CHECK_THAT(fault(paraview(R"(, "Points": [0, 0.5, -1, 0])")), Contains("Points[2], a midpoint, is -1"));
     CHECK_THAT(fault(paraview(R"(, "Points": [0, 0.5, 0.5, "x"])")), Contains("Points[3], a sharpness, is \"x\""));
-    CHECK_THAT(fault(paraview(R"(, "Points": [1, 0.5, 0.5, 0, 0, 1, 0.5, 0])")), Contains("Points[4] is 0, less than the value before"));
+    CHECK_THAT(fault(paraview(R"(, "Points": [1, 0.5, 0.5, 0, 0, 1, 0.5, 0])")),
+               Contains("Points[4] is 0, less than the value before"));
     const std::string points = R"(, "Points": [0, 0.5, 0.5, 0])";
     CHECK_THAT(fault(paraview(points + R"(, "ScalarOpacityUnitDistance": 0)")), Contains("it must be above 0"));
     CHECK_THAT(fault(paraview(points + R"(, "ScalarOpacityUnitDistance": "1")")), Contains("where a number is expected"));
     CHECK_THAT(fault(paraview(points + R"(, "UseLogScale": 1)")), Contains("UseLogScale"));
     CHECK(read(paraview(points + R"(, "UseLogScale": 0)")).color.size() == 3);
     CHECK_THAT(fault(paraview(points, "CMYK")), Contains("'CMYK' is unknown"));
-    CHECK_THAT(fault(R"([{"RGBPoints": [0, 0, 0, 1], "ColorSpace": 3, "Points": [0, 0.5, 0.5, 0]}])"), Contains("'3' is unknown"));
+    CHECK_THAT(fault(R"([{"RGBPoints": [0, 0, 0, 1], "ColorSpace": 3, "Points": [0, 0.5, 0.5, 0]}])"),
+               Contains("'3' is unknown"));
     CHECK_THAT(fault(R"([{"RGBPoints": [0, 0, 0, 2], "Points": [0, 0.5, 0.5, 0]}])"), Contains("outside 0 to 1"));
 }

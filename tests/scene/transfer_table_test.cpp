@@ -40,7 +40,9 @@ TransferFunction random_transfer(std::mt19937& random) {
     return transfer;
 }
 
-double density_in(const TransferPiece& piece, double value) { return piece.density + (value - piece.from) * piece.density_slope; }
+double density_in(const TransferPiece& piece, double value) {
+    return piece.density + (value - piece.from) * piece.density_slope;
+}
 
 std::array<double, 3> white() { return {1, 1, 1}; }
 
@@ -85,7 +87,8 @@ TEST_CASE("Every breakpoint of a table changes something") {
             const TransferPiece &below = table.pieces[i], &above = table.pieces[i + 1];
             const double value = table.breakpoints[i];
             CHECK(above.from == value);
-            double change = std::abs(density_in(below, value) - above.density) + std::abs(below.density_slope - above.density_slope);
+            double change =
+                std::abs(density_in(below, value) - above.density) + std::abs(below.density_slope - above.density_slope);
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 change += std::abs(below.rgb[channel] + (value - below.from) * below.rgb_slope[channel] - above.rgb[channel]) +
                           std::abs(below.rgb_slope[channel] - above.rgb_slope[channel]);

@@ -61,8 +61,11 @@ TEST_CASE("Every key of the schema is read") {
         {"transfer",
          {R"({"transfer": {"color": [[0, 1, 0, 0]], "density": [[0, 1], [1, 2]]}})",
           [](const auto& r) { return r.transfer && r.transfer->density.size() == 2 && r.transfer->color[0].rgb[0] == 1; }}},
-        {"color_map", {R"({"color_map": {"name": "magma"}})", [](const auto& r) { return r.color_map && r.color_map->name == "magma"; }}},
-        {"density", {R"({"density": [[0, 1], [1, 7]]})", [](const auto& r) { return r.density.size() == 2 && r.density[1].density == 7; }}},
+        {"color_map",
+         {R"({"color_map": {"name": "magma"}})", [](const auto& r) { return r.color_map && r.color_map->name == "magma"; }}},
+        {"density",
+         {R"({"density": [[0, 1], [1, 7]]})",
+          [](const auto& r) { return r.density.size() == 2 && r.density[1].density == 7; }}},
         {"opacity",
          {R"({"opacity": [[0, 0], [1, 0.25]]})",
           [](const auto& r) { return r.opacity.size() == 2 && r.opacity[1].opacity == 0.25 && r.opacity[1].midpoint == 0.5; }}},
@@ -74,7 +77,8 @@ TEST_CASE("Every key of the schema is read") {
               return r.peaks.size() == 2 && r.peaks[0].value == 1 && r.peaks[0].width == 0.5 && r.peaks[0].density == 3 &&
                      !r.peaks[0].color && r.peaks[1].color == Rgb{1, 0, 0.5};
           }}},
-        {"integrator", {R"({"integrator": "categories"})", [](const auto& r) { return r.integrator == Integrator::categories; }}},
+        {"integrator",
+         {R"({"integrator": "categories"})", [](const auto& r) { return r.integrator == Integrator::categories; }}},
         {"step",
          {R"({"integrator": "trapezoid", "step": 0.125})",
           [](const auto& r) { return r.integrator == Integrator::trapezoid && r.step == 0.125; }}},
@@ -111,7 +115,8 @@ TEST_CASE("A transfer function in a file is looked for beside the scene") {
 }
 
 TEST_CASE("What is wrong with volume rendering in a scene is said in one line") {
-    CHECK_THAT(fault(R"({"transferr": "x.json"})"), Contains("'volume_rendering.transferr' is unknown; the nearest known key is 'transfer'"));
+    CHECK_THAT(fault(R"({"transferr": "x.json"})"),
+               Contains("'volume_rendering.transferr' is unknown; the nearest known key is 'transfer'"));
     CHECK_THAT(fault("[]"), Contains("'volume_rendering' must be an object"));
     CHECK_THAT(fault(R"({"transfer": 3})"), Contains("'volume_rendering.transfer' must be an object"));
     CHECK_THAT(fault(R"({"transfer": {"color": [[0, 1, 0, 0]]}})"), Contains("'volume_rendering.transfer.density' is missing"));
@@ -119,26 +124,31 @@ TEST_CASE("What is wrong with volume rendering in a scene is said in one line") 
                Contains("'volume_rendering.transfer.peaks' is unknown"));
     CHECK_THAT(fault(R"({"transfer": {"color": [[0, 1, 0, 0], [-1, 1, 0, 0]], "density": [[0, 1]]}})"),
                Contains("'volume_rendering.transfer.color[1]' has the value -1 after 0"));
-    for (const char* other : {R"("color_map": {})", R"("density": [[0, 1]])", R"("opacity": [[0, 1]])", R"("unit_distance": 2)"}) {
+    for (const char* other :
+         {R"("color_map": {})", R"("density": [[0, 1]])", R"("opacity": [[0, 1]])", R"("unit_distance": 2)"}) {
         CHECK_THAT(fault(R"({"transfer": "x.json", )" + std::string(other) + "}"), Contains("means nothing beside 'transfer'"));
     }
-    CHECK_THAT(fault(R"({"density": [[0, 1]], "opacity": [[0, 1]]})"), Contains("'volume_rendering.opacity' stands beside 'density'"));
+    CHECK_THAT(fault(R"({"density": [[0, 1]], "opacity": [[0, 1]]})"),
+               Contains("'volume_rendering.opacity' stands beside 'density'"));
     CHECK_THAT(fault(R"({"density": [[0, 1]], "unit_distance": 2})"), Contains("means nothing without 'opacity'"));
     CHECK_THAT(fault(R"({"density": [[0, 1], [1]]})"), Contains("'volume_rendering.density[1]' is [1]"));
     CHECK_THAT(fault(R"({"density": [[0, -1]]})"), Contains("'volume_rendering.density[0]' is -1; it must be at least 0"));
-    CHECK_THAT(fault(R"({"opacity": [[0, 1.5]]})"), Contains("'volume_rendering.opacity[0]' is 1.5; it must be at least 0, at most 1"));
+    CHECK_THAT(fault(R"({"opacity": [[0, 1.5]]})"),
+               Contains("'volume_rendering.opacity[0]' is 1.5; it must be at least 0, at most 1"));
     CHECK_THAT(fault(R"({"opacity": [[0, 1]], "unit_distance": 0})"), Contains("it must be above 0"));
     CHECK_THAT(fault(R"({"peaks": []})"), Contains("'volume_rendering.peaks' is empty"));
     CHECK_THAT(fault(R"({"peaks": {}})"), Contains("'volume_rendering.peaks' must be a list"));
     CHECK_THAT(fault(R"({"peaks": [{"value": 1, "width": 0.1}]})"), Contains("'volume_rendering.peaks[0].density' is missing"));
-    CHECK_THAT(fault(R"({"peaks": [{"value": 1, "width": 0, "density": 1}]})"), Contains("peaks[0].width") && Contains("above 0"));
+    CHECK_THAT(fault(R"({"peaks": [{"value": 1, "width": 0, "density": 1}]})"),
+               Contains("peaks[0].width") && Contains("above 0"));
     CHECK_THAT(fault(R"({"peaks": [{"value": 1, "width": 1e-17, "density": 1}]})"), Contains("lost in rounding"));
     CHECK_THAT(fault(R"({"peaks": [{"value": 1, "width": 1, "density": 1, "colour": [1, 0, 0]}]})"),
                Contains("'volume_rendering.peaks[0].colour' is unknown; the nearest known key is 'color'"));
     CHECK_THAT(fault(R"({"integrator": "simpson"})"), Contains("'volume_rendering.integrator' is \"simpson\"; allowed are"));
     CHECK_THAT(fault(R"({"step": 0.1})"), Contains("'volume_rendering.step' is of the integrators"));
     CHECK_THAT(fault(R"({"integrator": "riemann", "step": 0})"), Contains("above 0"));
-    CHECK_THAT(fault(R"({"integrator": "riemann", "tolerance": 0.1})"), Contains("'volume_rendering.tolerance' is of the integrators"));
+    CHECK_THAT(fault(R"({"integrator": "riemann", "tolerance": 0.1})"),
+               Contains("'volume_rendering.tolerance' is of the integrators"));
     CHECK_THAT(fault(R"({"tolerance": 0})"), Contains("above 0"));
     CHECK_THAT(fault(R"({"range_skipping": 1})"), Contains("true or false"));
     CHECK_THAT(fault(R"({"color_map": {"nam": "magma"}})"), Contains("'volume_rendering.color_map.nam' is unknown"));
