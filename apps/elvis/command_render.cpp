@@ -38,6 +38,10 @@ struct Arguments {
     std::vector<std::string> boundary_groups;
     bool boundary = false;
     std::vector<double> isovalues;
+    std::string volume;
+    std::string integrator;
+    double volume_step = 0;
+    double volume_tolerance = 0;
     std::string contours;
     bool mesh_lines = false;
     std::string color_map;
@@ -125,12 +129,45 @@ void apply_surfaces(const Arguments& arguments, Scene& scene) {
     }
 }
 
+/** A volume rendering of the command line stands instead of that of the file; how it is integrated, beside. */
+void apply_volume(const Arguments& arguments, Scene& scene) {
+    if (arguments.volume == "none") {
+        scene.volume_rendering.reset();
+    } else if (!arguments.volume.empty()) {
+        scene.volume_rendering = SceneVolumeRendering{};
+        scene.volume_rendering->transfer_file = arguments.volume == "default" ? "" : arguments.volume;
+    }
+    for (const auto& [option, is_given] : {std::pair{"--integrator", !arguments.integrator.empty()},
+                                           std::pair{"--volume-step", arguments.volume_step > 0},
+                                           std::pair{"--volume-tolerance", arguments.volume_tolerance > 0}}) {
+        if (is_given && !scene.volume_rendering) {
+            throw UsageError(option, "means nothing without --volume, or a scene with volume_rendering");
+        }
+    }
+    if (!arguments.integrator.empty()) {
+        scene.volume_rendering->integrator = integrator_named(arguments.integrator).value();
+    }
+    if (arguments.volume_step > 0) {
+        if (!has_steps(scene.volume_rendering->integrator)) {
+            throw UsageError("--volume-step", "is of the integrators riemann, trapezoid and categories only");
+        }
+        scene.volume_rendering->step = arguments.volume_step;
+    }
+    if (arguments.volume_tolerance > 0) {
+        if (has_steps(scene.volume_rendering->integrator)) {
+            throw UsageError("--volume-tolerance", "is of the integrators exact and adaptive-trapezoid only");
+        }
+        scene.volume_rendering->tolerance = arguments.volume_tolerance;
+    }
+}
+
 /** What the command line says goes before what the file says. */
 void apply_options(const Arguments& arguments, Scene& scene) {
     if (!arguments.field.empty()) {
         scene.field = arguments.field;
     }
     apply_surfaces(arguments, scene);
+    apply_volume(arguments, scene);
     if (!arguments.color_map.empty()) {
         const bool is_file = std::filesystem::exists(arguments.color_map);
         scene.color_map.name = is_file ? "" : arguments.color_map;
@@ -231,7 +268,13 @@ nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Fr
                       {"verified_segments", counts.verified_segments},
                       {"undecided_segments", counts.undecided_segments},
                       {"excluded_pieces", counts.excluded_pieces},
-                      {"undecided_pieces", counts.undecided_pieces}};
+                      {"undecided_pieces", counts.undecided_pieces},
+                      {"volume_pixels", counts.volume_pixels},
+                      {"inexact_volume_pixels", counts.inexact_volume_pixels},
+                      {"volume_segments", counts.volume_segments},
+                      {"empty_segments", counts.empty_segments},
+                      {"volume_steps", counts.volume_steps},
+                      {"volume_breakpoints", counts.volume_breakpoints}};
     const RendererMemory memory = renderer.memory();
     root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
     if (!repeated.empty()) {
@@ -241,7 +284,7 @@ nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Fr
 }
 
 void warn_about(const FrameCounts& counts) {
-    if (counts.hit_pixels == 0) {
+    if (counts.hit_pixels == 0 && counts.volume_pixels == 0) {
         spdlog::warn("nothing is hit: the picture shows background only");
     }
     if (counts.newton_failures > 0) {
@@ -252,6 +295,10 @@ void warn_about(const FrameCounts& counts) {
     }
     if (counts.work_limit_pixels > 0) {
         spdlog::warn("{} pixels reached the work limit and may be wrong; they carry flag 1024", counts.work_limit_pixels);
+    }
+    if (counts.inexact_volume_pixels > 0) {
+        spdlog::info("in {} pixels volume rendering did not reach its tolerance; they carry flag 128",
+                     counts.inexact_volume_pixels);
     }
     if (counts.undecided_pixels > 0) {
         spdlog::info("{} pixels are undecided within rounding", counts.undecided_pixels);
@@ -303,6 +350,11 @@ void run(const Arguments& arguments) {
     spdlog::info("device: {}", device.summary().name);
     Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
     FrameRequest request = make_frame_request(scene, volume, renderer);
+    if (scene.volume_rendering && scene.volume_rendering->has_default_density()) {
+        const auto& density = request.volume->transfer.density;
+        spdlog::info("volume: density rises from {:.6g} at {:.6g} to {:.6g} at {:.6g}", density.front().density,
+                     density.front().value, density.back().density, density.back().value);
+    }
     request.with_buffers = !arguments.buffers.empty();
     Frame frame = renderer.render(request);
     std::vector<double> repeated;
@@ -347,6 +399,21 @@ void add_render(CLI::App& app) {
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--isosurface", a->isovalues, "Value of the field where a surface is drawn; may be repeated")
         ->allow_extra_args(false);
+    command->add_option("--volume", a->volume,
+                        "File of a transfer function (JSON, own or ParaView's) for the volume itself; default: the colour map, "
+                        "with density from its lower to its upper end; none");
+    std::vector<std::string> integrators;
+    for (const auto& [name, integrator] : integrator_names()) {
+        integrators.push_back(name);
+    }
+    command->add_option("--integrator", a->integrator, "Along rays through the volume; exact by default")
+        ->check(CLI::IsMember(integrators));
+    command->add_option("--volume-step", a->volume_step, "World length of steps, of riemann, trapezoid and categories")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--volume-tolerance", a->volume_tolerance,
+                     "Of a color channel, of exact and adaptive-trapezoid; by default 0.001")
+        ->check(CLI::PositiveNumber);
     command->add_option("--contours", a->contours, "V,V,..: values of contour lines");
     command->add_flag("--mesh-lines", a->mesh_lines, "Draw where boundaries of elements meet the surfaces");
     command->add_option("--color-map", a->color_map, "Built-in name, or file (ParaView JSON, ElVis XML)");

@@ -9,7 +9,10 @@
 
 namespace elvis {
 
-/** Both functions are linear between their points and constant beyond the first and the last; two equal values make a step. */
+/**
+ * Both functions are linear between their points and constant beyond the first and the last; two equal values make a step, of
+ * which the value itself belongs to the upper side.
+ */
 struct TransferFunction {
     struct DensityPoint {
         double value = 0;
@@ -26,7 +29,10 @@ struct TransferFunction {
     std::vector<ColorPoint> color;
 };
 
-/** Density and colour between two neighbouring breakpoints, as linear functions of the value less `from`. */
+/**
+ * Density and colour between two neighbouring breakpoints, as linear functions of the value less `from`. Where there is no
+ * density, colour means nothing and is zero.
+ */
 struct TransferPiece {
     double from = 0;
     double density = 0, density_slope = 0;
@@ -44,7 +50,10 @@ struct TransferTable {
     const TransferPiece& piece_at(double value) const;
 };
 
-/** Breakpoints at which nothing changes are left out. Throws Error if a list is empty, not ascending, or has a density below zero. */
+/**
+ * Breakpoints at which nothing changes, but for rounding, are left out, and with them those of colours that no density shows.
+ * Throws Error if a list is empty or does not ascend, if a number is not finite, or a density below zero.
+ */
 TransferTable cut_at_breakpoints(const TransferFunction& transfer);
 
 } // namespace elvis

@@ -26,6 +26,11 @@ enum class Integrator : std::uint8_t {
     exact
 };
 
+/** Whether it goes in steps of a given length, not to a tolerance. */
+inline bool has_steps(Integrator integrator) {
+    return integrator != Integrator::exact && integrator != Integrator::adaptive_trapezoid;
+}
+
 struct VolumeRendering {
     /** Which the transfer function is of. */
     FieldChoice field{};

@@ -10,8 +10,6 @@ namespace elvis {
 
 namespace {
 
-/** What the table may deviate from the map in a channel: a hundredth of what a picture may. */
-constexpr double table_tolerance = 1e-5;
 constexpr int deepest_split = 12;
 
 struct BuiltIn {
@@ -55,14 +53,14 @@ Color opaque(const Rgb& rgb) { return {rgb[0], rgb[1], rgb[2], 1}; }
 
 /** Appends points between two of the map's until straight lines between them are near enough. */
 void refine(const ColorMap& map, const SceneColorMap::Point& from, const SceneColorMap::Point& to, double t_from, double t_to,
-            const Rgb& rgb_from, const Rgb& rgb_to, int depth, std::vector<SceneColorMap::Point>& out) {
+            const Rgb& rgb_from, const Rgb& rgb_to, double tolerance, int depth, std::vector<SceneColorMap::Point>& out) {
     bool is_near = true;
     // Three places: a curve may cross its chord in the middle.
     for (const double part : {0.25, 0.5, 0.75}) {
         const Rgb exact = interpolate(map.space, from.rgb, to.rgb, t_from + part * (t_to - t_from));
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const double straight = rgb_from[channel] + part * (rgb_to[channel] - rgb_from[channel]);
-            is_near = is_near && std::abs(exact[channel] - straight) <= table_tolerance;
+            is_near = is_near && std::abs(exact[channel] - straight) <= tolerance;
         }
     }
     if (is_near || depth >= deepest_split) {
@@ -70,24 +68,9 @@ void refine(const ColorMap& map, const SceneColorMap::Point& from, const SceneCo
     }
     const double t = 0.5 * (t_from + t_to);
     const Rgb rgb = interpolate(map.space, from.rgb, to.rgb, t);
-    refine(map, from, to, t_from, t, rgb_from, rgb, depth + 1, out);
+    refine(map, from, to, t_from, t, rgb_from, rgb, tolerance, depth + 1, out);
     out.push_back({from.position + t * (to.position - from.position), rgb});
-    refine(map, from, to, t, t_to, rgb, rgb_to, depth + 1, out);
-}
-
-std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map) {
-    std::vector<SceneColorMap::Point> out = {map.points.front()};
-    for (std::size_t index = 1; index < map.points.size(); ++index) {
-        const SceneColorMap::Point& from = map.points[index - 1];
-        const SceneColorMap::Point& to = map.points[index];
-        if (map.space == ColorSpace::step) {
-            out.push_back({to.position, from.rgb});
-        } else if (map.space != ColorSpace::rgb && from.position < to.position) {
-            refine(map, from, to, 0, 1, from.rgb, to.rgb, 0, out);
-        }
-        out.push_back(to);
-    }
-    return out;
+    refine(map, from, to, t, t_to, rgb, rgb_to, tolerance, depth + 1, out);
 }
 
 } // namespace
@@ -119,7 +102,22 @@ ColorMap built_in_color_map(const std::string& name) {
     throw Error("no colour map is named '" + name + "'; there are " + list + ", and files");
 }
 
-ColorTable make_color_table(const SceneColorMap& scene, const std::array<double, 2>& range) {
+std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map, double tolerance) {
+    std::vector<SceneColorMap::Point> out = {map.points.front()};
+    for (std::size_t index = 1; index < map.points.size(); ++index) {
+        const SceneColorMap::Point& from = map.points[index - 1];
+        const SceneColorMap::Point& to = map.points[index];
+        if (map.space == ColorSpace::step) {
+            out.push_back({to.position, from.rgb});
+        } else if (map.space != ColorSpace::rgb && from.position < to.position) {
+            refine(map, from, to, 0, 1, from.rgb, to.rgb, tolerance, 0, out);
+        }
+        out.push_back(to);
+    }
+    return out;
+}
+
+ColorTable make_color_table(const SceneColorMap& scene, const std::array<double, 2>& range, double tolerance) {
     ColorMap map;
     if (!scene.points.empty()) {
         map = {scene.space, scene.points, std::nullopt};
@@ -131,7 +129,7 @@ ColorTable make_color_table(const SceneColorMap& scene, const std::array<double,
     const double first = map.points.front().position;
     const double extent = map.points.back().position - first;
     ColorTable table;
-    for (const SceneColorMap::Point& point : piecewise_linear(map)) {
+    for (const SceneColorMap::Point& point : piecewise_linear(map, tolerance)) {
         const double t = extent > 0 ? (point.position - first) / extent : 0;
         // Exact at both ends.
         table.points.push_back({t == 1 ? range[1] : range[0] + t * (range[1] - range[0]), point.rgb});

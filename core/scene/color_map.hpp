@@ -28,10 +28,19 @@ ColorMap built_in_color_map(const std::string& name);
 /** Reads ParaView JSON or the original ElVis XML, by content. */
 ColorMap read_color_map_file(const std::string& path);
 
+/** What tables of surfaces may deviate from the map in a channel: a hundredth of what a picture may. */
+inline constexpr double surface_table_tolerance = 1e-5;
+/** Of volumes: a tenth of it, as each point costs a root on each ray that takes its value. */
+inline constexpr double volume_table_tolerance = 1e-4;
+
+/** Points of the map and between them, linear in display RGB and within `tolerance` of the map in every channel. */
+std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map, double tolerance);
+
 /**
- * The table for values from `range`: piecewise linear in display RGB, within 1e-5 of the map in every channel. Values outside
- * take the end colours unless the scene says otherwise; NaN is magenta by default, which is in none of the built-in maps.
+ * The table for values from `range`: piecewise linear in display RGB, within `tolerance` of the map in every channel. Values
+ * outside take the end colours unless the scene says otherwise; NaN is magenta by default, which is in none of the built-in maps.
  */
-ColorTable make_color_table(const SceneColorMap& scene, const std::array<double, 2>& range);
+ColorTable make_color_table(const SceneColorMap& scene, const std::array<double, 2>& range,
+                            double tolerance = surface_table_tolerance);
 
 } // namespace elvis

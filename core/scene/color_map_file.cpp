@@ -4,6 +4,7 @@
 
 #include <pugixml.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -66,7 +67,8 @@ ColorMap read_paraview(const std::string& path) {
         throw Error(path, "is no ParaView colour map: it has no list RGBPoints of groups of four numbers");
     }
     ColorMap map;
-    const std::string space = preset.value("ColorSpace", "RGB");
+    const nlohmann::json named = preset.value("ColorSpace", nlohmann::json("RGB"));
+    const std::string space = named.is_string() ? named.get<std::string>() : named.dump();
     if (space == "Lab" || space == "CIELAB" || space == "Lab/CIEDE2000") {
         map.space = ColorSpace::lab;
     } else if (space == "HSV" || space == "Diverging" || space == "Step") {
@@ -84,7 +86,9 @@ ColorMap read_paraview(const std::string& path) {
         map.points.push_back({numbers[at].get<double>(),
                               {numbers[at + 1].get<double>(), numbers[at + 2].get<double>(), numbers[at + 3].get<double>()}});
     }
-    if (const auto nan = preset.find("NanColor"); nan != preset.end() && nan->is_array() && nan->size() == 3) {
+    const auto is_number = [](const nlohmann::json& value) { return value.is_number(); };
+    if (const auto nan = preset.find("NanColor");
+        nan != preset.end() && nan->is_array() && nan->size() == 3 && std::all_of(nan->begin(), nan->end(), is_number)) {
         map.nan = Rgb{(*nan)[0].get<double>(), (*nan)[1].get<double>(), (*nan)[2].get<double>()};
     }
     return map;

@@ -5,8 +5,10 @@
 #include <core/scene/color_map.hpp>
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
+#include <core/scene/transfer.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace elvis {
 
@@ -16,7 +18,7 @@ std::vector<SceneSurface> surfaces_of(const Scene& scene, const RuntimeVolume& v
     if (volume.dimension() == 2 && scene.surfaces.empty()) {
         return {SceneSurface{FlatElements{}}};
     }
-    if (!scene.surfaces.empty()) {
+    if (!scene.surfaces.empty() || scene.volume_rendering) {
         return scene.surfaces;
     }
     if (volume.n_faces() > 0) {
@@ -74,20 +76,54 @@ void complete(ElementSelection& selection, const FieldChoice& field, const Scene
     selection.is_two_sided = field.expression || volume.fields()[field.field].continuity != ELVIS_CONTINUITY_CONTINUOUS;
 }
 
+/** The field of that text, in which distances are to surfaces of the scene; and what people know it by. */
+FieldChoice choose_field(const Scene& scene, const RuntimeVolume& volume, const std::optional<std::string>& text,
+                         std::string& label) {
+    if (!text) {
+        return choose_field(volume, text);
+    }
+    label = *text;
+    return choose_field(volume, with_distances(*text, scene.surfaces));
+}
+
+std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& field, const Scene& scene, Renderer& renderer) {
+    if (map.range) {
+        return *map.range;
+    }
+    const FieldRange of_field = renderer.field_range(field, scene.time_step);
+    return {of_field.lower, of_field.upper};
+}
+
+VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Scene& scene, const RuntimeVolume& volume,
+                                      Renderer& renderer) {
+    if (volume.dimension() == 2) {
+        throw Error(scene.volume, "is two-dimensional: it has nothing inside for 'volume_rendering' to show");
+    }
+    VolumeRendering rendering;
+    rendering.field = choose_field(scene, volume, own.field ? own.field : scene.field, rendering.field_label);
+    const std::array<double, 6> bounds = renderer.bounds();
+    const double diagonal = std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
+    const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
+    std::array<double, 2> range{};
+    if (own.is_colored_by_map()) {
+        range = range_of(map, rendering.field, scene, renderer);
+    }
+    rendering.transfer = make_transfer_function(own, map, range, diagonal);
+    rendering.integrator = own.integrator;
+    rendering.step = own.step.value_or(diagonal / 256);
+    rendering.tolerance = own.tolerance;
+    rendering.skips_by_range = own.skips_by_range;
+    return rendering;
+}
+
 Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
     Surface surface;
     surface.geometry = own.geometry;
-    std::optional<std::string> field = own.field ? own.field : scene.field;
-    if (field) {
-        surface.field_label = *field;
-        *field = with_distances(*field, scene.surfaces);
-    }
-    surface.field = choose_field(volume, field);
+    surface.field = choose_field(scene, volume, own.field ? own.field : scene.field, surface.field_label);
     if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
         isosurfaces->field = surface.field;
         if (own.color_field) {
-            surface.field_label = *own.color_field;
-            surface.field = choose_field(volume, with_distances(*own.color_field, scene.surfaces));
+            surface.field = choose_field(scene, volume, own.color_field, surface.field_label);
         }
     }
     if (auto* elements = std::get_if<ElementFaces>(&surface.geometry)) {
@@ -102,13 +138,7 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
         }
     }
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
-    std::array<double, 2> range{};
-    if (map.range) {
-        range = *map.range;
-    } else {
-        const FieldRange of_field = renderer.field_range(surface.field, scene.time_step);
-        range = {of_field.lower, of_field.upper};
-    }
+    const std::array<double, 2> range = range_of(map, surface.field, scene, renderer);
     surface.colors = make_color_table(map, range);
     if (!std::holds_alternative<WireFrame>(surface.geometry)) {
         surface.contours = contours_of(own.contours ? own.contours : scene.contours, range);
@@ -165,6 +195,9 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
                                     static_cast<double>(request.width) / request.height);
     for (const SceneSurface& surface : surfaces) {
         request.surfaces.push_back(make_surface(surface, scene, volume, renderer));
+    }
+    if (scene.volume_rendering) {
+        request.volume = make_volume_rendering(*scene.volume_rendering, scene, volume, renderer);
     }
     return request;
 }

@@ -27,6 +27,8 @@ json parse_json_file(const std::string& path) {
         const std::size_t column = line_start == std::string::npos ? at + 1 : at - line_start;
         throw Error(path + ":" + std::to_string(line) + ":" + std::to_string(column),
                     "is not JSON: " + std::string(error.what()));
+    } catch (const json::out_of_range& error) {
+        throw Error(path, "holds a number that is too large: " + std::string(error.what()));
     }
 }
 
@@ -83,6 +85,9 @@ JsonObject JsonObject::object(const char* key) const {
 std::vector<JsonObject> JsonObject::objects(const char* key) const {
     if (!raw(key).is_array()) {
         fail(key, "must be a list");
+    }
+    if (raw(key).size() < schema_of(key).value("minItems", std::size_t{0})) {
+        fail(key, "is empty");
     }
     std::vector<JsonObject> children;
     for (std::size_t index = 0; index < raw(key).size(); ++index) {
@@ -171,8 +176,9 @@ std::vector<double> JsonObject::checked_list(const json& value, const json& sche
                       (most == least ? "" : " to " + std::to_string(most)) + " numbers is expected");
     }
     std::vector<double> list;
+    const auto own_schemas = schema.find("prefixItems");
     for (const json& item : value) {
-        list.push_back(checked(item, schema.at("items"), key));
+        list.push_back(checked(item, own_schemas != schema.end() ? own_schemas->at(list.size()) : schema.at("items"), key));
     }
     return list;
 }
@@ -182,11 +188,11 @@ std::vector<double> JsonObject::numbers(const char* key) const { return checked_
 std::vector<std::vector<double>> JsonObject::rows(const char* key) const {
     const json& schema = schema_of(key);
     if (!raw(key).is_array() || raw(key).size() < schema.value("minItems", std::size_t{0})) {
-        fail(key, "must be a list of lists");
+        fail(key, raw(key).is_array() ? "is empty" : "must be a list of lists");
     }
     std::vector<std::vector<double>> result;
     for (const json& row : raw(key)) {
-        result.push_back(checked_list(row, schema.at("items"), key));
+        result.push_back(checked_list(row, schema.at("items"), std::string(key) + "[" + std::to_string(result.size()) + "]"));
     }
     return result;
 }

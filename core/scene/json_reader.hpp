@@ -33,8 +33,9 @@ public:
     bool flag(const char* key) const;
     double number(const char* key) const;
     std::uint32_t integer(const char* key) const;
-    /** A list of numbers of a length the schema allows, each finite and in its bounds. */
+    /** A list of numbers of a length the schema allows, each finite and in its bounds ("items", or "prefixItems" for each). */
     std::vector<double> numbers(const char* key) const;
+    /** A list of such lists. */
     std::vector<std::vector<double>> rows(const char* key) const;
     const nlohmann::json& raw(const char* key) const { return m_value->at(key); }
 

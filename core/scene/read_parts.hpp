@@ -38,6 +38,9 @@ CutShape read_shape(const JsonObject& object, const std::string& type, const std
 /** Of a surface of type "elements" or "wireframe". */
 ElementSelection read_selection(const JsonObject& object);
 WireFrame read_wireframe(const JsonObject& object);
+/** A transfer function as it is, in a scene or a file of its own; its schema is "transfer". */
+TransferFunction read_transfer(const JsonObject& object);
+SceneVolumeRendering read_volume_rendering(const JsonObject& object, const std::string& scene);
 /** `type`: what the key "type" says, or would say. */
 SceneSurface read_surface(const JsonObject& object, const std::string& type, const std::string& scene);
 

@@ -125,6 +125,9 @@ Scene read_scene(const std::string& path) {
             scene.surfaces.push_back(read_surface(surface, "isosurface", path));
         }
     }
+    if (root.has("volume_rendering")) {
+        scene.volume_rendering = read_volume_rendering(root.object("volume_rendering"), path);
+    }
     return scene;
 }
 

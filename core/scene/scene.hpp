@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/render/frame.hpp>
+#include <core/scene/opacity.hpp>
 #include <core/scene/scene_annotation.hpp>
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -72,6 +74,44 @@ struct SceneSurface {
     bool is_lit = true;
 };
 
+/** A triangle of density around a value, such as makes a semi-transparent isosurface. */
+struct ScenePeak {
+    double value = 0;
+    /** From where the density starts to rise to where it has gone. */
+    double width = 0;
+    double density = 0;
+    /** The transfer function's if absent. */
+    std::optional<Rgb> color;
+};
+
+/** What it lacks it takes from the scene. */
+struct SceneVolumeRendering {
+    std::optional<std::string> field;
+    /** The transfer function: from a file, as it is, or a colour map with density or opacity, or with a ramp without all. */
+    std::string transfer_file;
+    std::optional<TransferFunction> transfer;
+    std::optional<SceneColorMap> color_map;
+    std::vector<TransferFunction::DensityPoint> density;
+    std::vector<OpacityPoint> opacity;
+    /** Of opacity. */
+    double unit_distance = 1;
+    /** Added to the density. */
+    std::vector<ScenePeak> peaks;
+    Integrator integrator = VolumeRendering{}.integrator;
+    /** By default the diagonal of the volume's bounds / 256. */
+    std::optional<double> step;
+    double tolerance = VolumeRendering{}.tolerance;
+    bool skips_by_range = true;
+
+    /** Whether colours come from the colour map, not with the transfer function. */
+    bool is_colored_by_map() const { return transfer_file.empty() && !transfer; }
+    bool has_default_density() const { return is_colored_by_map() && density.empty() && opacity.empty() && peaks.empty(); }
+};
+
+/** As scenes and the command line call them: exact, riemann, trapezoid, categories, adaptive-trapezoid. */
+const std::vector<std::pair<std::string, Integrator>>& integrator_names();
+std::optional<Integrator> integrator_named(const std::string& name);
+
 struct Scene {
     std::string volume;
     std::string plugin;
@@ -91,6 +131,7 @@ struct Scene {
     /** How often a pixel is halved at most to decide whether it meets a line. */
     std::uint32_t subdivisions = Surface{}.subdivisions;
     std::vector<SceneSurface> surfaces;
+    std::optional<SceneVolumeRendering> volume_rendering;
     /** Colours are those of the colour map if absent. */
     std::optional<Lighting> lighting;
 };

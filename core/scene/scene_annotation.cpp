@@ -4,6 +4,7 @@
 #include <core/plugin_host/runtime_volume.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -19,6 +20,33 @@ bool is_same(const ColorTable& a, const ColorTable& b) {
     };
     return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), is_equal) &&
            is_same(a.below, b.below) && is_same(a.above, b.above) && is_same(a.nan, b.nan);
+}
+
+ColorTable table_of(const TransferFunction& transfer) {
+    ColorTable table;
+    for (const TransferFunction::ColorPoint& point : transfer.color) {
+        table.points.push_back({point.value, point.rgb});
+    }
+    const auto opaque = [](const std::array<double, 3>& rgb) { return Color{rgb[0], rgb[1], rgb[2], 1}; };
+    table.below = opaque(transfer.color.front().rgb);
+    table.above = opaque(transfer.color.back().rgb);
+    return table;
+}
+
+/** Whether no one could tell the bars of two tables of the same map from each other, but for the colours of special values. */
+bool look_same(const ColorTable& a, const ColorTable& b) {
+    if (a.points.front().value != b.points.front().value || a.points.back().value != b.points.back().value) {
+        return false;
+    }
+    constexpr double visible = 1e-3;
+    const auto lies_on = [](const ColorTable& points, const ColorTable& table) {
+        return std::all_of(points.points.begin() + 1, points.points.end() - 1, [&](const ColorTable::Point& point) {
+            const Color color = table_color(table, point.value);
+            return std::abs(color[0] - point.rgb[0]) <= visible && std::abs(color[1] - point.rgb[1]) <= visible &&
+                   std::abs(color[2] - point.rgb[2]) <= visible;
+        });
+    };
+    return lies_on(a, b) && lies_on(b, a);
 }
 
 std::string default_title(const RuntimeVolume& volume, std::uint32_t time_step) {
@@ -57,6 +85,13 @@ AnnotationRequest make_annotation_request(const SceneAnnotation& annotation, con
         return result;
     }
     std::vector<FieldChoice> fields;
+    const auto add = [&](const FieldChoice& field, const std::string& name, const ColorTable& colors) {
+        fields.push_back(field);
+        // The unit of an expression is the user's affair.
+        const std::string unit = field.expression ? std::string{} : volume.fields()[field.field].unit;
+        const bool is_named = field.expression && !name.empty();
+        result.color_bars.push_back({colors, is_named ? name : field_label(volume, field), unit});
+    };
     for (std::size_t index = 0; index < request.surfaces.size(); ++index) {
         const Surface& surface = request.surfaces[index];
         // One colour, as of wires, tells nothing.
@@ -69,17 +104,22 @@ AnnotationRequest make_annotation_request(const SceneAnnotation& annotation, con
             ++bar;
         }
         if (bar == fields.size()) {
-            fields.push_back(surface.field);
-            // The unit of an expression is the user's affair.
-            const std::string unit = surface.field.expression ? std::string{} : volume.fields()[surface.field.field].unit;
-            const bool is_named = surface.field.expression && !surface.field_label.empty();
-            const std::string label = is_named ? surface.field_label : field_label(volume, surface.field);
-            result.color_bars.push_back({surface.colors, label, unit});
+            add(surface.field, surface.field_label, surface.colors);
         }
         const SpecialValues& special = frame.special_values[index];
         result.color_bars[bar].has_below |= special.below;
         result.color_bars[bar].has_above |= special.above;
         result.color_bars[bar].has_nan |= special.nan;
+    }
+    if (request.volume && request.volume->transfer.color.size() >= 2) {
+        const ColorTable colors = table_of(request.volume->transfer);
+        bool is_shown = false;
+        for (std::size_t bar = 0; bar < fields.size(); ++bar) {
+            is_shown = is_shown || (fields[bar] == request.volume->field && look_same(result.color_bars[bar].colors, colors));
+        }
+        if (!is_shown && colors.points.front().value < colors.points.back().value) {
+            add(request.volume->field, request.volume->field_label, colors);
+        }
     }
     return result;
 }

@@ -29,7 +29,8 @@ std::string field_label(const RuntimeVolume& volume, const FieldChoice& field);
 
 /**
  * What is written on a picture of the scene: a bar for each pair of field and colour map that its surfaces show, in their
- * order. `frame` tells which colours for special values occur.
+ * order, then that of the volume itself, with the colours that it would have if it were opaque. `frame` tells which colours for
+ * special values occur.
  */
 AnnotationRequest make_annotation_request(const SceneAnnotation& annotation, const FrameRequest& request, const Frame& frame,
                                           const RuntimeVolume& volume);

@@ -228,6 +228,26 @@ TEST_CASE("Surfaces are lit only if that is asked for, and each by itself") {
     CHECK(own != plain);
 }
 
+TEST_CASE("Volume rendering is added to surfaces, counted, and turned off") {
+    const Workplace place;
+    place.write("levels.json", R"({"color": [[0, 1, 0, 0]], "density": [[0, 1], [1, 2]]})");
+    place.write("scene.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"size": [40, 30]},
+                                  "volume_rendering": {"density": [[0, 0], [1, 2]]}})");
+    const Outcome both = place.run("render ball.h5 --size 40x30 --cut-plane 0,0,1,0 --volume levels.json --integrator trapezoid "
+                                   "--volume-step 0.1 -o both.png --stats stats.json");
+    INFO(both.err);
+    REQUIRE(both.status == 0);
+    const auto counts = nlohmann::json::parse(read_file(place.path("stats.json")))["counts"];
+    CHECK(counts["hit_pixels"] > 100);
+    for (const char* key :
+         {"volume_pixels", "inexact_volume_pixels", "volume_segments", "empty_segments", "volume_steps", "volume_breakpoints"}) {
+        CHECK(counts.contains(key));
+    }
+    REQUIRE(place.run("render scene.json --volume none -o none.png").status == 0);
+    REQUIRE(place.run("render ball.h5 --size 40x30 -o plain.png").status == 0);
+    CHECK(read_file(place.path("none.png")) == read_file(place.path("plain.png")));
+}
+
 TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with one") {
     const Workplace place;
     place.write("plate.obj", "v -1 -1 0.1\nv 1 -1 0.1\nv 1 1 0.1\nv -1 1 0.1\nf 1 2 3 4\n");
@@ -304,6 +324,16 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
     const auto lighting = [&](const std::string& name, const std::string& value) {
         place.write(name, R"({"version": 1, "volume": {"path": "ball.h5"}, "lighting": )" + value + "}");
     };
+    const auto rendering = [&](const std::string& name, const std::string& value) {
+        place.write(name, R"({"version": 1, "volume": {"path": "ball.h5"}, "volume_rendering": )" + value + "}");
+    };
+    rendering("volume_key.json", R"({"desnity": [[0, 1]]})");
+    rendering("volume_both.json", R"({"transfer": "levels.json", "density": [[0, 1]]})");
+    rendering("volume_field.json", R"({"field": "velocty"})");
+    rendering("volume_file.json", R"({"transfer": "missing.json"})");
+    place.write("levels.json", R"({"color": [[0, 1, 0, 0]], "density": [[0, 1], [1, -2]]})");
+    place.write("good_levels.json", R"({"color": [[0, 1, 0, 0]], "density": [[0, 1], [1, 2]]})");
+    place.write("preset.json", R"([{"RGBPoints": [0, 0, 0, 1, 1, 1, 0, 0], "ColorSpace": "RGB"}])");
     lighting("light_key.json", R"({"ambiant": [1, 1, 1]})");
     lighting("light_kind.json", R"({"lights": [{"type": "point", "direction": [1, 1, 1]}]})");
     lighting("light_nowhere.json", R"({"lights": [{"type": "directional", "direction": [0, 0, 0]}]})");
@@ -337,6 +367,18 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
         {"render light_kind.json -o x.png", 1, "'lighting.lights[0].direction' means nothing"},
         {"render light_nowhere.json -o x.png", 1, "'lighting.lights[0].direction' has length zero"},
         {"render light_negative.json -o x.png", 1, "'lighting.headlight' is -0.5; it must be at least 0"},
+        {"render volume_key.json -o x.png", 1, "'volume_rendering.desnity' is unknown; the nearest known key is 'density'"},
+        {"render volume_both.json -o x.png", 1, "'volume_rendering.density' means nothing beside 'transfer'"},
+        {"render volume_field.json -o x.png", 1, "velocty"},
+        {"render volume_file.json -o x.png", 1, "missing.json"},
+        {"render ball.h5 --volume levels.json -o x.png", 1, "levels.json: 'density[1]' is -2; it must be at least 0"},
+        {"render ball.h5 --volume preset.json -o x.png", 1, "preset.json: has no list Points"},
+        {"render ball.h5 --volume missing.json -o x.png", 1, "missing.json: cannot be read"},
+        {"render ball.h5 --integrator exact -o x.png", 2, "--integrator: means nothing without --volume"},
+        {"render ball.h5 --volume default --integrator simpson -o x.png", 2, "adaptive-trapezoid"},
+        {"render ball.h5 --volume default --volume-step 0.1 -o x.png", 2, "--volume-step: is of the integrators riemann"},
+        {"render ball.h5 --volume default --volume-step 0 --integrator riemann -o x.png", 2, "--volume-step"},
+        {"render ball.h5 --volume good_levels.json --volume-tolerance 0.1 --integrator riemann -o x.png", 2, "--volume-tolerance"},
         {"render broken.json -o x.png", 1, "broken.json:2"},
         {"render ball.h5 --size 0x10 -o x.png", 2, "--size"},
         {"render ball.h5 --cut-plane 0,0,0,1 -o x.png", 2, "--cut-plane"},
