@@ -121,10 +121,10 @@ void main() {
     const uint status_at_end = stop < end ? CORE_RAY_WAITS : CORE_RAY_ENDS;
 
     uint element = state.element, status = is_pixel ? state.status : CORE_RAY_ENDS, flags = 0u;
-    const bool is_without = status == CORE_RAY_SEEKS && element == CORE_NO_ELEMENT;
+    const bool is_without = status == CORE_RAY_HAS_SOUGHT && element == CORE_NO_ELEMENT;
     const bool is_own = element >= core_first_element && element - core_first_element < core_n_elements;
-    const bool is_mine = is_without || ((status == CORE_RAY_SEEKS || status == CORE_RAY_GOES) && is_own);
-    const bool begins = is_mine && status == CORE_RAY_SEEKS && !is_without;
+    const bool is_mine = is_without || ((status == CORE_RAY_HAS_SOUGHT || status == CORE_RAY_GOES) && is_own);
+    const bool begins = is_mine && status == CORE_RAY_HAS_SOUGHT && !is_without;
     elvis_real chain = state.chain, done = state.done, step = state.step;
     const elvis_real start = begins ? chain : state.start;
     const uint start_element = begins ? element : state.start_element;

@@ -57,7 +57,7 @@ void main() {
     const uint pixel = is_pixel ? row * core_size.x + column : 0u;
     const uint list = (gl_WorkGroupID.x + row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
     const core_volume_state state = core_states[pixel];
-    const bool is_mine = is_pixel && state.status == CORE_RAY_SEEKS;
+    const bool is_mine = is_pixel && (state.status == CORE_RAY_SEEKS || state.status == CORE_RAY_HAS_SOUGHT);
     const uint n_listed = core_tiles[is_pixel ? list : 0u] & ~CORE_TILE_INNER;
     const uint n_entries = is_mine ? n_listed : 0u;
     const core_cut_column along = core_cut_begin(elvis_real(column));
@@ -128,6 +128,7 @@ void main() {
     }
     const bool is_cut_short = is_searching || stack_size > 0u || entry < n_entries || core_has_driver_given_up(core_zero);
     for (uint turn = 0u; turn < (is_mine ? 1u : 0u); ++turn) {
+        core_states[pixel].status = CORE_RAY_HAS_SOUGHT;
         core_states[pixel].chain = best;
         core_states[pixel].element = best_element;
         core_states[pixel].flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;

@@ -10,8 +10,8 @@
 //
 // The sample inside is not in the middle, so that fields that are symmetric in the element do not look simpler than they are.
 //
-// What a polynomial is off is estimated from the Chebyshev coefficients of its highest terms, two degrees of which are taken to go on as a
-// geometric series with ratio 1/4; of a cubic not less than a small part of how far the field may be from a line
+// What a polynomial is off is estimated from the Chebyshev coefficients of its highest terms, which are taken to go on as the last two pairs of
+// them do; of a cubic not less than a small part of how far the field may be from a line
 // (library/ray_sample.glsl): two samples alone are not believed where bounds say that it may do much in between.
 //
 // The kernel brings library/volume_exact.glsl.
@@ -26,6 +26,9 @@
 #define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
 // Share of how far the field may be from a line that a cubic is taken to be off at least.
 #define CORE_CUBIC_DOUBT elvis_real(0.015625LF)
+// Of pairs of Chebyshev coefficients: none is believed to be faster; one that is slower is none.
+#define CORE_FASTEST_DECAY elvis_real(0.25LF)
+#define CORE_SLOWEST_DECAY elvis_real(0.75LF)
 // Share of what is left of the tolerance that any step may use.
 #define CORE_LEAST_SHARE elvis_real(0.0625LF)
 
@@ -97,14 +100,18 @@ core_fitted core_fit_step(core_integral integral, bool with_inner) {
     fitted.p.c[3] = (c3 + elvis_real(6) * c2 + elvis_real(3) * c1 + shift + rest * tilt) / elvis_real(10);
     fitted.p.c[4] = (elvis_real(2) * c3 + elvis_real(3) * c2) / elvis_real(5);
     fitted.p.c[5] = c3;
-    // Chebyshev coefficients of the two highest degrees.
-    const elvis_real quartic = shift - at * tilt - elvis_real(2) * tilt;
-    const elvis_real of_cubic = max(max(abs(cubic) / elvis_real(32), abs(square / elvis_real(8) + cubic * elvis_real(0.1875LF)) / elvis_real(4)),
-                                    CORE_CUBIC_DOUBT * integral.bend);
-    const elvis_real of_quintic = max(abs(tilt) / elvis_real(512),
-                                      abs(quartic / elvis_real(128) + tilt * elvis_real(0.01953125LF)) / elvis_real(4));
+    // Powers of the step's parameter, and from them the Chebyshev coefficients from the second on.
+    const elvis_real level = shift - at * tilt;
+    const elvis_real a2 = square + level, a3 = cubic - elvis_real(2) * level + tilt, a4 = level - elvis_real(2) * tilt;
+    const elvis_real second = abs(a2 / elvis_real(8) + (a3 * elvis_real(96) + a4 * elvis_real(112) + tilt * elvis_real(120)) / elvis_real(512));
+    const elvis_real third = abs(a3 / elvis_real(32) + (a4 * elvis_real(32) + tilt * elvis_real(45)) / elvis_real(512));
+    const elvis_real last = abs(a4 / elvis_real(128) + tilt * elvis_real(0.01953125LF)) + abs(tilt) / elvis_real(512);
+    const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
+    const elvis_real of_quintic = last * decay / (elvis_real(1) - decay);
+    const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_DOUBT * integral.bend) *
+                                (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
-    fitted.error = (with_inner ? of_quintic : of_cubic) / elvis_real(3) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    fitted.error = (with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
     return fitted;
 }
 

@@ -93,8 +93,13 @@ public:
             }
         } else if (m_arguments.scene == "random") {
             const TemporaryFile file("random.h5");
-            for (std::uint64_t seed = m_arguments.seed; seed < m_arguments.seed + m_arguments.count; ++seed)
-                add(random_scene(seed, file.path()), static_cast<std::int64_t>(seed));
+            for (std::uint64_t seed = m_arguments.seed; seed < m_arguments.seed + m_arguments.count; ++seed) {
+                VolumeScene scene = random_scene(seed, file.path());
+                if (!m_arguments.transfer.empty()) {
+                    scene.transfer = read_transfer(m_arguments.transfer);
+                }
+                add(scene, static_cast<std::int64_t>(seed));
+            }
         } else {
             add(file_scene(m_arguments.scene,
                            m_arguments.transfer.empty() ? TransferFunction{} : read_transfer(m_arguments.transfer)),
@@ -200,7 +205,7 @@ int main(int argc, char** argv) {
         integrators.push_back(name);
     elvis::oracle::VolumeSettings& settings = arguments.settings;
     app.add_option("--scene", arguments.scene, "sphere (three peaks in x^2 + y^2 + z^2), random, or a native volume (.h5)");
-    app.add_option("--transfer", arguments.transfer, "Transfer function of a native volume, as JSON");
+    app.add_option("--transfer", arguments.transfer, "Transfer function of random or native volumes, as JSON");
     app.add_option("--count", arguments.count, "Number of random volumes")->check(CLI::PositiveNumber);
     app.add_option("--seed", arguments.seed, "Of the first random volume; the others follow");
     app.add_option("--size", settings.size, "Side of the pictures in pixels")->check(CLI::PositiveNumber);
