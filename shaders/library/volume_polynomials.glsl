@@ -11,7 +11,7 @@
 // The sample inside is not in the middle, so that fields that are symmetric in the element do not look simpler than they are.
 //
 // What a polynomial is off is estimated from the Chebyshev coefficients of its highest terms, which are taken to go on as the last two pairs of
-// them do; of a cubic not less than a small part of how far the field may be from a line
+// them do, with a margin, since fields in coarse elements do not decay evenly; of a cubic not less than a small part of how far the field may be from a line
 // (library/ray_sample.glsl): two samples alone are not believed where bounds say that it may do much in between.
 //
 // The kernel brings library/volume_exact.glsl.
@@ -25,7 +25,8 @@
 // Steps are not made shorter than this part of the segment.
 #define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
 // Share of how far the field may be from a line that a cubic is taken to be off at least.
-#define CORE_CUBIC_DOUBT elvis_real(0.015625LF)
+#define CORE_CUBIC_DOUBT elvis_real(0.0625LF)
+#define CORE_MARGIN elvis_real(3)
 // Of pairs of Chebyshev coefficients: none is believed to be faster; one that is slower is none.
 #define CORE_FASTEST_DECAY elvis_real(0.25LF)
 #define CORE_SLOWEST_DECAY elvis_real(0.75LF)
@@ -107,7 +108,7 @@ core_fitted core_fit_step(core_integral integral, bool with_inner) {
     const elvis_real third = abs(a3 / elvis_real(32) + (a4 * elvis_real(32) + tilt * elvis_real(45)) / elvis_real(512));
     const elvis_real last = abs(a4 / elvis_real(128) + tilt * elvis_real(0.01953125LF)) + abs(tilt) / elvis_real(512);
     const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
-    const elvis_real of_quintic = last * decay / (elvis_real(1) - decay);
+    const elvis_real of_quintic = CORE_MARGIN * last * decay / (elvis_real(1) - decay);
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_DOUBT * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
