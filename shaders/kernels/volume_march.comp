@@ -43,9 +43,14 @@ layout(push_constant) uniform core_parameters {
 #include "library/ray_sample.glsl"
 #include "library/transfer.glsl"
 #include "library/volume_light.glsl"
-#if CORE_INTEGRATES_EXACTLY
+#include "library/volume_integrators.glsl"
+#if CORE_INTEGRATOR == CORE_INTEGRATOR_EXACT
 #include "library/volume_exact.glsl"
 #include "library/volume_polynomials.glsl"
+#elif CORE_INTEGRATOR == CORE_INTEGRATOR_CATEGORIES
+#include "library/volume_categories.glsl"
+#elif CORE_INTEGRATOR == CORE_INTEGRATOR_ADAPTIVE_TRAPEZOID
+#include "library/volume_adaptive.glsl"
 #else
 #include "library/volume_steps.glsl"
 #endif
@@ -53,6 +58,9 @@ layout(push_constant) uniform core_parameters {
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 48u
 #define CORE_WORK_LIMIT 1500u
+#ifndef CORE_WORK_A_SAMPLE
+#define CORE_WORK_A_SAMPLE 1u
+#endif
 // Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
 #define CORE_MOST_HOPS 16u
 // Below this share nothing behind can be seen.
@@ -182,7 +190,7 @@ void main() {
         follower.enough = enough;
         bool is_broken = false;
         while (integral.wants != CORE_WANTS_NOTHING && !is_broken) {
-            work += 1u;
+            work += CORE_WORK_A_SAMPLE;
             const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
             n_evaluations += 1u;
             const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
