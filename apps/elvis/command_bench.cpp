@@ -5,6 +5,7 @@
 #include <core/bench/projection.hpp>
 #include <core/bench/roots.hpp>
 #include <core/bench/surfaces.hpp>
+#include <core/bench/volume.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -30,6 +31,7 @@ struct Arguments {
     std::string output;
     std::string volume;
     std::optional<double> isovalue;
+    std::vector<std::string> integrators{"exact"};
     bool json = false;
 };
 
@@ -211,6 +213,44 @@ nlohmann::ordered_json run_segments(const Arguments& arguments, const Device& de
     return list;
 }
 
+nlohmann::ordered_json run_volume(const Arguments& arguments, const Device& device, const PluginRegistry& registry,
+                                  const BenchFolder& folder, double unit) {
+    std::vector<Integrator> integrators;
+    for (const std::string& name : arguments.integrators) {
+        integrators.push_back(integrator_of(name));
+    }
+    const std::vector<std::uint32_t> sizes = arguments.names_sizes ? arguments.sizes : std::vector<std::uint32_t>{512};
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    bench_volume(device, registry, folder, integrators, arguments.elements, arguments.orders, sizes, unit,
+                 [&](const VolumeResult& result) {
+        list.push_back({{"transfer", name_of(result.transfer)},
+                        {"integrator", name_of(result.integrator)},
+                        {"elements_a_side", result.elements_a_side},
+                        {"order", result.order},
+                        {"size", result.size},
+                        {"milliseconds", result.milliseconds},
+                        {"wall_milliseconds", result.wall_milliseconds},
+                        {"ratio_to_prototype", result.ratio_to_prototype},
+                        {"evaluations_a_pixel", result.evaluations_a_pixel},
+                        {"mappings_a_pixel", result.mappings_a_pixel},
+                        {"segments_a_pixel", result.segments_a_pixel},
+                        {"empty_segments_a_pixel", result.empty_segments_a_pixel},
+                        {"steps_a_pixel", result.steps_a_pixel},
+                        {"breakpoints_a_pixel", result.breakpoints_a_pixel},
+                        {"inexact_share", result.inexact_share}});
+        if (!arguments.json) {
+            std::printf("%-9s %-18s %2u^3  p%-2u %4u^2  %8.1f ms %9.3g U  %5.2f of the prototype   a pixel: %.1f values, %.1f mappings, "
+                        "%.1f segments (%.1f empty), %.1f steps, %.1f breakpoints; inexact %.4f\n",
+                        name_of(result.transfer), name_of(result.integrator), result.elements_a_side, result.order, result.size,
+                        result.milliseconds, 1e6 * result.milliseconds / unit, result.ratio_to_prototype, result.evaluations_a_pixel,
+                        result.mappings_a_pixel, result.segments_a_pixel, result.empty_segments_a_pixel, result.steps_a_pixel,
+                        result.breakpoints_a_pixel, result.inexact_share);
+            std::fflush(stdout);
+        }
+    });
+    return list;
+}
+
 nlohmann::ordered_json run_projection(const Arguments& arguments, const Device& device, const PluginRegistry& registry,
                                       const BenchFolder& folder) {
     ProjectionOptions options;
@@ -278,7 +318,7 @@ void run(const Arguments& arguments) {
     }
     if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary" ||
         arguments.suite == "isosurface" || arguments.suite == "segments" || arguments.suite == "surfaces" ||
-        arguments.suite == "projection") {
+        arguments.suite == "projection" || arguments.suite == "volume") {
         const PluginRegistry registry;
         const BenchFolder folder(arguments.data);
         const Device device(arguments.device);
@@ -313,6 +353,9 @@ void run(const Arguments& arguments) {
         if (all || arguments.suite == "segments") {
             root["segments"] = run_segments(arguments, device, registry, folder, unit);
         }
+        if (all || arguments.suite == "volume") {
+            root["volume"] = run_volume(arguments, device, registry, folder, unit);
+        }
         // Minutes, and no part of "all".
         if (arguments.suite == "projection") {
             root["projection"] = run_projection(arguments, device, registry, folder);
@@ -333,9 +376,9 @@ void add_bench(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     command
         ->add_option("suite", arguments->suite,
-                     "unit, cut-plane, boundary, isosurface, segments, hierarchy, jacobian, roots, all of these, surfaces or projection")
-        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "isosurface", "segments", "hierarchy", "jacobian", "roots", "surfaces",
-                               "projection", "all"}))
+                     "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces or projection")
+        ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "isosurface", "segments", "volume", "hierarchy", "jacobian", "roots",
+                               "surfaces", "projection", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
@@ -348,6 +391,8 @@ void add_bench(CLI::App& app) {
     command->add_flag("--json", arguments->json, "Answer in JSON");
     command->add_option("--volume", arguments->volume, "A native volume for the suite projection, in place of the waves");
     command->add_option("--isovalue", arguments->isovalue, "Of the suite projection; by default the middle of the field's range");
+    command->add_option("--integrators", arguments->integrators, "Of the suite volume: riemann, trapezoid, categories, adaptive-trapezoid, exact")
+        ->delimiter(',');
     command->add_option("--output", arguments->output, "Folder for the CSV file and the plots of the suites surfaces and projection");
     command->callback([arguments, command] {
         arguments->names_elements = command->count("--elements") > 0;

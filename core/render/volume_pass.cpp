@@ -191,7 +191,6 @@ const ComposedKernel& VolumePass::march_kernel(ClassKernels& kernels) {
         KernelRequest request = request_of(kernels, "volume_march");
         m_data.add_field(request, kernels.element_class, true);
         request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
-        request.defines.emplace_back("CORE_INTEGRATES_EXACTLY", m_wanted.integrator == Integrator::exact ? "1" : "0");
         request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
         for (std::uint32_t binding = 1; binding <= 6; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});

@@ -43,9 +43,14 @@ layout(push_constant) uniform core_parameters {
 #include "library/ray_sample.glsl"
 #include "library/transfer.glsl"
 #include "library/volume_light.glsl"
-#if CORE_INTEGRATES_EXACTLY
+#include "library/volume_integrators.glsl"
+#if CORE_INTEGRATOR == CORE_INTEGRATOR_EXACT
 #include "library/volume_exact.glsl"
 #include "library/volume_polynomials.glsl"
+#elif CORE_INTEGRATOR == CORE_INTEGRATOR_CATEGORIES
+#include "library/volume_categories.glsl"
+#elif CORE_INTEGRATOR == CORE_INTEGRATOR_ADAPTIVE_TRAPEZOID
+#include "library/volume_adaptive.glsl"
 #else
 #include "library/volume_steps.glsl"
 #endif
@@ -53,6 +58,9 @@ layout(push_constant) uniform core_parameters {
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 48u
 #define CORE_WORK_LIMIT 800u
+#ifndef CORE_WORK_A_SAMPLE
+#define CORE_WORK_A_SAMPLE 1u
+#endif
 // Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
 #define CORE_MOST_HOPS 16u
 // Below this share nothing behind can be seen.
@@ -181,8 +189,8 @@ void main() {
         follower.span = core_integral_span(integral);
         follower.enough = enough;
         bool is_broken = false;
-        while (integral.wants != CORE_WANTS_NOTHING && !is_broken && work < CORE_WORK_LIMIT) {
-            work += 1u;
+        while (integral.wants != CORE_WANTS_NOTHING && !is_broken && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
+            work += CORE_WORK_A_SAMPLE;
             const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
             n_evaluations += 1u;
             const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
@@ -206,8 +214,8 @@ void main() {
 
         // Where to go on: in the same element, if there was no time for all of it.
         const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken;
-        step = is_left_open ? integral.right - integral.left : CORE_FAR;
-        done = max(done, is_left_open ? integral.left : until);
+        step = is_left_open ? core_integral_step(integral) : CORE_FAR;
+        done = max(done, is_left_open ? core_integral_done(integral) : until);
         const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
         const bool is_over = is_opaque || is_stopped || is_left_open;
         chain = is_over ? chain : leave;

@@ -63,6 +63,11 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
     return integral;
 }
 
+// Up to where light is settled, and how long the step from there is.
+bool core_integral_may_stop(core_integral integral) { return true; }
+elvis_real core_integral_done(core_integral integral) { return integral.left; }
+elvis_real core_integral_step(core_integral integral) { return integral.right - integral.left; }
+
 // Where the next sample is wanted, and how far from there its line is wanted.
 elvis_real core_integral_at(core_integral integral) {
     const elvis_real inner = integral.left + CORE_INNER_AT * (integral.right - integral.left);
