@@ -11,82 +11,80 @@
 #include "library/segment_bernstein.glsl"
 #include "library/segment_crossings.glsl"
 
-// Parts of a piece for quadrature, at first one for each of these optical depths; at most.
-#define CORE_DEPTH_A_PART elvis_real(2)
-#define CORE_MOST_QUADRATURE_PARTS 16u
 // Breakpoints met in one step, beyond which it is not to be good.
 #define CORE_MOST_CROSSINGS 32u
 
-// Integral over s from 0 to 1 of p - from.
-elvis_real core_mean_above(core_polynomial p, elvis_real from) {
+struct core_rules {
+    elvis_real kronrod, gauss, size;
+};
+
+// `i`: literal in every call, since arrays of constants are read from memory otherwise.
+void core_add_node(core_polynomial q, core_transfer_piece piece, elvis_real length, int i, inout core_rules rules) {
+    elvis_real value = elvis_real(0), integral = elvis_real(0);
+    for (int j = 0; j < CORE_SEGMENT_SIZE; ++j) {
+        value += core_quadrature_values[i][j] * q.c[j];
+        integral += core_quadrature_integrals[i][j] * q.c[j];
+    }
+    const elvis_real depth = length * (piece.density * core_kronrod_at[i] + piece.density_slope * integral);
+    const elvis_real weighted = value * (piece.density + piece.density_slope * value) * elvis_exp(-depth);
+    rules.kronrod += core_kronrod_weights[i] * weighted;
+    rules.gauss += core_gauss_weights[i] * weighted;
+    rules.size += core_kronrod_weights[i] * abs(weighted);
+}
+
+// Integral of q dO, D = length (density s + slope integral of q), over a part of the ray; its error.
+elvis_vec2 core_weighted_value(core_polynomial q, core_transfer_piece piece, elvis_real length) {
+    core_rules rules = core_rules(elvis_real(0), elvis_real(0), elvis_real(0));
+    core_add_node(q, piece, length, 0, rules);
+    core_add_node(q, piece, length, 1, rules);
+    core_add_node(q, piece, length, 2, rules);
+    core_add_node(q, piece, length, 3, rules);
+    core_add_node(q, piece, length, 4, rules);
+    core_add_node(q, piece, length, 5, rules);
+    core_add_node(q, piece, length, 6, rules);
+    return length * elvis_vec2(rules.kronrod, core_kronrod_error(rules.kronrod, rules.gauss, rules.size));
+}
+
+elvis_real core_mean(core_polynomial q) {
     elvis_real sum = elvis_real(0);
     for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
-        sum += p.c[i] - from;
+        sum += q.c[i];
     }
     return sum / elvis_real(CORE_SEGMENT_SIZE);
 }
 
-// Integral over s from 0 to t of p - from: in the Bernstein form of one degree more, whose coefficients are sums of those of p.
-elvis_real core_integral_above(core_polynomial p, elvis_real from, elvis_real t) {
-    const elvis_real s = elvis_real(1) - t;
-    elvis_real power = elvis_real(1), sum = elvis_real(0), coefficient = elvis_real(0), binomial = elvis_real(1);
-    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
-        coefficient += (p.c[i] - from) / elvis_real(CORE_SEGMENT_SIZE);
-        power *= t;
-        binomial = binomial * elvis_real(CORE_SEGMENT_SIZE - i) / elvis_real(i + 1);
-        sum = sum * s + binomial * power * coefficient;
-    }
-    return sum;
-}
-
-// Integral of (p - from) dO, D = length (density s + slope integral of (p - from)); its error.
-elvis_vec2 core_weighted_value(core_polynomial p, core_transfer_piece piece, elvis_real length, uint n_parts) {
-    elvis_real kronrod_sum = elvis_real(0), error_sum = elvis_real(0);
-    const elvis_real width = elvis_real(1) / elvis_real(n_parts);
-    for (uint part = 0u; part < n_parts; ++part) {
-        elvis_real kronrod = elvis_real(0), gauss = elvis_real(0), size = elvis_real(0);
-        for (int i = 0; i < CORE_KRONROD_POINTS; ++i) {
-            const elvis_real s = (elvis_real(part) + core_kronrod_at[i]) * width;
-            const elvis_real above = core_bernstein_value(p, s) - piece.from;
-            const elvis_real density = piece.density + piece.density_slope * above;
-            const elvis_real depth = length * (piece.density * s + piece.density_slope * core_integral_above(p, piece.from, s));
-            const elvis_real value = above * density * elvis_exp(-depth);
-            kronrod += core_kronrod_weights[i] * value;
-            gauss += core_gauss_weights[i] * value;
-            size += core_kronrod_weights[i] * abs(value);
-        }
-        kronrod_sum += kronrod;
-        error_sum += core_kronrod_error(kronrod, gauss, size);
-    }
-    return length * width * elvis_vec2(kronrod_sum, error_sum);
-}
-
-// A piece without breakpoints inside; `error`: of the field. `work` grows by what loops have done.
-void core_add_piece(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, elvis_real allowed, inout uint work) {
+// A piece without breakpoints inside; `error`: of the field. `missed` grows by what quadrature is off.
+void core_add_piece(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, inout elvis_real missed) {
     const core_transfer_piece piece = core_fetch_piece(core_piece_index(core_bernstein_value(p, elvis_real(0.5LF))));
-    const elvis_real depth =
-        max(length * (piece.density + piece.density_slope * core_mean_above(p, piece.from)), elvis_real(0));
+    core_polynomial q;
+    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+        q.c[i] = p.c[i] - piece.from;
+    }
+    const elvis_real depth = max(length * (piece.density + piece.density_slope * core_mean(q)), elvis_real(0));
     const elvis_real through = elvis_exp(-depth);
     const elvis_real slope = max(max(abs(piece.color_slope.x), abs(piece.color_slope.y)), abs(piece.color_slope.z));
     elvis_vec2 weighted = elvis_vec2(0);
-    uint n_parts = slope * depth > elvis_real(0) ? uint(min(depth / CORE_DEPTH_A_PART, elvis_real(CORE_MOST_QUADRATURE_PARTS - 1u))) + 1u : 0u;
-    while (n_parts > 0u) {
-        weighted = core_weighted_value(p, piece, length, n_parts);
-        work += n_parts;
-        const bool is_good = light.left * slope * weighted.y <= allowed || n_parts >= CORE_MOST_QUADRATURE_PARTS;
-        n_parts = is_good ? 0u : 2u * n_parts;
+    for (uint turn = 0u; turn < (slope * depth > elvis_real(0) ? 1u : 0u); ++turn) {
+        weighted = core_weighted_value(q, piece, length);
     }
+    missed += light.left * slope * weighted.y;
     light.error += light.left * (slope * weighted.y + length * piece.steepness * error);
     core_add_light(light, (elvis_real(1) - through) * piece.color + weighted.x * piece.color_slope, through);
 }
 
 // All of a polynomial, on a part of a ray of this length, that is off by `error` at most.
-void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, elvis_real allowed,
-                         inout uint n_breakpoints, inout uint work) {
+void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error,
+                         inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
+    // Most polynomials meet no breakpoint.
+    const uint first = core_piece_index(core_least(p) - error), last = core_piece_index(core_most(p) + error);
+    const bool is_whole = first == last;
+    for (uint turn = 0u; turn < (is_whole ? 1u : 0u); ++turn) {
+        core_add_piece(light, p, length, error, missed);
+    }
     core_walk walk = core_walk_begin();
     elvis_real from = elvis_real(0);
     uint n_pieces = 0u;
-    bool is_over = false;
+    bool is_over = is_whole;
     while (!is_over) {
         const core_crossing crossing = core_next_crossing(p, error, core_n_breakpoints, walk);
         n_pieces += 1u;
@@ -96,7 +94,7 @@ void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real l
         n_breakpoints += is_over ? 0u : 1u;
         for (uint turn = 0u; turn < (to > from ? 1u : 0u); ++turn) {
             const core_polynomial cell = core_after(core_before(p, to), from / to);
-            core_add_piece(light, cell, (to - from) * length, error, allowed, work);
+            core_add_piece(light, cell, (to - from) * length, error, missed);
         }
         // Where the polynomial cannot tell on which side of the breakpoint the field is, and steps, which are where it crosses.
         for (uint turn = 0u; turn < (is_over ? 0u : 1u); ++turn) {

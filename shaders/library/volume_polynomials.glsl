@@ -149,10 +149,11 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         const core_fitted fitted = core_fit_step(integral, has_inner);
         core_light next = light;
         uint n_breakpoints = 0u;
-        core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, elvis_real(0.25LF) * allowed, n_breakpoints, work);
+        elvis_real missed = elvis_real(0);
+        core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, n_breakpoints, missed, work);
         const bool is_shortest = width <= CORE_SHORTEST_STEP * (integral.to - integral.from);
         // The rest is not of the polynomial's making.
-        const bool is_rounding = fitted.error <= elvis_real(2) * integral.error;
+        const bool is_rounding = fitted.error <= elvis_real(2) * integral.error && missed <= allowed;
         const bool is_good = next.error - light.error <= allowed || (has_inner && (is_shortest || is_rounding));
         const bool is_shorter = !is_good && has_inner;
         integral.n_steps += is_good ? 1u : 0u;
