@@ -49,6 +49,7 @@ struct MarchParameters {
     std::uint32_t first_component, end_component;
     std::uint32_t n_breakpoints;
     std::uint32_t has_depths, has_stops;
+    std::uint32_t skips_by_range;
     std::uint32_t zero;
     float extent;
     float tolerance, steepest, step;
@@ -96,7 +97,7 @@ struct VolumePass::Picture {
 
 VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_data(data), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
-      m_chains(device, volume, data),
+      m_chains(device, volume, data), m_models(device, volume, data),
       m_begin(device, pixel_kernel("volume_begin", data.precision(), {BindingType::storage_buffer}, sizeof(PixelParameters))),
       m_veil(device, pixel_kernel("volume_veil", data.precision(),
                                   {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
@@ -168,6 +169,7 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
     write_reals(provide(m_pieces, m_device, pieces.size() * real_bytes(m_precision)), m_precision, pieces);
     m_wanted = wanted;
     m_component = component;
+    m_models.provide({component.first(), component.end()});
     for (ClassKernels& kernels : m_kernels) {
         if (!kernels.seek) {
             KernelRequest tiles = request_of(kernels, "ray_tiles");
@@ -192,6 +194,7 @@ const ComposedKernel& VolumePass::march_kernel(ClassKernels& kernels) {
     std::unique_ptr<ComposedKernel>& kernel = kernels.march[static_cast<std::size_t>(m_wanted.integrator)];
     if (!kernel) {
         KernelRequest request = request_of(kernels, "volume_march");
+        request.buffers.push_back(m_models.host_buffer(kernels.element_class));
         m_data.add_field(request, kernels.element_class, true);
         request.text += segment::segment_glsl(segment::fixed_plan(step_degree)) + segment::quadrature_glsl(step_degree, kronrod_points);
         request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
@@ -242,6 +245,7 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, FrameCount
                                m_n_breakpoints,
                                picture.depths ? 1u : 0u,
                                picture.stops ? 1u : 0u,
+                               m_wanted.skips_by_range ? 1u : 0u,
                                0,
                                static_cast<float>(m_extent),
                                static_cast<float>(m_wanted.tolerance),

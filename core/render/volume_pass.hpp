@@ -10,6 +10,7 @@
 #include <core/render/merge_pass.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/element_chains.hpp>
+#include <core/volume/level_models.hpp>
 
 #include <array>
 #include <cstdint>
@@ -56,6 +57,7 @@ private:
     std::uint32_t m_tile_width;
     double m_extent = 0;
     ElementChains m_chains;
+    LevelModels m_models;
     std::vector<ClassKernels> m_kernels;
     ComposedKernel m_begin, m_veil, m_finish;
     Buffer m_frame, m_counts;

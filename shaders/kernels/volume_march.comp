@@ -28,6 +28,8 @@ layout(push_constant) uniform core_parameters {
     uint core_first_component, core_end_component;
     uint core_n_breakpoints;
     uint core_has_depths, core_has_stops;
+    // Parts of rays where bounds say that density and colour are constant need no values.
+    uint core_skips_by_range;
     uint core_zero;
     // The diagonal of the volume's bounds.
     float core_extent;
@@ -43,6 +45,7 @@ layout(push_constant) uniform core_parameters {
 #include "library/ray_sample.glsl"
 #include "library/transfer.glsl"
 #include "library/volume_light.glsl"
+#include "library/volume_level.glsl"
 #include "library/volume_integrators.glsl"
 #if CORE_INTEGRATOR == CORE_INTEGRATOR_EXACT
 #include "library/volume_exact.glsl"
@@ -172,8 +175,15 @@ void main() {
 
         // What lies between.
         const bool has_segment = is_met && from < until;
+        core_transfer_piece level;
+        const bool is_level = core_is_level(core_level_range(part, from, until), level) && has_segment && core_skips_by_range != 0u;
+        for (uint turn = 0u; turn < (is_level ? 1u : 0u); ++turn) {
+            const elvis_real through = elvis_exp(-level.density * (until - from) * ray.speed);
+            core_add_light(light, (elvis_real(1) - through) * level.color, through);
+        }
         n_segments += has_segment ? 1u : 0u;
-        core_integral integral = core_integral_begin(from, has_segment ? until : from, ray.speed, step);
+        n_empty += is_level ? 1u : 0u;
+        core_integral integral = core_integral_begin(from, has_segment && !is_level ? until : from, ray.speed, step);
         const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - start), until - from);
         const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0)) /
                                   (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
@@ -188,22 +198,35 @@ void main() {
         core_follow_to(follower, core_integral_at(integral));
         follower.span = core_integral_span(integral);
         follower.enough = enough;
-        bool is_broken = false;
-        while (integral.wants != CORE_WANTS_NOTHING && !is_broken && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
+        bool is_broken = false, is_fresh = true, is_dismissed = false;
+        while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
             work += CORE_WORK_A_SAMPLE;
             const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
             n_evaluations += 1u;
             const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
             is_broken = is_nan || has_failed;
+            // The first evaluation at an end of the part may tell that there is nothing in all of it.
+            const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+            const elvis_vec2 range = elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond);
+            const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
+            for (uint turn = 0u; turn < (is_all ? 1u : 0u); ++turn) {
+                is_dismissed = core_is_level(range, level);
+            }
+            for (uint turn = 0u; turn < (is_dismissed ? 1u : 0u); ++turn) {
+                const elvis_real through = elvis_exp(-level.density * (until - from) * ray.speed);
+                core_add_light(light, (elvis_real(1) - through) * level.color, through);
+            }
             n_failures += has_failed ? 1u : 0u;
             flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
-            for (uint turn = 0u; turn < (result.status == CORE_SAMPLE_FOUND && !is_broken ? 1u : 0u); ++turn) {
+            for (uint turn = 0u; turn < (result.status == CORE_SAMPLE_FOUND && !is_broken && !is_dismissed ? 1u : 0u); ++turn) {
+                is_fresh = false;
                 core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead, work);
                 core_follow_to(follower, core_integral_at(integral));
                 follower.span = core_integral_span(integral);
                 follower.enough = enough;
             }
         }
+        n_empty += is_dismissed ? 1u : 0u;
         n_steps += integral.n_steps;
         n_breakpoints += integral.n_breakpoints;
         flags |= has_segment && core_is_model_estimated(local) ? CORE_FLAG_ESTIMATED : 0u;
@@ -213,7 +236,7 @@ void main() {
         }
 
         // Where to go on: in the same element, if there was no time for all of it.
-        const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken;
+        const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed;
         step = is_left_open ? core_integral_step(integral) : CORE_FAR;
         done = max(done, is_left_open ? core_integral_done(integral) : until);
         const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;

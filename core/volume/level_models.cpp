@@ -1,0 +1,64 @@
+#include <core/volume/level_models.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace elvis {
+
+namespace {
+
+/** Elements of one dispatch: bounds time and memory. */
+constexpr std::uint64_t block = 65536;
+constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t record_size = 8;
+
+struct Parameters {
+    std::uint32_t first, n_elements;
+    std::uint32_t first_component, end_component;
+};
+
+} // namespace
+
+LevelModels::LevelModels(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_device(device), m_volume(volume), m_classes(volume.classes().size()) {
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        const std::uint64_t n_elements = volume.classes()[index].n_elements;
+        if (n_elements == 0) {
+            continue;
+        }
+        m_classes[index].models = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, record_size);
+        KernelRequest request;
+        request.name = "level_models of element class " + std::to_string(index);
+        request.kernel = "kernels/level_models.comp";
+        request.precision = data.precision();
+        data.add_field(request, index, true);
+        request.bindings = {{0, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(Parameters);
+        m_classes[index].kernel = std::make_unique<ComposedKernel>(device, request);
+    }
+}
+
+void LevelModels::provide(const LevelComponent& component) {
+    if (component == m_component) {
+        return;
+    }
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        const ClassModels& of = m_classes[index];
+        const std::uint64_t n_elements = m_volume.classes()[index].n_elements;
+        const Buffer output(m_device, std::max<std::uint64_t>(std::min(block, n_elements), 1) * record_size * sizeof(float));
+        const std::array<const Buffer*, 1> bindings = {&output};
+        for (std::uint64_t first = 0; first < n_elements; first += block) {
+            const auto count = static_cast<std::uint32_t>(std::min(block, n_elements - first));
+            const Parameters parameters{static_cast<std::uint32_t>(first), count, component.first, component.end};
+            of.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
+            of.models->write_uints(first, output.read_items<std::uint32_t>(std::size_t{count} * record_size));
+        }
+    }
+    m_component = component;
+}
+
+FetchBuffer LevelModels::host_buffer(std::uint32_t element_class) const {
+    return {"core_models", m_classes[element_class].models.get()};
+}
+
+} // namespace elvis
