@@ -178,8 +178,7 @@ void main() {
         core_transfer_piece level;
         const bool is_level = core_is_level(core_level_range(part, from, until), level) && has_segment && core_skips_by_range != 0u;
         for (uint turn = 0u; turn < (is_level ? 1u : 0u); ++turn) {
-            const elvis_real through = elvis_exp(-level.density * (until - from) * ray.speed);
-            core_add_light(light, (elvis_real(1) - through) * level.color, through);
+            core_add_level(light, level, (until - from) * ray.speed);
         }
         n_segments += has_segment ? 1u : 0u;
         n_empty += is_level ? 1u : 0u;
@@ -200,27 +199,36 @@ void main() {
         follower.enough = enough;
         bool is_broken = false, is_fresh = true, is_dismissed = false;
         while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
-            work += CORE_WORK_A_SAMPLE;
-            const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
-            n_evaluations += 1u;
-            const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
-            is_broken = is_nan || has_failed;
-            // The first evaluation at an end of the part may tell that there is nothing in all of it.
-            const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
-            const elvis_vec2 range = elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond);
-            const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
-            for (uint turn = 0u; turn < (is_all ? 1u : 0u); ++turn) {
-                is_dismissed = core_is_level(range, level);
+            // Until all lanes have theirs, so that what follows is done for all of them together.
+            elvis_real value = elvis_real(0), slope = value, error = value, bend = value;
+            bool is_running = true;
+            while (is_running) {
+                work += CORE_WORK_A_SAMPLE;
+                const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
+                n_evaluations += 1u;
+                const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
+                is_broken = is_nan || has_failed;
+                n_failures += has_failed ? 1u : 0u;
+                flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
+                value = result.value;
+                slope = result.slope;
+                error = result.error;
+                bend = result.bend;
+                is_running = !is_broken && result.status != CORE_SAMPLE_FOUND;
+                // The first evaluation at an end of the part may tell that there is nothing in all of it.
+                const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
+                for (uint turn = 0u; turn < (is_all ? 1u : 0u); ++turn) {
+                    const elvis_real other = value + follower.span * slope, beyond = bend + error;
+                    is_dismissed = core_is_level(elvis_vec2(min(value, other) - beyond, max(value, other) + beyond), level);
+                }
+                is_running = is_running && !is_dismissed;
             }
             for (uint turn = 0u; turn < (is_dismissed ? 1u : 0u); ++turn) {
-                const elvis_real through = elvis_exp(-level.density * (until - from) * ray.speed);
-                core_add_light(light, (elvis_real(1) - through) * level.color, through);
+                core_add_level(light, level, (until - from) * ray.speed);
             }
-            n_failures += has_failed ? 1u : 0u;
-            flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
-            for (uint turn = 0u; turn < (result.status == CORE_SAMPLE_FOUND && !is_broken && !is_dismissed ? 1u : 0u); ++turn) {
+            for (uint turn = 0u; turn < (is_broken || is_dismissed ? 0u : 1u); ++turn) {
                 is_fresh = false;
-                core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead, work);
+                core_integral_add(integral, light, value, slope, error, bend, ray.speed, tolerance, ahead, work);
                 core_follow_to(follower, core_integral_at(integral));
                 follower.span = core_integral_span(integral);
                 follower.enough = enough;

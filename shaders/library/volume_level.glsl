@@ -1,7 +1,7 @@
 // What is known of the field along a ray's part in an element without evaluating it: bounds, from the element's linear model
 // (library/level_model.glsl) and the line that the ray is in reference coordinates but for the mapping's curvature.
 //
-// The kernel brings library/ray_part.glsl and library/transfer.glsl.
+// The kernel brings library/ray_part.glsl and library/volume_light.glsl.
 
 #include "library/level_model.glsl"
 
@@ -30,4 +30,9 @@ bool core_is_level(elvis_vec2 range, out core_transfer_piece piece) {
     const elvis_vec3 change = abs(piece.color_slope);
     return range.x <= range.y && first == last && piece.density_slope == elvis_real(0) &&
            (piece.density == elvis_real(0) || change.x + change.y + change.z == elvis_real(0));
+}
+
+void core_add_level(inout core_light light, core_transfer_piece piece, elvis_real length) {
+    const elvis_real through = elvis_exp(-piece.density * length);
+    core_add_light(light, (elvis_real(1) - through) * piece.color, through);
 }
