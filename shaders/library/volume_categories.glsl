@@ -22,12 +22,12 @@
 //
 // The kernel brings library/volume_light.glsl.
 
-#define CORE_MOST_STEPS 1024u
+#define CORE_MOST_STEPS 768u
 #include "library/kronrod.glsl"
 #include "library/volume_optics.glsl"
 
 // Of what the kernel does in one dispatch.
-#define CORE_WORK_A_SAMPLE 2u
+#define CORE_WORK_A_SAMPLE 3u
 
 #define CORE_WANTS_NOTHING 0u
 #define CORE_WANTS_END 1u
