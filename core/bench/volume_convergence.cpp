@@ -19,8 +19,10 @@ namespace elvis {
 
 namespace {
 
-/** Of references, in double precision; and of samples of integrators that only have steps, so that these are all of their error. */
+/** Of references, in double precision; and of samples of integrators that only have steps, so that these are all of their
+ * error. */
 constexpr double reference_tolerance = 1e-9;
+constexpr double largest_reference_tolerance = 1e-5;
 /** Smaller differences are those of the reference. */
 constexpr double least_error = 1e-8;
 /** What the comparison asks for: 8-bit colours, with room. */
@@ -39,17 +41,47 @@ std::string text_of(double number) {
     return text;
 }
 
+/** Of what a plane through the middle shows all but the least and the greatest fiftieth: where something is seen of the volume.
+ */
+FieldRange usual_range(Renderer& renderer) {
+    const std::array<double, 6> bounds = renderer.bounds();
+    FrameRequest request = volume_picture(bounds, 64);
+    Surface surface;
+    const Vector3 normal{0.2, 0.9, 0.1};
+    double offset = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        offset -= 0.5 * normal[axis] * (bounds[axis] + bounds[axis + 3]);
+    }
+    surface.geometry = CutPlane{{normal[0], normal[1], normal[2], offset}};
+    surface.colors.points = {{0, {1, 1, 1}}};
+    request.surfaces = {surface};
+    std::vector<double> values = renderer.render(request).value;
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    if (values.empty()) {
+        return renderer.field_range({}, 0);
+    }
+    std::sort(values.begin(), values.end());
+    return {values[values.size() / 50], values[values.size() - 1 - values.size() / 50]};
+}
+
 /** A volume in one precision with one transfer function, drawn in many ways. */
 class Scene {
 public:
     Scene(const Device& device, const RuntimeVolume& volume, Precision precision, std::uint32_t size)
         : m_renderer(device, volume, precision), m_request(volume_picture(m_renderer.bounds(), size)),
-          m_diagonal(diagonal_of(m_renderer.bounds())), m_range(m_renderer.field_range({}, 0)) {
+          m_diagonal(diagonal_of(m_renderer.bounds())), m_range(m_renderer.field_range({}, 0)),
+          m_usual_range(usual_range(m_renderer)) {
         m_request.volume.emplace();
+        rendering().transfer = {{{0, 0.1 / m_diagonal}}, {{0, {1, 1, 1}}}};
+        m_n_pixels = draw(Integrator::trapezoid, m_diagonal, wanted_error).counts.volume_pixels;
     }
+
+    /** Pixels of rays that meet the volume. */
+    std::uint64_t n_pixels() const { return m_n_pixels; }
 
     double diagonal() const { return m_diagonal; }
     const FieldRange& range() const { return m_range; }
+    const FieldRange& usual_range_of_field() const { return m_usual_range; }
     FrameRequest& request() { return m_request; }
     VolumeRendering& rendering() { return *m_request.volume; }
 
@@ -58,6 +90,17 @@ public:
         rendering().step = step;
         rendering().tolerance = tolerance;
         return m_renderer.render(m_request);
+    }
+
+    /** As exact as loops of drivers allow; `tolerance` is what that was. */
+    Frame draw_reference(double& tolerance) {
+        tolerance = reference_tolerance;
+        Frame frame = draw(Integrator::exact, 0, tolerance);
+        while (frame.counts.work_limit_pixels > 0 && tolerance < largest_reference_tolerance) {
+            tolerance *= 10;
+            frame = draw(Integrator::exact, 0, tolerance);
+        }
+        return frame;
     }
 
     /** With everything compiled; the least time of two. */
@@ -73,11 +116,12 @@ private:
     Renderer m_renderer;
     FrameRequest m_request;
     double m_diagonal;
-    FieldRange m_range;
+    FieldRange m_range, m_usual_range;
+    std::uint64_t m_n_pixels = 0;
 };
 
-double a_pixel(std::uint64_t count, const Frame& frame) {
-    return static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(frame.counts.volume_pixels, 1));
+double a_pixel(std::uint64_t count, std::uint64_t n_pixels) {
+    return static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(n_pixels, 1));
 }
 
 /** Over the finer half of what is not yet rounding; `errors` by intervals. */
@@ -88,9 +132,10 @@ double finer_order(std::vector<RuleError> errors, double least) {
 
 class Bench {
 public:
-    Bench(const Device& device, const PluginRegistry& registry, const BenchFolder& folder, const VolumeConvergenceOptions& options,
-          double unit_nanoseconds, const VolumeConvergenceReport& report)
-        : m_device(device), m_registry(registry), m_folder(folder), m_options(options), m_unit(unit_nanoseconds), m_report(report) {}
+    Bench(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
+          const VolumeConvergenceOptions& options, double unit_nanoseconds, const VolumeConvergenceReport& report)
+        : m_device(device), m_registry(registry), m_folder(folder), m_options(options), m_unit(unit_nanoseconds),
+          m_report(report) {}
 
     VolumeConvergence result;
 
@@ -124,7 +169,8 @@ public:
         Scene scene(m_device, volume, Precision::float64, m_options.size);
         for (const double width : {0.2, 0.02, 0.002}) {
             scene.rendering().transfer = edge_at(4, width);
-            const Frame reference = scene.draw(Integrator::exact, 0, reference_tolerance);
+            double tolerance = 0;
+            const Frame reference = scene.draw_reference(tolerance);
             vary_step(scene, reference, "6.2", "sphere", Integrator::trapezoid, "w = " + text_of(width), 5, 14);
         }
     }
@@ -142,7 +188,7 @@ public:
     void draw_volume() {
         const RuntimeVolume volume(m_registry.runtime_for(m_options.volume), m_options.volume);
         Scene scene(m_device, volume, Precision::float64, m_options.size);
-        scene.rendering().transfer = peaks_in(scene.range(), 0.1, scene.diagonal());
+        scene.rendering().transfer = peaks_in(scene.usual_range_of_field(), 0.1, scene.diagonal());
         vary_all(scene, "6.3c", "volume, peaks");
     }
 
@@ -152,13 +198,14 @@ public:
         for (const std::uint32_t other : m_options.orders) {
             const RuntimeVolume volume = waves_volume(m_registry, m_folder, m_options.elements_a_side, other);
             Renderer renderer(m_device, volume, Precision::float32);
-            const auto measure = [&](const char* figure, Integrator integrator, std::uint32_t size, double step, double tolerance) {
+            const auto measure = [&](const char* figure, Integrator integrator, std::uint32_t size, double step,
+                                     double tolerance) {
                 FrameRequest request = waves_volume_picture(size, BenchTransfer::prototype, integrator);
                 request.volume->step = step;
                 request.volume->tolerance = tolerance;
                 renderer.render(request);
                 const Frame frame = renderer.render(request);
-                ConvergenceRow row = row_of(frame, figure, "waves", name_of(integrator), size);
+                ConvergenceRow row = row_of(frame, figure, "waves", name_of(integrator), size, frame.counts.volume_pixels);
                 row.step = is_stepped(integrator) ? step : 0;
                 row.tolerance = tolerance;
                 row.order = other;
@@ -192,7 +239,9 @@ public:
     }
 
 private:
-    static bool is_stepped(Integrator integrator) { return std::find(stepped.begin(), stepped.end(), integrator) != stepped.end(); }
+    static bool is_stepped(Integrator integrator) {
+        return std::find(stepped.begin(), stepped.end(), integrator) != stepped.end();
+    }
 
     void add(ConvergenceRow row) {
         row.units = 1e6 * row.milliseconds / m_unit;
@@ -205,22 +254,22 @@ private:
         m_report.order(result.orders.back());
     }
 
-    static ConvergenceRow row_of(const Frame& frame, const std::string& figure, const std::string& scene, const std::string& curve,
-                                 std::uint32_t size) {
+    static ConvergenceRow row_of(const Frame& frame, const std::string& figure, const std::string& scene,
+                                 const std::string& curve, std::uint32_t size, std::uint64_t n_pixels) {
         ConvergenceRow row;
         row.figure = figure;
         row.scene = scene;
         row.curve = curve;
         row.size = size;
-        row.samples_a_pixel = a_pixel(frame.counts.field_evaluations, frame);
-        row.inexact_share = a_pixel(frame.counts.inexact_volume_pixels, frame);
+        row.samples_a_pixel = a_pixel(frame.counts.field_evaluations, n_pixels);
+        row.inexact_share = a_pixel(frame.counts.inexact_volume_pixels, n_pixels);
         row.milliseconds = frame.device_milliseconds;
         return row;
     }
 
     /** Steps of the diagonal over 2^from to 2^to; to the end of those that are short enough for loops. */
-    void vary_step(Scene& scene, const Frame& reference, const std::string& figure, const std::string& name, Integrator integrator,
-                   const std::string& curve, int from, int to) {
+    void vary_step(Scene& scene, const Frame& reference, const std::string& figure, const std::string& name,
+                   Integrator integrator, const std::string& curve, int from, int to) {
         std::vector<RuleError> errors;
         for (int i = from; i <= to; ++i) {
             const double step = scene.diagonal() / static_cast<double>(1 << i);
@@ -228,7 +277,7 @@ private:
                 scene.draw(integrator, step, reference_tolerance);
             }
             const Frame frame = scene.draw(integrator, step, reference_tolerance);
-            ConvergenceRow row = row_of(frame, figure, name, curve, scene.request().width);
+            ConvergenceRow row = row_of(frame, figure, name, curve, scene.request().width, scene.n_pixels());
             row.step = step;
             row.error = largest_difference(frame, reference);
             if (row.inexact_share > 0) {
@@ -241,9 +290,10 @@ private:
     }
 
     void vary_all(Scene& scene, const std::string& figure, const std::string& name) {
-        const Frame reference = scene.draw(Integrator::exact, 0, reference_tolerance);
-        ConvergenceRow row = row_of(reference, figure, name, "reference", scene.request().width);
-        row.tolerance = reference_tolerance;
+        double reference_tolerance_reached = 0;
+        const Frame reference = scene.draw_reference(reference_tolerance_reached);
+        ConvergenceRow row = row_of(reference, figure, name, "reference", scene.request().width, scene.n_pixels());
+        row.tolerance = reference_tolerance_reached;
         add(row);
         for (const Integrator integrator : stepped) {
             vary_step(scene, reference, figure, name, integrator, name_of(integrator), 3, 12);
@@ -253,7 +303,7 @@ private:
             for (int digits = 1; digits <= (integrator == Integrator::exact ? 7 : 5); ++digits) {
                 const double tolerance = std::pow(10.0, -digits);
                 const Frame frame = scene.draw(integrator, 0, tolerance);
-                row = row_of(frame, figure, name, name_of(integrator), scene.request().width);
+                row = row_of(frame, figure, name, name_of(integrator), scene.request().width, scene.n_pixels());
                 row.tolerance = tolerance;
                 row.error = largest_difference(frame, reference);
                 add(row);
@@ -265,10 +315,11 @@ private:
         Scene exact(m_device, volume, Precision::float64, m_options.time_size);
         Scene scene(m_device, volume, Precision::float32, m_options.time_size);
         for (const bool has_peaks : {true, false}) {
-            const TransferFunction transfer = has_peaks ? peaks_in(scene.range(), 0.01, scene.diagonal())
+            const TransferFunction transfer = has_peaks ? peaks_in(scene.usual_range_of_field(), 0.01, scene.diagonal())
                                                         : ramp_in(scene.range(), scene.diagonal());
             exact.rendering().transfer = scene.rendering().transfer = transfer;
-            const Frame reference = exact.draw(Integrator::exact, 0, 1e-7);
+            double tolerance = 0;
+            const Frame reference = exact.draw_reference(tolerance);
             std::vector<ComparisonRow> rows;
             for (const Integrator integrator : {Integrator::exact, Integrator::trapezoid, Integrator::categories}) {
                 ComparisonRow row;
@@ -282,8 +333,8 @@ private:
                 }
                 const Frame frame = scene.draw_in_time(integrator, row.step, wanted_error);
                 row.error = largest_difference(frame, reference);
-                row.samples_a_pixel = a_pixel(frame.counts.field_evaluations, frame);
-                row.inexact_share = a_pixel(frame.counts.inexact_volume_pixels, frame);
+                row.samples_a_pixel = a_pixel(frame.counts.field_evaluations, scene.n_pixels());
+                row.inexact_share = a_pixel(frame.counts.inexact_volume_pixels, scene.n_pixels());
                 row.milliseconds = frame.device_milliseconds;
                 row.units = 1e6 * row.milliseconds / m_unit;
                 rows.push_back(row);
@@ -341,20 +392,21 @@ void write_rows(const std::filesystem::path& path, const VolumeConvergence& resu
     std::ofstream file(path);
     file << "figure,scene,curve,step,tolerance,order,size,samples_a_pixel,milliseconds,units,error,inexact_share\n";
     for (const ConvergenceRow& row : result.rows) {
-        file << row.figure << ",\"" << row.scene << "\",\"" << row.curve << "\"," << row.step << ',' << row.tolerance << ',' << row.order
-             << ',' << row.size << ',' << row.samples_a_pixel << ',' << row.milliseconds << ',' << row.units << ',' << row.error << ','
-             << row.inexact_share << '\n';
+        file << row.figure << ",\"" << row.scene << "\",\"" << row.curve << "\"," << row.step << ',' << row.tolerance << ','
+             << row.order << ',' << row.size << ',' << row.samples_a_pixel << ',' << row.milliseconds << ',' << row.units << ','
+             << row.error << ',' << row.inexact_share << '\n';
     }
     check(file, path);
 }
 
 void write_comparison(const std::filesystem::path& path, const VolumeConvergence& result) {
     std::ofstream file(path);
-    file << "scene,transfer,integrator,step,is_missed,error,samples_a_pixel,milliseconds,units,inexact_share,fewer_samples,less_time\n";
+    file << "scene,transfer,integrator,step,is_missed,error,samples_a_pixel,milliseconds,units,inexact_share,fewer_samples,"
+            "less_time\n";
     for (const ComparisonRow& row : result.comparison) {
-        file << row.scene << ',' << row.transfer << ',' << row.curve << ',' << row.step << ',' << row.is_missed << ',' << row.error << ','
-             << row.samples_a_pixel << ',' << row.milliseconds << ',' << row.units << ',' << row.inexact_share << ','
-             << row.fewer_samples << ',' << row.less_time << '\n';
+        file << row.scene << ',' << row.transfer << ',' << row.curve << ',' << row.step << ',' << row.is_missed << ','
+             << row.error << ',' << row.samples_a_pixel << ',' << row.milliseconds << ',' << row.units << ','
+             << row.inexact_share << ',' << row.fewer_samples << ',' << row.less_time << '\n';
     }
     check(file, path);
 }
@@ -400,14 +452,13 @@ TransferFunction peaks_in(const FieldRange& range, double width, double diagonal
 }
 
 TransferFunction ramp_in(const FieldRange& range, double diagonal) {
-    const double margin = 0.05 * (range.upper - range.lower);
+    // What ranges in elements are certain to hold is more than the field takes.
+    const double margin = range.upper - range.lower;
     return {{{range.lower - margin, 0}, {range.upper + margin, 6 / diagonal}},
             {{range.lower - margin, {0.2, 0.3, 0.9}}, {range.upper + margin, {0.8, 0.1, 0.1}}}};
 }
 
-TransferFunction edge_at(double value, double width) {
-    return {{{value, 0}, {value + width, 1}}, {{value, {0.9, 0.6, 0.2}}}};
-}
+TransferFunction edge_at(double value, double width) { return {{{value, 0}, {value + width, 1}}, {{value, {0.9, 0.6, 0.2}}}}; }
 
 FrameRequest volume_picture(const std::array<double, 6>& bounds, std::uint32_t size) {
     FrameRequest request;
@@ -427,10 +478,8 @@ FrameRequest volume_picture(const std::array<double, 6>& bounds, std::uint32_t s
 double largest_difference(const Frame& frame, const Frame& reference) {
     double largest = 0;
     for (std::size_t i = 0; i < frame.color.size(); ++i) {
-        if ((reference.flags[i / 4] & (pixel_flag::volume_tolerance | pixel_flag::work_limit)) == 0) {
-            const double off = std::abs(frame.color[i] - reference.color[i]);
-            largest = std::max(largest, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
-        }
+        const double off = std::abs(frame.color[i] - reference.color[i]);
+        largest = std::max(largest, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
     }
     return largest;
 }
@@ -440,7 +489,8 @@ RuntimeVolume sphere_volume(const PluginRegistry& registry, const BenchFolder& f
     const std::string x = std::to_string(n[0]), y = std::to_string(n[1]), z = std::to_string(n[2]);
     std::string name = "sphere-";
     name += shape + "-" + x + "-" + y + "-" + z;
-    std::string text = R"({"generator":1,"mesh":"box","box":[[-1,-1,-2],[1,1,4]],"order":2,"geometry_order":1,"field":"sphere","shape":")";
+    std::string text =
+        R"({"generator":1,"mesh":"box","box":[[-1,-1,-2],[1,1,4]],"order":2,"geometry_order":1,"field":"sphere","shape":")";
     text += shape + R"(","elements":[)" + x + "," + y + "," + z + "]}";
     return generated_volume(registry, folder, name, text);
 }

@@ -1,7 +1,7 @@
 /**
  * @file volume_convergence.hpp
- * The measurements of B. Nelson's dissertation (Utah, 2012), chapter 6: how fast the integrators' errors fall with samples, what
- * time they take, and which of them comes to an error of 0.001 first.
+ * The measurements of B. Nelson's dissertation (Utah, 2012), chapter 6: how fast the integrators' errors fall with samples,
+ * what time they take, and which of them comes to an error of 0.001 first.
  */
 #pragma once
 
@@ -16,7 +16,8 @@
 
 namespace elvis {
 
-/** Three tents of density, each as wide as this share of the field's range, nothing between; a ray loses about a quarter in each. */
+/** Three tents of density, each as wide as this share of the field's range, nothing between; a ray loses about a quarter in
+ * each. */
 TransferFunction peaks_in(const FieldRange& range, double width, double diagonal);
 /** Linear, with no breakpoint in the range. */
 TransferFunction ramp_in(const FieldRange& range, double diagonal);
@@ -26,7 +27,7 @@ TransferFunction edge_at(double value, double width);
 /** A picture of all of a volume, from outside, on an opaque background. */
 FrameRequest volume_picture(const std::array<double, 6>& bounds, std::uint32_t size);
 
-/** Largest difference of a channel, where the second does not say that it is inexact. */
+/** Largest difference of a channel. */
 double largest_difference(const Frame& frame, const Frame& reference);
 
 /** One hexahedron, or cells of a shape, of [-1,1] x [-1,1] x [-2,4] with the field x^2 + y^2 + z^2. */
@@ -49,7 +50,7 @@ struct ConvergenceRow {
     /** Intervals of a rule; or else one of step (world length) and tolerance. */
     double step = 0, tolerance = 0;
     std::uint32_t order = 0, size = 0;
-    /** Evaluations of the field, of pixels that the volume colours. */
+    /** Evaluations of the field, of pixels whose rays meet the volume. */
     double samples_a_pixel = 0;
     double milliseconds = 0, units = 0;
     /** Largest of a channel. */
