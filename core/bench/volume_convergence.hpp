@@ -27,7 +27,7 @@ TransferFunction edge_at(double value, double width);
 /** A picture of all of a volume, from outside, on an opaque background. */
 FrameRequest volume_picture(const std::array<double, 6>& bounds, std::uint32_t size);
 
-/** Largest difference of a channel. */
+/** Largest difference of a channel, but for pixels of the reference that drivers cut short. */
 double largest_difference(const Frame& frame, const Frame& reference);
 
 /** One hexahedron, or cells of a shape, of [-1,1] x [-1,1] x [-2,4] with the field x^2 + y^2 + z^2. */
