@@ -6,8 +6,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 
 using namespace elvis;
@@ -173,6 +175,45 @@ TEST_CASE("steps that would be too many for one element are said to be too few")
         CHECK(frame.counts.work_limit_pixels == 0);
         CHECK(scene.draw(integrator, 0.01, 1e-3).counts.inexact_volume_pixels == 0);
     }
+}
+
+TEST_CASE("convergence is written as tables and plots") {
+    const BenchFolder folder("");
+    VolumeConvergence result;
+    for (const char* figure : {"6.1", "6.3a", "6.8"}) {
+        for (const char* curve : {"reference", "trapezoid", "exact"}) {
+            for (const double samples : {10.0, 20.0}) {
+                ConvergenceRow row;
+                row.figure = figure;
+                row.scene = "a, b";
+                row.curve = curve;
+                row.order = static_cast<std::uint32_t>(samples);
+                row.samples_a_pixel = samples;
+                row.error = 1 / (samples * samples);
+                row.units = samples;
+                result.rows.push_back(row);
+            }
+        }
+    }
+    result.comparison.resize(2);
+    write_volume_convergence(folder.path() / "plots", result);
+    const auto text_of = [&folder](const char* name) {
+        std::ifstream file(folder.path() / "plots" / name);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    const auto n_lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+    const std::string table = text_of("volume-convergence.csv");
+    CHECK(n_lines(table) == 19);
+    CHECK(table.find("6.3a,\"a, b\",\"exact\"") != std::string::npos);
+    CHECK(n_lines(text_of("volume-comparison.csv")) == 3);
+    for (const char* name : {"composite-rules.svg", "sphere-peaks.svg", "time-by-order.svg"}) {
+        CAPTURE(name);
+        const std::string plot = text_of(name);
+        CHECK(plot.find("trapezoid") != std::string::npos);
+        CHECK(plot.find("reference") == std::string::npos);
+    }
+    // Nothing to draw.
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "plots" / "volume-peaks.svg"));
 }
 
 TEST_CASE("integrators are known by name") {
