@@ -6,6 +6,7 @@
 #include <core/bench/roots.hpp>
 #include <core/bench/surfaces.hpp>
 #include <core/bench/volume.hpp>
+#include <core/bench/volume_convergence.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -251,6 +252,70 @@ nlohmann::ordered_json run_volume(const Arguments& arguments, const Device& devi
     return list;
 }
 
+nlohmann::ordered_json run_volume_convergence(const Arguments& arguments, const Device& device, const PluginRegistry& registry,
+                                              const BenchFolder& folder, double unit) {
+    VolumeConvergenceOptions options;
+    options.volume = arguments.volume;
+    options.size = arguments.names_sizes ? arguments.sizes.front() : options.size;
+    options.time_size = arguments.names_sizes ? arguments.sizes.back() : options.time_size;
+    options.orders = arguments.names_orders ? arguments.orders : options.orders;
+    options.elements_a_side = arguments.names_elements ? arguments.elements.front() : options.elements_a_side;
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array(), orders = rows, comparison = rows;
+    VolumeConvergenceReport report;
+    report.row = [&](const ConvergenceRow& row) {
+        rows.push_back({{"figure", row.figure},
+                        {"scene", row.scene},
+                        {"curve", row.curve},
+                        {"step", row.step},
+                        {"tolerance", row.tolerance},
+                        {"order", row.order},
+                        {"size", row.size},
+                        {"samples_a_pixel", row.samples_a_pixel},
+                        {"milliseconds", row.milliseconds},
+                        {"error", row.error},
+                        {"inexact_share", row.inexact_share}});
+        if (!arguments.json && row.figure != "6.1") {
+            std::printf("%-4s %-14s %-18s step %-9.3g tolerance %-7.1g p%-2u %4u^2  %8.1f samples a pixel %9.1f ms  error %.3g, inexact %.4f\n",
+                        row.figure.c_str(), row.scene.c_str(), row.curve.c_str(), row.step, row.tolerance, row.order, row.size,
+                        row.samples_a_pixel, row.milliseconds, row.error, row.inexact_share);
+            std::fflush(stdout);
+        }
+    };
+    report.order = [&](const ConvergenceOrder& order) {
+        orders.push_back({{"figure", order.figure}, {"scene", order.scene}, {"curve", order.curve}, {"order", order.order}});
+        if (!arguments.json) {
+            std::printf("%-4s %-14s %-18s order %.2f\n", order.figure.c_str(), order.scene.c_str(), order.curve.c_str(), order.order);
+            std::fflush(stdout);
+        }
+    };
+    report.comparison = [&](const ComparisonRow& row) {
+        comparison.push_back({{"scene", row.scene},
+                              {"transfer", row.transfer},
+                              {"integrator", row.curve},
+                              {"step", row.step},
+                              {"is_missed", row.is_missed},
+                              {"error", row.error},
+                              {"samples_a_pixel", row.samples_a_pixel},
+                              {"milliseconds", row.milliseconds},
+                              {"inexact_share", row.inexact_share},
+                              {"fewer_samples", row.fewer_samples},
+                              {"less_time", row.less_time}});
+        if (!arguments.json) {
+            std::printf("to 0.001: %-7s %-6s %-11s step %-9.3g error %-9.3g%s %8.1f samples a pixel (%.2f times fewer) %9.1f ms (%.2f times "
+                        "less), inexact %.4f\n",
+                        row.scene.c_str(), row.transfer.c_str(), row.curve.c_str(), row.step, row.error,
+                        row.is_missed ? " MISSED" : "", row.samples_a_pixel, row.fewer_samples, row.milliseconds, row.less_time,
+                        row.inexact_share);
+            std::fflush(stdout);
+        }
+    };
+    const VolumeConvergence result = bench_volume_convergence(device, registry, folder, options, unit, report);
+    if (!arguments.output.empty()) {
+        write_volume_convergence(arguments.output, result);
+    }
+    return {{"rows", rows}, {"orders", orders}, {"comparison", comparison}};
+}
+
 nlohmann::ordered_json run_projection(const Arguments& arguments, const Device& device, const PluginRegistry& registry,
                                       const BenchFolder& folder) {
     ProjectionOptions options;
@@ -318,7 +383,8 @@ void run(const Arguments& arguments) {
     }
     if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary" ||
         arguments.suite == "isosurface" || arguments.suite == "segments" || arguments.suite == "surfaces" ||
-        arguments.suite == "projection" || arguments.suite == "volume") {
+        arguments.suite == "projection" || arguments.suite == "volume" ||
+        arguments.suite == "volume-convergence") {
         const PluginRegistry registry;
         const BenchFolder folder(arguments.data);
         const Device device(arguments.device);
@@ -360,6 +426,9 @@ void run(const Arguments& arguments) {
         if (arguments.suite == "projection") {
             root["projection"] = run_projection(arguments, device, registry, folder);
         }
+        if (arguments.suite == "volume-convergence") {
+            root["volume_convergence"] = run_volume_convergence(arguments, device, registry, folder, unit);
+        }
         if (arguments.suite == "surfaces") {
             root["surfaces"] = run_surfaces(arguments, device, registry, folder, unit);
         }
@@ -376,9 +445,10 @@ void add_bench(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     command
         ->add_option("suite", arguments->suite,
-                     "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces or projection")
+                     "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces, projection or "
+                     "volume-convergence")
         ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "isosurface", "segments", "volume", "hierarchy", "jacobian", "roots",
-                               "surfaces", "projection", "all"}))
+                               "surfaces", "projection", "volume-convergence", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
@@ -389,11 +459,11 @@ void add_bench(CLI::App& app) {
     command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->add_option("--volume", arguments->volume, "A native volume for the suite projection, in place of the waves");
+    command->add_option("--volume", arguments->volume, "A native volume for the suites projection, in place of the waves, and volume-convergence");
     command->add_option("--isovalue", arguments->isovalue, "Of the suite projection; by default the middle of the field's range");
     command->add_option("--integrators", arguments->integrators, "Of the suite volume: riemann, trapezoid, categories, adaptive-trapezoid, exact")
         ->delimiter(',');
-    command->add_option("--output", arguments->output, "Folder for the CSV file and the plots of the suites surfaces and projection");
+    command->add_option("--output", arguments->output, "Folder for CSV files and plots of the suites surfaces, projection and volume-convergence");
     command->callback([arguments, command] {
         arguments->names_elements = command->count("--elements") > 0;
         arguments->names_orders = command->count("--orders") > 0;

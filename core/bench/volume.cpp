@@ -128,8 +128,10 @@ void bench_volume(const Device& device, const PluginRegistry& registry, const Be
             const RuntimeVolume volume = waves_volume(registry, folder, n, order);
             Renderer renderer(device, volume, Precision::float32);
             for (const std::uint32_t size : sizes) {
-                for (const BenchTransfer transfer : transfers) {
-                    for (const Integrator integrator : wanted) {
+                for (const Integrator integrator : wanted) {
+                    // The first transfer function colours all pixels whose rays meet the volume.
+                    std::uint64_t n_pixels = 1;
+                    for (const BenchTransfer transfer : transfers) {
                         const FrameRequest request = waves_volume_picture(size, transfer, integrator);
                         VolumeResult result;
                         result.transfer = transfer;
@@ -148,9 +150,9 @@ void bench_volume(const Device& device, const PluginRegistry& registry, const Be
                         const double prototype = prototype_milliseconds(n, order, size);
                         result.ratio_to_prototype =
                             prototype > 0 ? result.milliseconds / unit_nanoseconds / (prototype / prototype_unit) : 0;
-                        const auto a_pixel = [&](std::uint64_t count) {
-                            return static_cast<double>(count) /
-                                   static_cast<double>(std::max<std::uint64_t>(frame.counts.volume_pixels, 1));
+                        n_pixels = std::max(n_pixels, frame.counts.volume_pixels);
+                        const auto a_pixel = [n_pixels](std::uint64_t count) {
+                            return static_cast<double>(count) / static_cast<double>(n_pixels);
                         };
                         result.evaluations_a_pixel = a_pixel(frame.counts.field_evaluations);
                         result.mappings_a_pixel = a_pixel(frame.counts.mapping_evaluations);

@@ -43,7 +43,7 @@ struct VolumeResult {
      * where the prototype has no figure.
      */
     double ratio_to_prototype = 0;
-    /** Of pixels that the volume colours. */
+    /** Of pixels whose rays meet the volume. */
     double evaluations_a_pixel = 0, mappings_a_pixel = 0, segments_a_pixel = 0, empty_segments_a_pixel = 0, steps_a_pixel = 0,
            breakpoints_a_pixel = 0, inexact_share = 0;
 };

@@ -29,14 +29,13 @@ BenchFolder::~BenchFolder() {
     }
 }
 
-RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& folder, std::uint32_t n, std::uint32_t order) {
-    const std::string name = "waves-" + std::to_string(n) + "-order-" + std::to_string(order);
+RuntimeVolume generated_volume(const PluginRegistry& registry, const BenchFolder& folder, const std::string& name,
+                               const std::string& generator) {
     const std::string description = (folder.path() / (name + ".json")).string();
     const std::string path = (folder.path() / (name + ".h5")).string();
     if (!std::filesystem::exists(path)) {
         std::ofstream file(description);
-        file << R"({"generator":1,"mesh":"waves","shape":"hexahedron","geometry_order":2,"field":"waves","elements":)" << n
-             << R"(,"order":)" << order << "}\n";
+        file << generator << '\n';
         file.close();
         if (!file) {
             throw Error(description, "cannot be written");
@@ -45,6 +44,12 @@ RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& fo
         convert(source, path, {}, {});
     }
     return RuntimeVolume(registry.runtime_for(path), path);
+}
+
+RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& folder, std::uint32_t n, std::uint32_t order) {
+    return generated_volume(registry, folder, "waves-" + std::to_string(n) + "-order-" + std::to_string(order),
+                            R"({"generator":1,"mesh":"waves","shape":"hexahedron","geometry_order":2,"field":"waves","elements":)" +
+                                std::to_string(n) + R"(,"order":)" + std::to_string(order) + "}");
 }
 
 FrameRequest waves_cut_plane(std::uint32_t size) {

@@ -153,6 +153,7 @@ void main() {
     bool goes = is_mine && status == CORE_RAY_GOES;
     while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
         n_elements += 1u;
+        const uint work_before = work;
         const uint local = element - core_first_element;
         // Where the ray leaves.
         uint ending = CORE_PART_NONE;
@@ -263,6 +264,8 @@ void main() {
         element = is_over ? element : next;
         status = is_opaque ? CORE_RAY_ENDS : is_left_open ? CORE_RAY_GOES : is_stopped ? status_at_end : next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
         goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;
+        // Lanes wait for each other.
+        work = work_before + subgroupMax(work - work_before);
     }
     const bool is_cut_short = core_has_driver_given_up(core_zero);
     const bool seeks = status == CORE_RAY_SEEKS;

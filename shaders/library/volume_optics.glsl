@@ -7,7 +7,7 @@
 
 // Steps in one segment at most: with all loops inside below where drivers end them.
 #ifndef CORE_MOST_STEPS
-#define CORE_MOST_STEPS 2048u
+#define CORE_MOST_STEPS 1024u
 #endif
 
 struct core_optics {

@@ -7,7 +7,7 @@
 #include "library/volume_optics.glsl"
 
 // Of what the kernel does in one dispatch.
-#define CORE_WORK_A_SAMPLE 2u
+#define CORE_WORK_A_SAMPLE 3u
 
 #define CORE_WANTS_NOTHING 0u
 #define CORE_WANTS_VALUE 1u
