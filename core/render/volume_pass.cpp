@@ -50,6 +50,7 @@ struct MarchParameters {
     std::uint32_t n_breakpoints;
     std::uint32_t has_depths, has_stops;
     std::uint32_t skips_by_range;
+    std::uint32_t has_steps;
     std::uint32_t zero;
     float extent;
     float tolerance, steepest, step;
@@ -84,6 +85,18 @@ double steepness(const TransferPiece& piece, double width) {
     const double color = std::max(largest(piece.rgb), largest({piece.rgb[0] + piece.rgb_slope[0] * width, piece.rgb[1] + piece.rgb_slope[1] * width,
                                                                piece.rgb[2] + piece.rgb_slope[2] * width}));
     return std::abs(piece.density_slope) * std::max(color, 1.0) + std::max(piece.density, end) * largest(piece.rgb_slope);
+}
+
+/** Whether the second does not begin as the first ends, in density or light, but for rounding. */
+bool is_step(const TransferPiece& first, const TransferPiece& second) {
+    const double width = second.from - first.from;
+    const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-9 * (std::abs(a) + std::abs(b)) + 1e-12; };
+    const double density = first.density + first.density_slope * width;
+    bool is_one = differ(density, second.density);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        is_one = is_one || differ(density * (first.rgb[channel] + first.rgb_slope[channel] * width), second.density * second.rgb[channel]);
+    }
+    return is_one;
 }
 
 } // namespace
@@ -155,11 +168,13 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
     // Buffers are never empty.
     values.resize(std::max<std::size_t>(values.size(), 1));
     m_steepest = 1e-30;
+    m_has_steps = false;
     for (std::size_t i = 0; i < table.pieces.size(); ++i) {
         const TransferPiece& piece = table.pieces[i];
         const bool is_bounded = i > 0 && i < table.breakpoints.size();
         const double steep = is_bounded ? steepness(piece, table.breakpoints[i] - piece.from) : 0;
         m_steepest = std::max(m_steepest, steep);
+        m_has_steps = m_has_steps || (i > 0 && is_step(table.pieces[i - 1], piece));
         const std::array<double, 12> rows = {piece.from - offset, piece.density, piece.density_slope, steep,
                                              piece.rgb[0], piece.rgb[1], piece.rgb[2], 0,
                                              piece.rgb_slope[0], piece.rgb_slope[1], piece.rgb_slope[2], 0};
@@ -246,6 +261,7 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, FrameCount
                                picture.depths ? 1u : 0u,
                                picture.stops ? 1u : 0u,
                                m_wanted.skips_by_range ? 1u : 0u,
+                               m_has_steps ? 1u : 0u,
                                0,
                                static_cast<float>(m_extent),
                                static_cast<float>(m_wanted.tolerance),

@@ -65,6 +65,7 @@ private:
     ShownComponent m_component;
     std::uint32_t m_n_breakpoints = 0;
     double m_steepest = 0;
+    bool m_has_steps = false;
     std::optional<Buffer> m_breakpoints, m_pieces;
     /** Kept from frame to frame. */
     std::optional<Buffer> m_states;

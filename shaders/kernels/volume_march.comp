@@ -30,6 +30,8 @@ layout(push_constant) uniform core_parameters {
     uint core_has_depths, core_has_stops;
     // Parts of rays where bounds say that density and colour are constant need no values.
     uint core_skips_by_range;
+    // The transfer function has two values at a breakpoint.
+    uint core_has_steps;
     uint core_zero;
     // The diagonal of the volume's bounds.
     float core_extent;
@@ -224,6 +226,7 @@ void main() {
                 }
                 is_running = is_running && !is_dismissed;
             }
+            work = subgroupMax(work);
             for (uint turn = 0u; turn < (is_dismissed ? 1u : 0u); ++turn) {
                 core_add_level(light, level, (until - from) * ray.speed);
             }

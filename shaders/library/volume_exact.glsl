@@ -11,6 +11,9 @@
 #include "library/segment_bernstein.glsl"
 #include "library/segment_crossings.glsl"
 
+// Of what the kernel does in one dispatch: for a breakpoint, and for any step.
+#define CORE_WORK_A_CROSSING 6u
+#define CORE_WORK_A_STEP 3u
 // Breakpoints met in one step, beyond which it is not to be good.
 #define CORE_MOST_CROSSINGS 32u
 
@@ -72,12 +75,14 @@ void core_add_piece(inout core_light light, core_polynomial p, elvis_real length
     core_add_light(light, (elvis_real(1) - through) * piece.color + weighted.x * piece.color_slope, through);
 }
 
-// All of a polynomial, on a part of a ray of this length, that is off by `error` at most.
-void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error,
+// Whether a polynomial that is off by `error` at most meets no breakpoint, as most do.
+bool core_is_in_one_piece(core_polynomial p, elvis_real error) {
+    return core_piece_index(core_least(p) - error) == core_piece_index(core_most(p) + error);
+}
+
+// All of a polynomial, on a part of a ray of this length, that is off by `error` at most. `is_whole`: it is in one piece.
+void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, bool is_whole,
                          inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
-    // Most polynomials meet no breakpoint.
-    const uint first = core_piece_index(core_least(p) - error), last = core_piece_index(core_most(p) + error);
-    const bool is_whole = first == last;
     for (uint turn = 0u; turn < (is_whole ? 1u : 0u); ++turn) {
         core_add_piece(light, p, length, error, missed);
     }
@@ -88,7 +93,7 @@ void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real l
     while (!is_over) {
         const core_crossing crossing = core_next_crossing(p, error, core_n_breakpoints, walk);
         n_pieces += 1u;
-        work += 2u;
+        work += CORE_WORK_A_CROSSING;
         is_over = crossing.kind == CORE_CROSSING_NONE || n_pieces > CORE_MOST_CROSSINGS;
         const elvis_real to = is_over ? elvis_real(1) : clamp(crossing.t, from, elvis_real(1));
         n_breakpoints += is_over ? 0u : 1u;
@@ -97,7 +102,7 @@ void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real l
             core_add_piece(light, cell, (to - from) * length, error, missed);
         }
         // Where the polynomial cannot tell on which side of the breakpoint the field is, and steps, which are where it crosses.
-        for (uint turn = 0u; turn < (is_over ? 0u : 1u); ++turn) {
+        for (uint turn = 0u; turn < (!is_over && (core_has_steps != 0u || crossing.kind == CORE_CROSSING_TOUCH) ? 1u : 0u); ++turn) {
             const core_transfer_piece below = core_fetch_piece(crossing.index), above = core_fetch_piece(crossing.index + 1u);
             const elvis_real width = crossing.upper - crossing.lower;
             const elvis_real rise = abs(core_bernstein_value(p, crossing.upper) - core_bernstein_value(p, crossing.lower));

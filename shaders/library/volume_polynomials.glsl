@@ -27,6 +27,8 @@
 // Share of how far the field may be from a line that a cubic is taken to be off at least.
 #define CORE_CUBIC_DOUBT elvis_real(0.0625LF)
 #define CORE_MARGIN elvis_real(3)
+// How many times as much as is allowed a cubic may be off in the steepest piece, of which there may be little.
+#define CORE_HOPELESS elvis_real(16)
 // Of pairs of Chebyshev coefficients: none is believed to be faster; one that is slower is none.
 #define CORE_FASTEST_DECAY elvis_real(0.25LF)
 #define CORE_SLOWEST_DECAY elvis_real(0.75LF)
@@ -147,14 +149,21 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         const elvis_real budget = max(tolerance - light.error, elvis_real(0));
         const elvis_real allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
         const core_fitted fitted = core_fit_step(integral, has_inner);
+        const bool is_whole = core_is_in_one_piece(fitted.p, fitted.error);
+        // A cubic that is far from good is not tried: the sample inside is.
+        const elvis_real worst = light.left * width * per_parameter * elvis_real(core_steepest) * fitted.error;
+        const bool is_tried = has_inner || is_whole || worst <= CORE_HOPELESS * allowed;
         core_light next = light;
         uint n_breakpoints = 0u;
         elvis_real missed = elvis_real(0);
-        core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, n_breakpoints, missed, work);
+        work += CORE_WORK_A_STEP;
+        for (uint turn = 0u; turn < (is_tried ? 1u : 0u); ++turn) {
+            core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, is_whole, n_breakpoints, missed, work);
+        }
         const bool is_shortest = width <= CORE_SHORTEST_STEP * (integral.to - integral.from);
         // The rest is not of the polynomial's making.
         const bool is_rounding = fitted.error <= elvis_real(2) * integral.error && missed <= allowed;
-        const bool is_good = next.error - light.error <= allowed || (has_inner && (is_shortest || is_rounding));
+        const bool is_good = (is_tried && next.error - light.error <= allowed) || (has_inner && (is_shortest || is_rounding));
         const bool is_shorter = !is_good && has_inner;
         integral.n_steps += is_good ? 1u : 0u;
         integral.n_breakpoints += is_good ? n_breakpoints : 0u;
