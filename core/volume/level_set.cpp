@@ -24,11 +24,14 @@ constexpr std::size_t cell_slope = 12, cell_error = 16, cell_scale = 17, cell_el
                       cell_box = 22;
 /** shaders/library/level_cell.glsl */
 constexpr std::uint32_t cell_place_bits = 6, cell_is_estimated = 0x80000000u;
-constexpr std::uint32_t most_levels = 1;
+constexpr std::uint32_t most_levels = 2;
 /** Cells that are looked at, and for which there is room where there are fewer elements. */
 constexpr std::uint64_t most_cells = 1u << 17;
-/** Cells are divided where their error is more than this part of how much the field varies in them. */
-constexpr double wanted_error = 0.05;
+/**
+ * Elements are divided where their error is more than this part of how much the field varies in them, octants where it is more
+ * than that: many small cells cost more to look through than they spare evaluations.
+ */
+constexpr double wanted_error = 0.05, wanted_octant_error = 1;
 
 struct CellParameters {
     std::uint32_t n_cells;
@@ -99,7 +102,9 @@ struct LevelSet::Cells {
         for (std::size_t k = 0; k < 3; ++k) {
             slope += std::abs(double{number(cell, cell_slope + k)});
         }
-        return number(cell, cell_scale) > 0 && number(cell, cell_error) > wanted_error * slope;
+        const bool is_octant = (word(cell, cell_code) & 7u) != 0;
+        const double wanted = is_octant ? wanted_octant_error : wanted_error;
+        return number(cell, cell_scale) > 0 && number(cell, cell_error) > wanted * slope;
     }
     void add(const Cells& other, std::size_t cell) {
         const auto begin = other.words.begin() + static_cast<std::ptrdiff_t>(cell * cell_words);
