@@ -10,8 +10,9 @@ namespace {
 constexpr std::uint32_t tile_height = 16;
 /** Rows of an invocation: all its pixels share the iterations that drivers grant. */
 constexpr std::uint32_t rows_an_invocation = 4;
-/** Words of a tile's list: shaders/library/ray_tiles.glsl. */
-constexpr std::uint32_t tile_stride = 64;
+/** Of a tile's list, and its words: shaders/library/ray_tiles.glsl. */
+constexpr std::uint32_t tile_capacity = 127;
+constexpr std::uint32_t tile_stride = 2 * tile_capacity + 2;
 constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
@@ -50,6 +51,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
     std::unique_ptr<ComposedKernel>& kernel = kernels[static_cast<std::size_t>(role)][has_one_isovalue ? 1 : 0];
     if (!kernel) {
         KernelRequest own = request;
+        own.buffers.insert(own.buffers.end(), cells.begin(), cells.end());
         own.defines.emplace_back("CORE_HAS_ONE_ISOVALUE", has_one_isovalue ? "1" : "0");
         if (role == Role::tiles) {
             own.name = "isosurface_tiles";
@@ -82,7 +84,8 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
         ClassKernels kernels;
         KernelRequest& request = kernels.request;
         request.precision = m_precision;
-        request.buffers = m_level_set.host_buffers(index);
+        kernels.cells = m_level_set.cell_buffers(index);
+        kernels.elements = m_level_set.element_buffers(index);
         for (const FetchBuffer& buffer : data.host_buffers(index)) {
             if (buffer.name != "core_nodes") {
                 request.buffers.push_back(buffer);
@@ -92,7 +95,7 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                            {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"},
-                           {"CORE_LEAF_WORD", "index"},
+                           {"CORE_TILE_CAPACITY", std::to_string(tile_capacity) + "u"},
                            {"CORE_TESTS_LEVELS", "1"},
                            {"CORE_CLASS", std::to_string(index) + "u"}};
         request.bindings = {{0, BindingType::uniform_buffer}};
@@ -137,14 +140,17 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
         draw_by_intervals(first_surface, target, counts);
         left = pixel_flag::isosurface_undecided | pixel_flag::work_limit;
     }
-    const IsosurfaceProjection::Picture picture{m_frame, isovalues, bending, target, m_component,
-                                                static_cast<std::uint32_t>(m_values.size())};
+    const IsosurfaceProjection::Picture picture{m_frame, isovalues,   bending,
+                                                target,  m_component, static_cast<std::uint32_t>(m_values.size())};
     if (m_projection.list(target.layer, left) == 0) {
         return;
     }
     for (const ClassKernels& kernels : m_kernels) {
         if (m_level_set.n_elements(kernels.element_class) > 0) {
-            m_projection.draw(kernels.request, kernels.element_class, m_method, m_degree, picture,
+            m_level_set.provide_element_nodes(kernels.element_class);
+            KernelRequest request = kernels.request;
+            request.buffers.insert(request.buffers.end(), kernels.elements.begin(), kernels.elements.end());
+            m_projection.draw(request, kernels.element_class, m_method, m_degree, picture,
                               first_surface + kernels.element_class, counts);
         }
     }
@@ -159,11 +165,11 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
-    const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
-                                                   &tiles,   &*m_isovalues,  &beyond,        target.places,  &*m_bending};
+    const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts,     &layer.marks,
+                                                    &tiles,   &*m_isovalues,  &beyond,        target.places, &*m_bending};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
-        if (m_level_set.n_elements(kernels.element_class) == 0) {
+        if (m_level_set.n_cells(kernels.element_class) == 0) {
             continue;
         }
         m_counts.fill(0);

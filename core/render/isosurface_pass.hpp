@@ -45,6 +45,8 @@ private:
     struct ClassKernels {
         /** What they have in common. */
         KernelRequest request;
+        /** What intervals are looked for in, and projection. */
+        std::vector<FetchBuffer> cells, elements;
         std::uint32_t element_class = 0;
         /** By role, and whether there is one isovalue. Compiled when first needed. */
         std::array<std::array<std::unique_ptr<ComposedKernel>, 2>, 3> kernels;

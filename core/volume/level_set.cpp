@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace elvis {
@@ -14,7 +15,28 @@ constexpr std::uint64_t block = 65536;
 constexpr std::uint32_t group_size = 32;
 /** Of a model, its range included; of a node. */
 constexpr std::uint32_t record_size = 8;
+/** Of a node. */
+constexpr std::size_t child_word = 3;
 constexpr std::size_t lower = 5, upper = 6, estimated = 7;
+/** Words of a cell on the device, and of what the kernel says of it: range and box, too. */
+constexpr std::uint32_t cell_size = 20, cell_words = 28;
+constexpr std::size_t cell_slope = 12, cell_error = 16, cell_scale = 17, cell_element = 18, cell_code = 19, cell_range = 20,
+                      cell_box = 22;
+/** shaders/library/level_cell.glsl */
+constexpr std::uint32_t cell_place_bits = 6, cell_is_estimated = 0x80000000u;
+constexpr std::uint32_t most_levels = 2;
+/** Cells that are looked at, and for which there is room where there are fewer elements. */
+constexpr std::uint64_t most_cells = 1u << 17;
+/**
+ * Elements are divided where their error is more than this part of how much the field varies in them, octants where it is more
+ * than that: many small cells cost more to look through than they spare evaluations.
+ */
+constexpr double wanted_error = 0.05, wanted_octant_error = 1;
+
+struct CellParameters {
+    std::uint32_t n_cells;
+    std::uint32_t first_component, end_component;
+};
 
 struct Parameters {
     std::uint32_t first, n_elements;
@@ -27,10 +49,73 @@ bool holds_any(const FieldRange& range, std::span<const double> isovalues) {
     return !(range.lower <= range.upper) || (first != isovalues.end() && *first <= range.upper);
 }
 
+std::vector<std::uint32_t> node_words(const Hierarchy& hierarchy) {
+    std::vector<std::uint32_t> words(record_size * hierarchy.nodes().size());
+    std::memcpy(words.data(), hierarchy.nodes().data(), hierarchy.nodes().size() * sizeof(HierarchyNode));
+    return words;
+}
+
+/** Whether an octant with this lower corner shares more than an edge with the shape. */
+bool is_in_shape(elvis_shape shape, const std::array<double, 3>& corner) {
+    switch (shape) {
+    case ELVIS_SHAPE_TETRAHEDRON:
+        return corner[0] + corner[1] + corner[2] < -1;
+    case ELVIS_SHAPE_PRISM:
+        return corner[0] + corner[2] < 0;
+    case ELVIS_SHAPE_PYRAMID:
+        return std::max(corner[0], corner[1]) + corner[2] < 0;
+    default:
+        return true;
+    }
+}
+
+void add_octants(std::vector<std::uint32_t>& elements_and_codes, std::uint32_t element, std::uint32_t code, elvis_shape shape) {
+    const std::uint32_t level = (code & 7u) + 1;
+    const double side = 2.0 / (1u << level);
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        std::uint32_t its_code = level;
+        std::array<double, 3> corner{};
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t shift = 3 + k * cell_place_bits;
+            const std::uint32_t place = 2 * ((code >> shift) & ((1u << cell_place_bits) - 1)) + (octant >> k & 1u);
+            its_code |= place << shift;
+            corner[k] = -1 + side * place;
+        }
+        if (is_in_shape(shape, corner)) {
+            elements_and_codes.insert(elements_and_codes.end(), {element, its_code});
+        }
+    }
+}
+
 } // namespace
 
+/** As the kernel gives them. */
+struct LevelSet::Cells {
+    std::vector<std::uint32_t> words;
+
+    std::size_t size() const { return words.size() / cell_words; }
+    std::uint32_t word(std::size_t cell, std::size_t index) const { return words[cell * cell_words + index]; }
+    float number(std::size_t cell, std::size_t index) const { return std::bit_cast<float>(word(cell, index)); }
+    FieldRange range(std::size_t cell) const { return {number(cell, cell_range), number(cell, cell_range + 1)}; }
+    bool is_rough(std::size_t cell) const {
+        double slope = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            slope += std::abs(double{number(cell, cell_slope + k)});
+        }
+        const bool is_octant = (word(cell, cell_code) & 7u) != 0;
+        const double wanted = is_octant ? wanted_octant_error : wanted_error;
+        return number(cell, cell_scale) > 0 && number(cell, cell_error) > wanted * slope;
+    }
+    void add(const Cells& other, std::size_t cell) {
+        const auto begin = other.words.begin() + static_cast<std::ptrdiff_t>(cell * cell_words);
+        words.insert(words.end(), begin, begin + cell_words);
+    }
+    void append(const Cells& other) { words.insert(words.end(), other.words.begin(), other.words.end()); }
+};
+
 LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_device(device), m_volume(volume), m_centre(data.centre()), m_classes(volume.classes().size()) {
+    : m_device(device), m_volume(volume), m_precision(data.precision()), m_centre(data.centre()),
+      m_classes(volume.classes().size()) {
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         const std::uint64_t n_elements = volume.classes()[index].n_elements;
         if (n_elements == 0) {
@@ -38,7 +123,8 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
         }
         ClassLevels& levels = m_classes[index];
         // Room for all elements, so that kernels composed with it stay valid.
-        levels.nodes = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_elements - 1, record_size);
+        levels.nodes =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_elements - 1, record_size);
         levels.models = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, record_size);
         KernelRequest request;
         request.name = "level_models of element class " + std::to_string(index);
@@ -47,7 +133,17 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
         data.add_field(request, index, true);
         request.bindings = {{0, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(Parameters);
-        levels.kernel = std::make_unique<ComposedKernel>(device, request);
+        levels.model_kernel = std::make_unique<ComposedKernel>(device, request);
+        const std::uint64_t n_cells = std::max(n_elements, most_cells);
+        levels.cell_nodes =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_cells - 1, record_size);
+        levels.cells = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_cells, cell_size);
+        request.name = "level_cells of element class " + std::to_string(index);
+        request.kernel = "kernels/level_cells.comp";
+        request.bindings.push_back({1, BindingType::storage_buffer});
+        request.bindings.push_back({2, BindingType::storage_buffer});
+        request.push_constant_bytes = sizeof(CellParameters);
+        levels.cell_kernel = std::make_unique<ComposedKernel>(device, request);
     }
 }
 
@@ -64,7 +160,8 @@ void LevelSet::make_models(const LevelComponent& component) {
         for (std::uint64_t first = 0; first < n_elements; first += block) {
             const auto count = static_cast<std::uint32_t>(std::min(block, n_elements - first));
             const Parameters parameters{static_cast<std::uint32_t>(first), count, component.first, component.end};
-            levels.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
+            levels.model_kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                          (count + group_size - 1) / group_size);
             const auto words = output.read_items<std::uint32_t>(std::size_t{count} * record_size);
             models[index].insert(models[index].end(), words.begin(), words.end());
             for (std::size_t at = 0; at < words.size(); at += record_size) {
@@ -94,44 +191,171 @@ void LevelSet::choose(std::span<const double> isovalues, const LevelComponent& c
     if (choice == m_choice) {
         return;
     }
-    std::vector<double> boxes, all;
-    std::vector<std::uint32_t> chosen;
+    m_choice = std::move(choice);
+    std::vector<double> all;
     for (std::size_t index = 0; index < m_classes.size(); ++index) {
         const ClassInfo& info = m_volume.classes()[index];
         ClassLevels& levels = m_classes[index];
-        boxes.clear();
-        chosen.clear();
+        levels.chosen.clear();
+        levels.boxes.clear();
+        levels.has_element_nodes = false;
+        levels.n_cells = 0;
         for (std::uint64_t first = 0; first < info.n_elements; first += block) {
             const std::uint64_t count = std::min(block, info.n_elements - first);
             all.resize(6 * count);
             m_volume.bounds(info.first_element + first, count, all);
             for (std::uint64_t i = 0; i < count; ++i) {
-                const bool may_be_skipped = skips_by_range && (m_is_all_estimated || !levels.is_estimated[first + i]);
-                if (!may_be_skipped || holds_any(levels.ranges[first + i], isovalues)) {
-                    chosen.push_back(static_cast<std::uint32_t>(first + i));
+                if (!may_skip(levels, first + i) || holds_any(levels.ranges[first + i], m_choice.isovalues)) {
+                    levels.chosen.push_back(static_cast<std::uint32_t>(first + i));
                     const auto box = all.begin() + static_cast<std::ptrdiff_t>(6 * i);
-                    boxes.insert(boxes.end(), box, box + 6);
+                    levels.boxes.insert(levels.boxes.end(), box, box + 6);
                 }
             }
         }
-        levels.n_chosen = chosen.size();
-        if (chosen.empty()) {
-            continue;
+        if (!levels.chosen.empty()) {
+            make_cells(levels, info.shape);
         }
-        const Hierarchy hierarchy(boxes, m_centre);
-        std::vector<HierarchyNode> nodes(hierarchy.nodes().begin(), hierarchy.nodes().end());
-        for (HierarchyNode& node : nodes) {
-            node.child = node.is_leaf() ? chosen[node.child] : node.child;
-        }
-        std::vector<std::uint32_t> words(record_size * nodes.size());
-        std::memcpy(words.data(), nodes.data(), nodes.size() * sizeof(HierarchyNode));
-        levels.nodes->write_uints(0, words);
     }
-    m_choice = std::move(choice);
 }
 
-std::vector<FetchBuffer> LevelSet::host_buffers(std::uint32_t element_class) const {
+bool LevelSet::may_skip(const ClassLevels& levels, std::uint64_t element) const {
+    return m_choice.skips_by_range && (m_is_all_estimated || !levels.is_estimated[element]);
+}
+
+LevelSet::Cells LevelSet::evaluate(const ClassLevels& levels, std::span<const std::uint32_t> elements_and_codes) {
+    Cells cells;
+    const std::size_t n_cells = elements_and_codes.size() / 2;
+    const std::size_t at_once = std::min<std::size_t>(n_cells, block);
+    const Buffer input(m_device, at_once * 2 * sizeof(std::uint32_t));
+    const Buffer output(m_device, at_once * cell_words * sizeof(std::uint32_t));
+    const Buffer centre(m_device, sizeof(m_centre));
+    if (m_precision == Precision::float64) {
+        centre.write_items(std::span<const double>(m_centre));
+    } else {
+        const std::array<float, 3> rounded{static_cast<float>(m_centre[0]), static_cast<float>(m_centre[1]),
+                                           static_cast<float>(m_centre[2])};
+        centre.write_items(std::span<const float>(rounded));
+    }
+    const std::array<const Buffer*, 3> bindings = {&input, &output, &centre};
+    cells.words.reserve(n_cells * cell_words);
+    for (std::size_t first = 0; first < n_cells; first += at_once) {
+        const std::size_t count = std::min(at_once, n_cells - first);
+        input.write_items(elements_and_codes.subspan(2 * first, 2 * count));
+        const CellParameters parameters{static_cast<std::uint32_t>(count), m_component.first, m_component.end};
+        levels.cell_kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                     static_cast<std::uint32_t>((count + group_size - 1) / group_size));
+        const auto words = output.read_items<std::uint32_t>(count * cell_words);
+        cells.words.insert(cells.words.end(), words.begin(), words.end());
+    }
+    return cells;
+}
+
+void LevelSet::make_cells(ClassLevels& levels, elvis_shape shape) {
+    // Index into what is chosen, by local element.
+    std::vector<std::uint32_t> place(levels.ranges.size());
+    std::vector<std::uint32_t> wanted;
+    for (std::size_t i = 0; i < levels.chosen.size(); ++i) {
+        place[levels.chosen[i]] = static_cast<std::uint32_t>(i);
+        wanted.insert(wanted.end(), {levels.chosen[i], 0});
+    }
+    Cells cells = evaluate(levels, wanted);
+    Cells done;
+    for (std::uint32_t level = 1; m_choice.skips_by_range; ++level) {
+        wanted.clear();
+        Cells undivided;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (level <= most_levels && cells.is_rough(i)) {
+                add_octants(wanted, cells.word(i, cell_element), cells.word(i, cell_code), shape);
+            } else {
+                undivided.add(cells, i);
+            }
+        }
+        if (wanted.empty() || done.size() + undivided.size() + wanted.size() / 2 > most_cells) {
+            break;
+        }
+        done.append(undivided);
+        const Cells octants = evaluate(levels, wanted);
+        cells.words.clear();
+        for (std::size_t i = 0; i < octants.size(); ++i) {
+            if (!may_skip(levels, octants.word(i, cell_element)) || holds_any(octants.range(i), m_choice.isovalues)) {
+                cells.add(octants, i);
+            }
+        }
+    }
+    done.append(cells);
+    write_cells(levels, place, done);
+}
+
+void LevelSet::write_cells(ClassLevels& levels, std::span<const std::uint32_t> place, const Cells& cells) {
+    std::vector<std::uint32_t> records;
+    std::vector<double> boxes;
+    records.reserve(cells.size() * cell_size);
+    boxes.reserve(cells.size() * 6);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::uint32_t element = cells.word(i, cell_element);
+        const double* whole = &levels.boxes[6 * std::size_t{place[element]}];
+        std::array<double, 6> box{};
+        std::copy(whole, whole + 6, box.begin());
+        const bool is_linear = cells.number(i, cell_scale) > 0;
+        for (std::size_t k = 0; is_linear && k < 3; ++k) {
+            const double least = m_centre[k] + double{cells.number(i, cell_box + k)};
+            const double most = m_centre[k] + double{cells.number(i, cell_box + 3 + k)};
+            box[k] = std::clamp(least, whole[k], whole[3 + k]);
+            box[3 + k] = std::clamp(most, box[k], whole[3 + k]);
+        }
+        boxes.insert(boxes.end(), box.begin(), box.end());
+        const auto begin = cells.words.begin() + static_cast<std::ptrdiff_t>(i * cell_words);
+        records.insert(records.end(), begin, begin + cell_size);
+        std::uint32_t* record = &records[records.size() - cell_size];
+        if (levels.is_estimated[element] && !m_is_all_estimated) {
+            record[cell_code] |= cell_is_estimated;
+        }
+        if (!is_linear) {
+            write_box(record, whole);
+        }
+    }
+    levels.n_cells = cells.size();
+    if (cells.size() == 0) {
+        return;
+    }
+    levels.cells->write_uints(0, records);
+    const Hierarchy hierarchy(boxes, m_centre);
+    levels.cell_nodes->write_uints(0, node_words(hierarchy));
+}
+
+void LevelSet::write_box(std::uint32_t* record, const double* box) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double middle = 0.5 * (box[k] + box[3 + k]) - m_centre[k];
+        // The middle is rounded, and so is all that is computed from it.
+        const double half = 0.5 * (box[3 + k] - box[k]) + 1e-6 * (std::abs(middle) + box[3 + k] - box[k]) + 1e-30;
+        for (std::size_t j = 0; j < 3; ++j) {
+            record[4 * k + j] = std::bit_cast<std::uint32_t>(j == k ? static_cast<float>(1 / half) : 0.0f);
+        }
+        record[4 * k + 3] = std::bit_cast<std::uint32_t>(static_cast<float>(middle));
+        record[cell_slope + k] = 0;
+    }
+}
+
+void LevelSet::provide_element_nodes(std::uint32_t element_class) {
+    ClassLevels& levels = m_classes[element_class];
+    if (!levels.has_element_nodes && !levels.chosen.empty()) {
+        const Hierarchy hierarchy(levels.boxes, m_centre);
+        std::vector<std::uint32_t> words = node_words(hierarchy);
+        for (std::size_t i = 0; i < hierarchy.nodes().size(); ++i) {
+            std::uint32_t& child = words[record_size * i + child_word];
+            child = hierarchy.nodes()[i].is_leaf() ? levels.chosen[child] : child;
+        }
+        levels.nodes->write_uints(0, words);
+        levels.has_element_nodes = true;
+    }
+}
+
+std::vector<FetchBuffer> LevelSet::element_buffers(std::uint32_t element_class) const {
     return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_models", m_classes[element_class].models.get()}};
+}
+
+std::vector<FetchBuffer> LevelSet::cell_buffers(std::uint32_t element_class) const {
+    return {{"core_nodes", m_classes[element_class].cell_nodes.get()}, {"core_cells", m_classes[element_class].cells.get()}};
 }
 
 } // namespace elvis

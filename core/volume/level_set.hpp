@@ -25,8 +25,10 @@ struct LevelComponent {
 
 /**
  * For the field or expression that `data` has selected, with its derivative bounds: a linear model of it in every element
- * (shaders/library/level_model.glsl), and hierarchies over the elements that can hold an isovalue, one for each class. Elements
- * of which the range is only estimated are kept, so that rays past them can be flagged, unless all are: see rests_on_estimates().
+ * (shaders/library/level_model.glsl), and hierarchies over the elements that can hold an isovalue, one for each class, and over
+ * the octants of these, or octants of octants, that can (shaders/library/level_cell.glsl): as many as there is room for.
+ * Elements of which the range is only estimated are kept, so that rays past them can be flagged, unless all are: see
+ * rests_on_estimates().
  */
 class LevelSet {
 public:
@@ -36,20 +38,31 @@ public:
     void choose(std::span<const double> isovalues, const LevelComponent& component, bool skips_by_range);
 
     /** `core_nodes`, in which leaves are local elements, and `core_models`. Valid as long as this. Of classes with elements. */
-    std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
-    /** Elements have been left out, or rays pass them by, on the word of estimates: that is so everywhere, and not flagged by kernels. */
+    std::vector<FetchBuffer> element_buffers(std::uint32_t element_class) const;
+    /** `core_nodes`, in which leaves are cells, and `core_cells`. */
+    std::vector<FetchBuffer> cell_buffers(std::uint32_t element_class) const;
+    /** Before the nodes of element_buffers() are used. */
+    void provide_element_nodes(std::uint32_t element_class);
+    /** Elements have been left out, or rays pass them by, on the word of estimates: that is so everywhere, and not flagged by
+     * kernels. */
     bool rests_on_estimates() const { return m_is_all_estimated; }
+    std::uint64_t n_cells(std::uint32_t element_class) const { return m_classes[element_class].n_cells; }
     /** Chosen ones. */
-    std::uint64_t n_elements(std::uint32_t element_class) const { return m_classes[element_class].n_chosen; }
+    std::uint64_t n_elements(std::uint32_t element_class) const { return m_classes[element_class].chosen.size(); }
 
 private:
     struct ClassLevels {
-        std::unique_ptr<RecordBuffer> nodes, models;
-        std::unique_ptr<ComposedKernel> kernel;
+        std::unique_ptr<RecordBuffer> nodes, models, cell_nodes, cells;
+        std::unique_ptr<ComposedKernel> model_kernel, cell_kernel;
         std::vector<FieldRange> ranges;
         std::vector<bool> is_estimated;
-        std::uint64_t n_chosen = 0;
+        /** Local elements, and their boxes. */
+        std::vector<std::uint32_t> chosen;
+        std::vector<double> boxes;
+        bool has_element_nodes = false;
+        std::uint64_t n_cells = 0;
     };
+    struct Cells;
     struct Choice {
         std::vector<double> isovalues;
         bool skips_by_range = true;
@@ -57,9 +70,18 @@ private:
         bool operator==(const Choice&) const = default;
     };
     void make_models(const LevelComponent& component);
+    bool may_skip(const ClassLevels& levels, std::uint64_t element) const;
+    void make_cells(ClassLevels& levels, elvis_shape shape);
+    /** `place`: of local elements in what is chosen. */
+    void write_cells(ClassLevels& levels, std::span<const std::uint32_t> place, const Cells& cells);
+    /** In place of a linearization, the element's box. */
+    void write_box(std::uint32_t* record, const double* box) const;
+    /** Models of cells, and their boxes and ranges. */
+    Cells evaluate(const ClassLevels& levels, std::span<const std::uint32_t> elements_and_codes);
 
     const Device& m_device;
     const RuntimeVolume& m_volume;
+    Precision m_precision;
     std::array<double, 3> m_centre;
     std::vector<ClassLevels> m_classes;
     LevelComponent m_component{0, 0};

@@ -1,10 +1,11 @@
 // The first point of each pixel's ray at which the field takes one of the isovalues, in the elements of one class.
 //
-// A work group is a tile of pixels; its list (kernels/ray_tiles.comp) names the leaves of a hierarchy over the elements whose range
-// holds an isovalue, in the order of depth, so that the search ends at the first leaf behind the crossing found.
+// A work group is a tile of pixels; its list (kernels/ray_tiles.comp) names the cells, octants of elements that can hold an isovalue, in
+// the order of depth, so that the search ends at the first cell behind the crossing found.
 //
-// The part of a ray in an element's box is cut down by the linearized mapping, and then a piece at a time is looked at, front to
-// back (library/ray_piece.glsl). One evaluation bounds the field over the whole piece by a line and an error. So it is known that
+// A ray is cut down to what a cell's linear models of mapping and field leave (library/level_cell.glsl), and then a piece at a time is
+// looked at, front to back (library/ray_piece.glsl). One evaluation bounds the field over the whole piece by a line and an error. So it
+// is known that
 //
 //   no isovalue is taken         the piece is done: that is certified, as far as the bounds are
 //   one is taken in a part       the piece is cut down to that part, before which there is none: the interval Newton method
@@ -27,7 +28,6 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/finite.glsl"
 #include "library/pixel_ray.glsl"
 #include "library/isosurface_bindings.glsl"
-#include "library/linearization.glsl"
 
 layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(push_constant) uniform core_parameters {
@@ -48,13 +48,12 @@ layout(push_constant) uniform core_parameters {
 #include "library/element_frame.glsl"
 #include "library/shown_model.glsl"
 #include "library/ray_piece.glsl"
-#include "library/level_model.glsl"
-#include "library/level_span.glsl"
+#include "library/cell_span.glsl"
 
 #define CORE_NO_ELEMENT 0xffffffffu
 // Turns of one pixel: all pixels of an invocation stay below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
-// Evaluations in one element, beyond which the ray is left to projection.
+// Evaluations in one cell, beyond which the ray is left to projection.
 #define CORE_MOST_EVALUATIONS 96u
 // Times the mapping is linearized anew nearer to the piece before it is halved.
 #define CORE_MAX_MOVES 8u
@@ -135,46 +134,48 @@ void main() {
                 const uint at = list + 1u + 2u * min(entry, n_listed - 1u);
                 const uint word = is_popped ? CORE_TOP : core_tiles[at];
                 const float entry_t = uintBitsToFloat(core_tiles[at + 1u]);
-                const bool is_behind = !is_popped && entry_t > float(best_t + best_slack);
+                const float end_t = float(best_t + best_slack);
+                const bool is_behind = !is_popped && entry_t > end_t;
                 stack_size -= is_popped ? 1u : 0u;
                 entry = is_popped ? entry : (is_behind ? n_entries : entry + 1u);
-                const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
-                vec2 span = core_box_span(node, ray);
-                span.x = max(span.x, float(ray.least_t));
-                span.y = min(span.y, float(best_t + best_slack));
-                const bool is_touched = !is_behind && span.x <= span.y;
+                uint index = word;
+                bool is_cell = !is_behind;
 #if CORE_DESCENDS
-                for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
-                    stack[stack_size] = node.child + 1u;
-                    stack[stack_size + 1u] = node.child;
-                    stack_size += 2u;
+                for (uint turn = 0u; turn < ((word & CORE_TILE_INNER) != 0u && !is_behind ? 1u : 0u); ++turn) {
+                    const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
+                    const vec2 in_box = core_box_span(node, ray);
+                    const bool is_touched = max(in_box.x, float(ray.least_t)) <= min(in_box.y, end_t);
+                    is_cell = is_touched && node.is_leaf;
+                    index = node.child;
+                    for (uint inner = 0u; inner < (is_touched && !node.is_leaf ? 1u : 0u); ++inner) {
+                        stack[stack_size] = (node.child + 1u) | CORE_TILE_INNER;
+                        stack[stack_size + 1u] = node.child | CORE_TILE_INNER;
+                        stack_size += 2u;
+                    }
                 }
 #endif
-                for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
-                    const core_linearization linearization = core_fetch_linearization(node.child);
-                    const vec3 target = vec3(core_reference.xyz - elvis_origin(node.child) + ray.origin);
-                    const vec3 start = core_linear_inverse(linearization, target);
-                    const vec3 motion = core_linear_inverse(linearization, target + vec3(ray.direction)) - start;
-                    const bool is_linearized = linearization.exponents != 0u;
-                    const float curvature = float(elvis_fetch_core_curvatures(node.child, 0u));
-                    const vec2 inside = core_linear_span(start, motion, curvature, span);
-                    const core_level_model level = core_fetch_level_model(node.child);
-                    const vec2 part = core_level_span(level, start, motion, curvature, inside);
-                    span = is_linearized ? part : span;
-                    const float middle = 0.5 * (span.x + span.y);
-                    const vec3 at_middle = start + middle * motion;
-                    x = is_linearized ? elvis_real(at_middle.x) : CORE_CENTROID.x;
-                    y = is_linearized ? elvis_real(at_middle.y) : CORE_CENTROID.y;
-                    z = is_linearized ? elvis_real(at_middle.z) : CORE_CENTROID.z;
+                for (uint turn = 0u; turn < (is_cell ? 1u : 0u); ++turn) {
+                    const core_level_cell cell = core_fetch_level_cell(index);
+                    const vec3 start = core_cell_turn(cell, ray.box_origin - cell.middle);
+                    const vec3 motion = core_cell_turn(cell, vec3(ray.direction));
+                    const float tolerance = core_cell_tolerance(cell, ray.far);
+                    const vec2 inside = core_cell_inside(cell, start, motion, tolerance, vec2(float(ray.least_t), end_t));
+                    const vec2 part = core_cell_level_span(cell, start, motion, tolerance, inside);
+                    const vec3 xi = core_cell_middle(cell.code) + cell.size * (start + 0.5 * (part.x + part.y) * motion);
+                    x = elvis_real(xi.x);
+                    y = elvis_real(xi.y);
+                    z = elvis_real(xi.z);
                     core_project(x, y, z);
-                    a = elvis_real(span.x);
-                    b = next = last = elvis_real(span.y);
-                    element = span.x <= span.y ? node.child : CORE_NO_ELEMENT;
-                    const bool is_dismissed = is_linearized && inside.x <= inside.y && part.x > part.y;
-                    flags |= is_dismissed && level.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+                    a = elvis_real(part.x);
+                    b = next = last = elvis_real(part.y);
+                    const bool is_inside = inside.x <= inside.y;
+                    element = is_inside && part.x <= part.y ? cell.element : CORE_NO_ELEMENT;
+                    const bool is_dismissed = is_inside && part.x > part.y;
+                    flags |= is_dismissed && (cell.code & CORE_CELL_ESTIMATED) != 0u ? CORE_FLAG_ESTIMATED : 0u;
                     used = moves = 0u;
                     wide = elvis_real(0);
-                    bend = elvis_real(2) * elvis_real(level.remainder) / (CORE_EXTENT * CORE_EXTENT);
+                    const elvis_real half_side = elvis_real(core_cell_half_side(cell.code));
+                    bend = elvis_real(2) * elvis_real(cell.error) / (half_side * half_side);
                 }
             }
 

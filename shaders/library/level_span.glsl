@@ -3,6 +3,8 @@
 //
 // `start` + t `direction`: the ray in reference coordinates, as linearized.
 
+#include "library/level_part.glsl"
+
 // Of the linearization at the centroid, which keeps this many digits of coordinates in the element.
 #define CORE_LINEAR_ERROR 2e-2
 
@@ -32,17 +34,5 @@ vec2 core_linear_span(vec3 start, vec3 direction, float curvature, vec2 span) {
 // there are several.
 vec2 core_level_span(core_level_model model, vec3 start, vec3 direction, float curvature, vec2 span) {
     const float value = model.value + dot(model.slope, start - vec3(CORE_CENTROID)), slope = dot(model.slope, direction);
-    const float a = value + span.x * slope, b = value + span.y * slope;
-    const float rounding = 16.0 * CORE_FLOAT_ROUNDOFF * (abs(value) + abs(span.x * slope) + abs(span.y * slope));
-    const float error = core_level_error(model, core_linear_error(curvature)) + rounding;
-    const float least = min(a, b) - error, most = max(a, b) + error;
-    const uint first = core_isovalue_from(elvis_real(least));
-    const bool has_one = first < CORE_N_ISOVALUES && float(core_isovalue_at(min(first, CORE_N_ISOVALUES - 1u))) <= most;
-    const bool has_more = first + 1u < CORE_N_ISOVALUES && float(core_isovalue_at(min(first + 1u, CORE_N_ISOVALUES - 1u))) <= most;
-    const float isovalue = float(core_isovalue_at(min(first, CORE_N_ISOVALUES - 1u)));
-    const float middle = (isovalue - value) / slope, half_width = (error + CORE_FLOAT_ROUNDOFF * abs(isovalue)) / abs(slope);
-    const bool is_cut = has_one && !has_more && abs(slope) > 0.0 && error < CORE_LEVEL_UNKNOWN;
-    const vec2 part = vec2(max(span.x, middle - half_width), min(span.y, middle + half_width));
-    const bool is_none = !has_one && error < CORE_LEVEL_UNKNOWN;
-    return is_none ? vec2(1.0, 0.0) : is_cut ? part : span;
+    return core_level_part(value, slope, core_level_error(model, core_linear_error(curvature)), span);
 }

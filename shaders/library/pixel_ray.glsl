@@ -29,16 +29,18 @@ core_ray core_pixel_ray(core_cut_column along, elvis_real row) {
 }
 
 // Least and greatest t at which the ray may be in the box; the least is above the greatest if it misses it.
-vec2 core_box_span(core_node node, core_ray ray) {
-    const vec3 direction = vec3(ray.direction);
+vec2 core_box_span(core_node node, vec3 origin, vec3 direction, float far) {
     const vec3 inverse = 1.0 / mix(direction, vec3(1e-30), lessThan(abs(direction), vec3(1e-30)));
-    const float tolerance = 16.0 * CORE_FLOAT_ROUNDOFF * ray.far;
-    const vec3 a = (node.lower - tolerance - ray.box_origin) * inverse;
-    const vec3 b = (node.upper + tolerance - ray.box_origin) * inverse;
+    const float tolerance = 16.0 * CORE_FLOAT_ROUNDOFF * far;
+    const vec3 a = (node.lower - tolerance - origin) * inverse;
+    const vec3 b = (node.upper + tolerance - origin) * inverse;
     const vec3 low = min(a, b), high = max(a, b);
     const float enter = max(max(low.x, low.y), low.z), leave = min(min(high.x, high.y), high.z);
     const float slack = 1e-5 * (abs(enter) + abs(leave));
     return vec2(enter - slack, leave + slack);
+}
+vec2 core_box_span(core_node node, core_ray ray) {
+    return core_box_span(node, ray.box_origin, vec3(ray.direction), ray.far);
 }
 
 // Least t at which the ray may be in the box; more than anything if it misses it.
