@@ -8,6 +8,11 @@ layout(local_size_x = 32) in;
 #include "library/hierarchy.glsl"
 #include "library/ray_tiles.glsl"
 
+// What stands for a leaf: its item, or the node.
+#ifndef CORE_LEAF_WORD
+#define CORE_LEAF_WORD node.child
+#endif
+
 layout(std430, set = 0, binding = 1) writeonly buffer core_output { uint core_tiles[]; };
 // Number 4: tiles with inner nodes.
 layout(std430, set = 0, binding = 2) buffer core_counts_block { uint core_counts[]; };
@@ -116,7 +121,7 @@ void main() {
                 place -= 1u;
             }
             entries[place] = entry;
-            words[place] = node.is_leaf ? node.child : index | CORE_TILE_INNER;
+            words[place] = node.is_leaf ? CORE_LEAF_WORD : index | CORE_TILE_INNER;
             n_entries += 1u;
             n_inner += node.is_leaf ? 0u : 1u;
         }

@@ -80,6 +80,19 @@ bool core_is_in_one_piece(core_polynomial p, elvis_real error) {
     return core_piece_index(core_least(p) - error) == core_piece_index(core_most(p) + error);
 }
 
+// How far from a crossing at t the polynomial is not off by more than `error` on both sides yet.
+elvis_real core_doubtful_width(core_polynomial p, elvis_real t, elvis_real value, elvis_real error) {
+    elvis_real width = elvis_real(4) * CORE_ROUNDOFF;
+    bool is_doubtful = true;
+    while (is_doubtful) {
+        const elvis_real before = core_bernstein_value(p, max(t - width, elvis_real(0))) - value;
+        const elvis_real after = core_bernstein_value(p, min(t + width, elvis_real(1))) - value;
+        is_doubtful = min(abs(before), abs(after)) <= error && width < elvis_real(0.5LF);
+        width *= elvis_real(2);
+    }
+    return width;
+}
+
 // All of a polynomial, on a part of a ray of this length, that is off by `error` at most. `is_whole`: it is in one piece.
 void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, bool is_whole,
                          inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
@@ -105,13 +118,12 @@ void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real l
         for (uint turn = 0u; turn < (!is_over && (core_has_steps != 0u || crossing.kind == CORE_CROSSING_TOUCH) ? 1u : 0u); ++turn) {
             const core_transfer_piece below = core_fetch_piece(crossing.index), above = core_fetch_piece(crossing.index + 1u);
             const elvis_real width = crossing.upper - crossing.lower;
-            const elvis_real rise = abs(core_bernstein_value(p, crossing.upper) - core_bernstein_value(p, crossing.lower));
             const elvis_real at = core_level_value(crossing.index);
             const elvis_vec3 colors = abs(core_color_at(below, at) - core_color_at(above, at));
             const elvis_real densities = abs(core_density_at(below, at) - core_density_at(above, at));
             const elvis_real jump = densities + core_density_at(above, at) * max(max(colors.x, colors.y), colors.z);
             const bool is_touch = crossing.kind == CORE_CROSSING_TOUCH;
-            const elvis_real share = is_touch ? width : min(error * width / max(rise, elvis_real(1e-30LF)), width);
+            const elvis_real share = is_touch ? width : core_doubtful_width(p, crossing.t, at, error);
             const elvis_real bends = is_touch ? elvis_real(2) * error * abs(above.steepness - below.steepness) : elvis_real(0);
             light.error += light.left * length * share * (jump + bends);
         }
