@@ -26,7 +26,7 @@
 #define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
 // Share of how far the field may be from a line that a cubic is taken to be off at least.
 #define CORE_CUBIC_DOUBT elvis_real(0.0625LF)
-#define CORE_MARGIN elvis_real(5)
+#define CORE_MARGIN elvis_real(15)
 // How many times as much as is allowed a cubic may be off in the steepest piece, of which there may be little.
 #define CORE_HOPELESS elvis_real(16)
 // Of pairs of Chebyshev coefficients: none is believed to be faster; one that is slower is none.
