@@ -30,7 +30,7 @@ void main() {
         core_colors[pixel] = elvis_vec4(alpha > elvis_real(0) ? light / alpha : under.xyz, alpha);
     }
     for (uint turn = 0u; turn < (is_inside ? 1u : 0u); ++turn) {
-        core_marks[pixel].flags |= state.flags | (is_inexact ? CORE_FLAG_VOLUME_TOLERANCE : 0u);
+        core_marks[pixel].flags |= state.flags | (state.status == CORE_RAY_ENDS ? 0u : CORE_FLAG_WORK_LIMIT) | (is_inexact ? CORE_FLAG_VOLUME_TOLERANCE : 0u);
     }
     const uint all_drawn = subgroupAdd(is_drawn ? 1u : 0u);
     if (subgroupElect()) {

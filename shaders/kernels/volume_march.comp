@@ -66,8 +66,15 @@ layout(push_constant) uniform core_parameters {
 #ifndef CORE_WORK_A_SAMPLE
 #define CORE_WORK_A_SAMPLE 1u
 #endif
+// Parts on end that are too short to matter, before the element around the ray is looked for.
+#define CORE_MOST_GRAZES 4u
 // Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
 #define CORE_MOST_HOPS 16u
+// Over the volume's size: gaps between elements of a chain that are rounding's.
+#define CORE_WIDEST_GAP 1e-6
+// Of rays along faces: steps towards where they leave; violation of the face within which they run along it.
+#define CORE_ROUGH_TURNS 8u
+#define CORE_ALONG 1e-5
 // Below this share nothing behind can be seen.
 #define CORE_OPAQUE 0.125
 
@@ -115,6 +122,47 @@ uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint ot
     return is_found ? element : CORE_NO_ELEMENT;
 }
 
+// Where the ray leaves the element as Newton's method predicts it, without bounds: for rays that run along a curved face within
+// rounding, which is then left out. The result stands in the part, which is an estimate.
+void core_leave_roughly(core_walk_ray ray, elvis_real from, inout core_part part) {
+    elvis_real leave = from;
+    int leave_face = CORE_NO_FACE;
+    for (uint turn = 0u; turn < CORE_ROUGH_TURNS; ++turn) {
+        elvis_real x = part.x + (leave - part.anchor) * part.slope_x, y = part.y + (leave - part.anchor) * part.slope_y;
+        elvis_real z = part.z + (leave - part.anchor) * part.slope_z;
+        core_project(x, y, z);
+        elvis_vec3 position;
+        elvis_mat3 jacobian;
+        elvis_mapping_jacobian(part.element, elvis_vec3(x, y, z), position, jacobian);
+        const core_frame frame = core_frame_at(position, jacobian, ray.error);
+        const elvis_vec3 at = elvis_vec3(x, y, z) + core_to_xi(frame, core_part_target(ray, part.element, leave) - position);
+        const elvis_vec3 slope = core_to_xi(frame, ray.direction);
+        elvis_real first = from + ray.reach;
+        for (int face = 0; face < CORE_N_FACES; ++face) {
+            const elvis_vec4 constraint = core_face_constraint(face);
+            const elvis_real value = dot(constraint.xyz, at) + constraint.w, rate = dot(constraint.xyz, slope);
+            const elvis_real root = leave - value / rate;
+            const bool is_along = abs(value) + abs(value + (from - leave) * rate) <= elvis_real(CORE_ALONG);
+            const bool is_first = rate > elvis_real(0) && !is_along && root > from && root < first;
+            leave_face = is_first ? face : leave_face;
+            first = is_first ? root : first;
+        }
+        part.x = at.x;
+        part.y = at.y;
+        part.z = at.z;
+        part.slope_x = slope.x;
+        part.slope_y = slope.y;
+        part.slope_z = slope.z;
+        part.anchor = leave;
+        leave = first;
+    }
+    part.enter = from;
+    part.enter_error = elvis_real(0);
+    part.leave = leave;
+    part.leave_face = leave_face;
+    part.is_estimated = true;
+}
+
 void main() {
     const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
     const bool is_pixel = column < core_size.x && row < core_size.y;
@@ -146,7 +194,8 @@ void main() {
     const elvis_real tolerance = elvis_real(core_tolerance);
 
     uint n_elements = 0u, n_evaluations = 0u, n_mappings = 0u, n_segments = 0u, n_empty = 0u, n_steps = 0u, n_breakpoints = 0u;
-    uint n_failures = 0u, work = 0u;
+    // How often on end the element was not met where it was to be.
+    uint n_failures = 0u, work = 0u, n_lost = 0u;
     core_part part;
     part.element = 0u;
     part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
@@ -168,12 +217,20 @@ void main() {
             n_mappings += 1u;
             work += 1u;
         }
-        const bool is_met = ending == CORE_PART_FOUND && part.enter <= chain + elvis_real(4) * ray.tolerance + part.enter_error;
+        for (uint turn = 0u; turn < (part.has_failed ? 1u : 0u); ++turn) {
+            core_leave_roughly(ray, chain, part);
+            flags |= CORE_FLAG_UNDECIDED;
+            ending = CORE_PART_FOUND;
+        }
+        // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
+        const elvis_real gap = part.enter - chain - part.enter_error;
+        const bool is_met = ending == CORE_PART_FOUND && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
         const bool is_estimated = is_met && part.is_estimated;
         flags |= is_estimated ? CORE_FLAG_ESTIMATED : 0u;
         const elvis_real leave = is_met ? max(part.leave, chain) : chain;
         // What is too short to matter is the next one's.
-        const bool is_joined = chain - done <= elvis_real(16) * ray.tolerance;
+        const bool is_joined = chain - done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
+        flags |= is_met && !is_joined && done > start ? CORE_FLAG_UNDECIDED : 0u;
         const elvis_real from = is_joined ? done : chain, until = min(leave, to);
 
         // What lies between.
@@ -187,7 +244,7 @@ void main() {
         n_empty += is_level ? 1u : 0u;
         core_integral integral = core_integral_begin(from, has_segment && !is_level ? until : from, ray.speed, step);
         const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - start), until - from);
-        const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0)) /
+        const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
                                   (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
         core_follower follower;
         follower.known = part.anchor;
@@ -256,14 +313,17 @@ void main() {
         chain = is_over ? chain : leave;
         const uint link = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
         uint next = link;
-        const bool is_lost = !is_over && (!is_met || part.leave_face < 0);
+        // Elements on both sides of a face that the ray grazes may hand it to and fro.
+        const bool is_stuck = leave - from <= elvis_real(4) * ray.tolerance;
+        const bool is_lost = !is_over && (!is_met || part.leave_face < 0 || (is_stuck && n_lost >= CORE_MOST_GRAZES));
         for (uint turn = 0u; turn < (is_lost ? 1u : 0u); ++turn) {
-            const elvis_real probe = chain + elvis_real(4) * ray.tolerance;
+            const elvis_real probe = chain + elvis_real(4) * exp2(float(min(n_lost, 30u))) * ray.tolerance;
             uint other;
             const uint found = core_find_around(ray, local, probe, other);
             next = found != CORE_NO_ELEMENT ? core_first_element + found : other;
             chain = probe;
         }
+        n_lost = is_lost || is_stuck ? n_lost + 1u : 0u;
         element = is_over ? element : next;
         status = is_opaque ? CORE_RAY_ENDS : is_left_open ? CORE_RAY_GOES : is_stopped ? status_at_end : next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
         goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;

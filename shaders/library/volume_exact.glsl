@@ -12,7 +12,7 @@
 #include "library/segment_crossings.glsl"
 
 // Of what the kernel does in one dispatch: for a breakpoint, and for any step.
-#define CORE_WORK_A_CROSSING 6u
+#define CORE_WORK_A_CROSSING 12u
 #define CORE_WORK_A_STEP 3u
 // Breakpoints met in one step, beyond which it is not to be good.
 #define CORE_MOST_CROSSINGS 32u

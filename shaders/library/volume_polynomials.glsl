@@ -146,7 +146,8 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
     bool has_inner = is_inner;
     while (integral.wants == CORE_WANTS_NOTHING && integral.left < integral.to) {
         const elvis_real width = integral.right - integral.left;
-        const elvis_real budget = max(tolerance - light.error, elvis_real(0));
+        // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
+        const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
         const elvis_real allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
         const core_fitted fitted = core_fit_step(integral, has_inner);
         const bool is_whole = core_is_in_one_piece(fitted.p, fitted.error);

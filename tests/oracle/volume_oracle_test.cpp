@@ -111,7 +111,8 @@ TEST_CASE("the program's pieces of transfer functions are the functions themselv
             CAPTURE(seed, value);
             // Slopes of peaks reach 1e5.
             REQUIRE(std::abs(piece.density + piece.density_slope * (value - piece.from) - point.density) < 1e-9);
-            for (std::size_t c = 0; c < 3; ++c)
+            // Where there is no density the colour is not kept.
+            for (std::size_t c = 0; c < 3 && point.density > 0; ++c)
                 REQUIRE(std::abs(piece.rgb[c] + piece.rgb_slope[c] * (value - piece.from) - point.rgb[c]) < 1e-9);
         }
     }
