@@ -77,7 +77,7 @@ void main() {
     part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
     part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
     part.turns = 0u;
-    bool is_searching = false, has_entered = false;
+    bool is_searching = false, has_entered = false, has_failed = false;
     while ((is_searching || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
         work += 1u;
         while (!is_searching && (stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
@@ -105,6 +105,8 @@ void main() {
         // A start that is not the one wanted is followed to where the ray leaves.
         const uint ending = is_searching ? core_part_turn(ray, is_searching, part) : CORE_PART_NONE;
         n_evaluations += is_searching ? 1u : 0u;
+        // What is behind in the element is then not looked for.
+        has_failed = has_failed || (is_searching && ending != CORE_PART_OPEN && part.has_failed);
         const uint element = core_first_element + part.element;
         const bool is_entry = is_searching && part.is_inside && !has_entered;
         has_entered = has_entered || is_entry;
@@ -131,7 +133,7 @@ void main() {
         core_states[pixel].status = CORE_RAY_HAS_SOUGHT;
         core_states[pixel].chain = best;
         core_states[pixel].element = best_element;
-        core_states[pixel].flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
+        core_states[pixel].flags |= (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) | (has_failed ? CORE_FLAG_UNDECIDED : 0u);
     }
     const uint all_open = subgroupAdd(is_mine ? 1u : 0u), all_evaluations = subgroupAdd(n_evaluations);
     if (subgroupElect()) {
