@@ -1,0 +1,202 @@
+#include <core/expression/glsl_operations.hpp>
+
+#include <core/expression/glsl_text.hpp>
+
+#include <cassert>
+
+namespace elvis::expression_glsl {
+
+std::string real_operation(const Node& node, const Operands& operands) {
+    const auto& [a, b, c] = operands;
+    const auto truth = [](const std::string& condition) { return condition + " ? elvis_real(1) : elvis_real(0)"; };
+    switch (node.operation) {
+    case Operation::negate:
+        return "-" + a;
+    case Operation::whole_power:
+        return node.number == 2   ? a + " * " + a
+               : node.number == 3 ? a + " * " + a + " * " + a
+                                  : call("core_whole_power", {a, std::to_string(static_cast<int>(node.number)) + "u"});
+    case Operation::power_to:
+        return call("elvis_pow", {a, literal(node.number)});
+    case Operation::square_root:
+        return call("sqrt", {a});
+    case Operation::absolute:
+        return call("abs", {a});
+    case Operation::sign:
+        return call("sign", {a});
+    case Operation::sine:
+        return call("elvis_sin", {a});
+    case Operation::cosine:
+        return call("elvis_cos", {a});
+    case Operation::tangent:
+        return call("elvis_sin", {a}) + " / " + call("elvis_cos", {a});
+    case Operation::arcsine:
+        return call("elvis_asin", {a});
+    case Operation::arccosine:
+        return call("elvis_acos", {a});
+    case Operation::arctangent:
+        return call("elvis_atan", {a});
+    case Operation::exponential:
+        return call("elvis_exp", {a});
+    case Operation::logarithm:
+        return call("elvis_log", {a});
+    case Operation::add:
+        return a + " + " + b;
+    case Operation::subtract:
+        return a + " - " + b;
+    case Operation::multiply:
+        return a + " * " + b;
+    case Operation::divide:
+        return a + " / " + b;
+    case Operation::power:
+        return call("elvis_pow", {a, b});
+    case Operation::minimum:
+        return call("min", {a, b});
+    case Operation::maximum:
+        return call("max", {a, b});
+    case Operation::arctangent2:
+        return call("elvis_atan", {a, b});
+    case Operation::over_length:
+        return call("core_over_length", {a, b});
+    case Operation::less:
+        return truth(a + " < " + b);
+    case Operation::less_equal:
+        return truth(a + " <= " + b);
+    case Operation::equal:
+        return truth(a + " == " + b);
+    case Operation::length:
+        return "sqrt(" + a + " * " + a + " + " + b + " * " + b + " + " + c + " * " + c + ")";
+    case Operation::select:
+        return a + " != elvis_real(0) ? " + b + " : " + c;
+    default:
+        assert(false && "a leaf is no operation");
+        return {};
+    }
+}
+
+std::string enclosure_operation(const Node& node, const Operands& operands, const std::string& prefix,
+                                const std::string& last) {
+    const auto operand = [&](std::size_t i) { return operands[i]; };
+    const auto of = [&](const char* function, std::initializer_list<std::string> more) {
+        std::string text = prefix + function + "(" + operand(0);
+        for (const std::string& one : more) {
+            text += ", " + one;
+        }
+        return text + last + ")";
+    };
+    const std::string b = operand(1), c = operand(2);
+    switch (node.operation) {
+    case Operation::negate:
+        return prefix + "negate(" + operand(0) + ")";
+    case Operation::whole_power:
+        return node.number == 2 ? of("square", {}) : of("whole_power", {std::to_string(static_cast<int>(node.number)) + "u"});
+    case Operation::power_to:
+        return of("power_to", {literal(node.number)});
+    case Operation::square_root:
+        return of("sqrt", {});
+    case Operation::absolute:
+        return of("abs", {});
+    case Operation::sign:
+        return of("sign", {});
+    case Operation::sine:
+        return of("sin", {});
+    case Operation::cosine:
+        return of("cos", {});
+    case Operation::tangent:
+        return of("tan", {});
+    case Operation::arcsine:
+        return of("asin", {});
+    case Operation::arccosine:
+        return of("acos", {});
+    case Operation::arctangent:
+        return of("atan", {});
+    case Operation::exponential:
+        return of("exp", {});
+    case Operation::logarithm:
+        return of("log", {});
+    case Operation::add:
+        return of("add", {b});
+    case Operation::subtract:
+        return of("subtract", {b});
+    case Operation::multiply:
+        return of("multiply", {b});
+    case Operation::divide:
+        return of("divide", {b});
+    case Operation::power:
+        return of("power", {b});
+    case Operation::minimum:
+        return of("min", {b});
+    case Operation::maximum:
+        return of("max", {b});
+    case Operation::arctangent2:
+        return of("atan", {b});
+    case Operation::over_length:
+        return of("over_length", {b});
+    case Operation::less:
+        return of("less", {b});
+    case Operation::less_equal:
+        return of("less_equal", {b});
+    case Operation::equal:
+        return of("equal", {b});
+    case Operation::length:
+        return of("length", {b, c});
+    case Operation::select:
+        return of("select", {b, c});
+    default:
+        assert(false && "a leaf is no operation");
+        return {};
+    }
+}
+
+std::string error_operation(const Node& node, const std::string& v, const Operands& operands, const Operands& errors) {
+    const auto& [a, b, c] = operands;
+    const auto& [ea, eb, ec] = errors;
+    switch (node.operation) {
+    case Operation::negate:
+    case Operation::absolute:
+    case Operation::sine:
+    case Operation::cosine:
+        return ea;
+    case Operation::whole_power:
+    case Operation::power_to:
+        return "abs(" + literal(node.number) + " * " + v + " / " + a + ") * " + ea;
+    case Operation::square_root:
+        return ea + " / (elvis_real(2) * " + v + ")";
+    case Operation::tangent:
+        return "(elvis_real(1) + " + v + " * " + v + ") * " + ea;
+    case Operation::arcsine:
+    case Operation::arccosine:
+        return ea + " / sqrt(elvis_real(1) - " + a + " * " + a + ")";
+    case Operation::arctangent:
+        return ea + " / (elvis_real(1) + " + a + " * " + a + ")";
+    case Operation::exponential:
+        return v + " * " + ea;
+    case Operation::logarithm:
+        return ea + " / abs(" + a + ")";
+    case Operation::add:
+    case Operation::subtract:
+        return ea + " + " + eb;
+    case Operation::multiply:
+        return "abs(" + a + ") * " + eb + " + abs(" + b + ") * " + ea;
+    case Operation::divide:
+        return "(" + ea + " + abs(" + v + ") * " + eb + ") / abs(" + b + ")";
+    case Operation::power:
+        return "abs(" + b + " * " + v + " / " + a + ") * " + ea + " + abs(" + v + " * elvis_log(abs(" + a + "))) * " + eb;
+    case Operation::minimum:
+    case Operation::maximum:
+        return "max(" + ea + ", " + eb + ")";
+    case Operation::arctangent2:
+        return "(abs(" + b + ") * " + ea + " + abs(" + a + ") * " + eb + ") / (" + a + " * " + a + " + " + b + " * " + b + ")";
+    case Operation::over_length:
+        return "(" + ea + " + " + eb + ") / abs(" + b + ")";
+    case Operation::length:
+        return "sqrt(" + ea + " * " + ea + " + " + eb + " * " + eb + " + " + ec + " * " + ec + ")";
+    case Operation::select:
+        return a + " != elvis_real(0) ? " + eb + " : " + ec;
+    default:
+        // Signs and comparisons: constant but for jumps.
+        return "elvis_real(0)";
+    }
+}
+
+} // namespace elvis::expression_glsl
