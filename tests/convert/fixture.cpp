@@ -7,27 +7,6 @@
 #include <fstream>
 #include <random>
 
-TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "elvis-convert-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    m_path = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(m_path, ignored);
-}
-
-std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-    return path(name);
-}
-
-std::size_t TemporaryFolder::n_files() const {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(m_path), std::filesystem::directory_iterator()));
-}
-
 elvis::SourceVolume generate(const std::string& description) {
     static const auto plugin = elvis::Plugin::load(GENERATOR_PLUGIN);
     const TemporaryFolder folder;
@@ -52,7 +31,7 @@ ConvertedVolume::ConvertedVolume(const elvis::SourceVolume& source, const elvis:
     const TemporaryFolder folder;
     const std::string path = folder.path("volume.h5");
     m_report = elvis::convert(source, path, options, {});
-    CHECK(folder.n_files() == 1);
+    CHECK(folder.content().size() == 1);
     const native::Reader reader(path);
     m_description = reader.description();
     m_place.resize(m_description.n_elements());

@@ -7,28 +7,14 @@
 #include <core/convert/convert.hpp>
 #include <core/plugin_host/source_volume.hpp>
 #include <elvis/native/volume_file.hpp>
+#include <tests/support/files.hpp>
 
 #include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/** A folder of its own that goes when the test ends. */
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string path(const std::string& name) const { return (m_path / name).string(); }
-    /** Writes a file and returns its path. */
-    std::string write(const std::string& name, const std::string& content) const;
-    std::size_t n_files() const;
-
-private:
-    std::filesystem::path m_path;
-};
+using elvis::test::TemporaryFolder;
 
 /** The data set that a description stands for; the generator reads it when it is opened. */
 elvis::SourceVolume generate(const std::string& description);

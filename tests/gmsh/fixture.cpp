@@ -8,28 +8,6 @@
 #include <fstream>
 #include <iterator>
 
-TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "elvis-gmsh-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    m_path = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(m_path, ignored);
-}
-
-std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-    return path(name);
-}
-
-std::string read_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    REQUIRE(file);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void run_gmsh(const TemporaryFolder& folder, const std::string& script, const std::string& options) {
     INFO("the gmsh program is needed (apt-get install gmsh), and is looked for when the build is configured");
     REQUIRE(std::filesystem::exists(GMSH_PROGRAM));

@@ -8,6 +8,7 @@
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/plugin_host/source_volume.hpp>
 #include <elvis/native/space.hpp>
+#include <tests/support/files.hpp>
 
 #include <array>
 #include <filesystem>
@@ -17,23 +18,8 @@
 
 using elvis::native::Point;
 
-/** A folder of its own that goes when the test ends. */
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string path(const std::string& name) const { return (m_path / name).string(); }
-    /** Writes a file and returns its path. */
-    std::string write(const std::string& name, const std::string& content) const;
-
-private:
-    std::filesystem::path m_path;
-};
-
-std::string read_file(const std::string& path);
+using elvis::test::read_file;
+using elvis::test::TemporaryFolder;
 
 /** Runs the gmsh program in a folder on a script with so many options; fails with its output if it fails. */
 void run_gmsh(const TemporaryFolder& folder, const std::string& script, const std::string& options);

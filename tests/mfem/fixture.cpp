@@ -7,22 +7,6 @@
 #include <fstream>
 #include <sstream>
 
-TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "elvis-mfem-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    m_path = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(m_path, ignored);
-}
-
-std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-    return path(name);
-}
-
 elvis::SourceVolume open_mfem(const std::vector<std::string>& paths) {
     static const auto plugin = elvis::Plugin::load(MFEM_PLUGIN);
     return elvis::SourceVolume(plugin, paths);
@@ -34,13 +18,6 @@ std::string mfem_data(const std::string& name) {
     INFO(path);
     REQUIRE(std::filesystem::exists(path));
     return path;
-}
-
-std::string read_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream content;
-    content << file.rdbuf();
-    return content.str();
 }
 
 std::array<double, 3> from_mfem(int geometry, const std::array<double, 3>& x) {

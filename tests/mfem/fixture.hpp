@@ -7,35 +7,21 @@
 #include <core/convert/convert.hpp>
 #include <core/plugin_host/source_volume.hpp>
 #include <tests/oracle/volume.hpp>
+#include <tests/support/files.hpp>
 
 #include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/** A folder of its own that goes when the test ends. */
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string path(const std::string& name) const { return (m_path / name).string(); }
-    /** Writes a file and returns its path. */
-    std::string write(const std::string& name, const std::string& content) const;
-
-private:
-    std::filesystem::path m_path;
-};
+using elvis::test::read_file;
+using elvis::test::TemporaryFolder;
 
 /** Opens a mesh and solutions with the plugin. */
 elvis::SourceVolume open_mfem(const std::vector<std::string>& paths);
 
 /** A file below the folder of MFEM's data sets; a failure if it is missing. */
 std::string mfem_data(const std::string& name);
-
-std::string read_file(const std::string& path);
 
 /** ElVis's reference point of a point in MFEM's shapes (4 tetrahedron, 5 hexahedron, 6 prism, 7 pyramid). */
 std::array<double, 3> from_mfem(int geometry, const std::array<double, 3>& x);

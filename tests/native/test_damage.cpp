@@ -23,7 +23,7 @@ Outcome outcome(const std::string& path, const VolumeData& expected) {
 
 TEST_CASE("A flipped byte is refused or without effect") {
     const TemporaryFolder folder;
-    const std::string path = folder.file("volume.h5");
+    const std::string path = folder.path("volume.h5");
     const VolumeData data = small_volume();
     write(path, data);
     const std::vector<char> bytes = read_bytes(path);
@@ -46,7 +46,7 @@ TEST_CASE("A flipped byte is refused or without effect") {
 
 TEST_CASE("A truncated file is refused") {
     const TemporaryFolder folder;
-    const std::string path = folder.file("volume.h5");
+    const std::string path = folder.path("volume.h5");
     const VolumeData data = small_volume();
     write(path, data);
     const std::vector<char> bytes = read_bytes(path);
@@ -62,7 +62,7 @@ TEST_CASE("A truncated file is refused") {
 TEST_CASE("Blocks of zeros in a large file are refused") {
     // What a crashed machine leaves behind: pages that were never written.
     const TemporaryFolder folder;
-    const std::string path = folder.file("volume.h5");
+    const std::string path = folder.path("volume.h5");
     const VolumeData data = large_volume();
     write(path, data);
     const std::vector<char> bytes = read_bytes(path);

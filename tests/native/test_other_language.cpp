@@ -14,7 +14,7 @@ TEST_CASE("A volume written with h5py is read") {
         return;
     }
     const TemporaryFolder folder;
-    const std::string path = folder.file("volume.h5");
+    const std::string path = folder.path("volume.h5");
     REQUIRE(std::system((python + " " ELVIS_NATIVE_TESTS "/write_volume.py " + path).c_str()) == 0);
     const VolumeData data = read_all(path);
     const Description& d = data.description;

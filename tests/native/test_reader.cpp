@@ -69,7 +69,7 @@ void replace_dataset(hid_t file, const std::string& path, hid_t type, const std:
 // What the reader says to the small volume after a change; empty if it accepts it.
 std::string complaint(const std::function<void(hid_t)>& change) {
     const TemporaryFolder folder;
-    const std::string path = folder.file("volume.h5");
+    const std::string path = folder.path("volume.h5");
     write(path, small_volume());
     edit(path, change);
     try {
@@ -92,16 +92,16 @@ TEST_CASE("Files that are no native volume are refused") {
         CHECK_THROWS_AS(Reader(path), FileError);
         CHECK_THROWS_WITH(Reader(path), Contains(path));
     };
-    refused(folder.file("missing.h5"));
-    refused(folder.file(""));
-    write_bytes(folder.file("empty"), {});
-    refused(folder.file("empty"));
-    write_bytes(folder.file("text"), {'n', 'o', 't', ' ', 'H', 'D', 'F', '5'});
-    refused(folder.file("text"));
-    const hid_t file = H5Fcreate(folder.file("other.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    refused(folder.path("missing.h5"));
+    refused(folder.path(""));
+    write_bytes(folder.path("empty"), {});
+    refused(folder.path("empty"));
+    write_bytes(folder.path("text"), {'n', 'o', 't', ' ', 'H', 'D', 'F', '5'});
+    refused(folder.path("text"));
+    const hid_t file = H5Fcreate(folder.path("other.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     H5Fclose(file);
-    refused(folder.file("other.h5"));
-    CHECK_THROWS_WITH(Reader(folder.file("missing.h5")), Contains("no such file"));
+    refused(folder.path("other.h5"));
+    CHECK_THROWS_WITH(Reader(folder.path("missing.h5")), Contains("no such file"));
 }
 
 TEST_CASE("The mark and the major version must agree") {
@@ -252,26 +252,26 @@ TEST_CASE("Element numbers must be a permutation, faces must name elements and f
 
 TEST_CASE("HDF5 prints nothing, and its printer is as before") {
     const TemporaryFolder folder;
-    write(folder.file("volume.h5"), small_volume());
+    write(folder.path("volume.h5"), small_volume());
     H5Eset_auto2(H5E_DEFAULT, reinterpret_cast<H5E_auto2_t>(H5Eprint2), stderr);
-    read_all(folder.file("volume.h5"));
-    CHECK(Reader::probe(folder.file("missing.h5")) == 0);
+    read_all(folder.path("volume.h5"));
+    CHECK(Reader::probe(folder.path("missing.h5")) == 0);
     H5E_auto2_t printer = nullptr;
     void* stream = nullptr;
     H5Eget_auto2(H5E_DEFAULT, &printer, &stream);
     CHECK(printer != nullptr);
     CHECK(stream == stderr);
 
-    std::vector<char> bytes = read_bytes(folder.file("volume.h5"));
+    std::vector<char> bytes = read_bytes(folder.path("volume.h5"));
     bytes.resize(bytes.size() / 2);
-    write_bytes(folder.file("volume.h5"), bytes);
+    write_bytes(folder.path("volume.h5"), bytes);
     const int saved = dup(2);
     FILE* captured = std::tmpfile();
     REQUIRE(captured != nullptr);
     dup2(fileno(captured), 2);
     std::string text;
     try {
-        const Reader reader(folder.file("volume.h5"));
+        const Reader reader(folder.path("volume.h5"));
     } catch (const FileError& error) {
         text = error.what();
     }

@@ -11,17 +11,17 @@ using namespace elvis::native;
 TEST_CASE("A volume is read back bit by bit") {
     const TemporaryFolder folder;
     for (const VolumeData& data : {small_volume(), large_volume()}) {
-        write(folder.file("volume.h5"), data);
-        CHECK(identical(read_all(folder.file("volume.h5")), data));
-        CHECK(Reader::probe(folder.file("volume.h5")) == 100);
+        write(folder.path("volume.h5"), data);
+        CHECK(identical(read_all(folder.path("volume.h5")), data));
+        CHECK(Reader::probe(folder.path("volume.h5")) == 100);
     }
 }
 
 TEST_CASE("Parts of a volume are read alone") {
     const TemporaryFolder folder;
     const VolumeData data = large_volume();
-    write(folder.file("volume.h5"), data);
-    const Reader reader(folder.file("volume.h5"));
+    write(folder.path("volume.h5"), data);
+    const Reader reader(folder.path("volume.h5"));
     const Description& d = reader.description();
     for (std::size_t i = 0; i < d.classes.size(); ++i) {
         const std::uint64_t n = d.classes[i].n_elements;
@@ -59,7 +59,7 @@ TEST_CASE("Blocks may be written in any order") {
     const TemporaryFolder folder;
     const VolumeData data = large_volume();
     const Description& d = data.description;
-    Writer writer(folder.file("volume.h5"), d);
+    Writer writer(folder.path("volume.h5"), d);
     writer.write_faces(2500, 2500, std::span(data.faces).subspan(2500));
     writer.write_faces(0, 2500, std::span(data.faces).first(2500));
     const auto blocks = [](std::uint64_t n, const auto& write_block) {
@@ -82,13 +82,13 @@ TEST_CASE("Blocks may be written in any order") {
                 writer.write_numbers(i, first, count, std::span(data.numbers[i]).subspan(first, count));
             });
     writer.commit();
-    CHECK(identical(read_all(folder.file("volume.h5")), data));
+    CHECK(identical(read_all(folder.path("volume.h5")), data));
 }
 
 TEST_CASE("What is known only at the end can be set at the end") {
     const TemporaryFolder folder;
     VolumeData data = small_volume();
-    Writer writer(folder.file("volume.h5"), data.description);
+    Writer writer(folder.path("volume.h5"), data.description);
     write_blocks(writer, data);
     writer.set_max_jump(0, 0.125);
     writer.set_continuity(0, Continuity::discontinuous);
@@ -98,7 +98,7 @@ TEST_CASE("What is known only at the end can be set at the end") {
     data.description.fields[0].max_jump = 0.125;
     data.description.fields[0].continuity = Continuity::discontinuous;
     data.description.notes = {{"source file", "other.xml"}, {"converter", "test"}};
-    CHECK(identical(read_all(folder.file("volume.h5")), data));
+    CHECK(identical(read_all(folder.path("volume.h5")), data));
 }
 
 TEST_CASE("Two-dimensional volumes are volumes") {
@@ -113,19 +113,19 @@ TEST_CASE("Two-dimensional volumes are volumes") {
     data.numbers = {{3, 1, 0, 2}};
     data.fields = {{{std::vector<double>(4 * 6, 0.25)}}};
     data.faces.clear();
-    write(folder.file("plane.h5"), data);
-    CHECK(identical(read_all(folder.file("plane.h5")), data));
+    write(folder.path("plane.h5"), data);
+    CHECK(identical(read_all(folder.path("plane.h5")), data));
 }
 
 TEST_CASE("Readers in different threads do not disturb each other") {
     const TemporaryFolder folder;
     const VolumeData data = small_volume();
-    write(folder.file("a.h5"), data);
-    write(folder.file("b.h5"), data);
+    write(folder.path("a.h5"), data);
+    write(folder.path("b.h5"), data);
     const auto work = [&](const std::string& name, bool& is_good) {
         is_good = true;
         for (int i = 0; i < 20; ++i)
-            is_good = is_good && identical(read_all(folder.file(name)), data);
+            is_good = is_good && identical(read_all(folder.path(name)), data);
     };
     bool first = false;
     bool second = false;

@@ -12,14 +12,14 @@ TEST_CASE("Without commit nothing is left behind") {
     const TemporaryFolder folder;
     const VolumeData data = small_volume();
     {
-        Writer writer(folder.file("volume.h5"), data.description);
+        Writer writer(folder.path("volume.h5"), data.description);
         write_blocks(writer, data);
         CHECK(folder.content().size() == 1); // the temporary file lies beside the target
         CHECK(folder.content()[0] != "volume.h5");
     }
     CHECK(folder.content().empty());
     try {
-        Writer writer(folder.file("volume.h5"), data.description);
+        Writer writer(folder.path("volume.h5"), data.description);
         throw 1;
     } catch (int) {
     }
@@ -29,14 +29,14 @@ TEST_CASE("Without commit nothing is left behind") {
 TEST_CASE("What was there stays until commit") {
     const TemporaryFolder folder;
     const VolumeData data = small_volume();
-    write(folder.file("volume.h5"), data);
+    write(folder.path("volume.h5"), data);
     VolumeData changed = data;
     changed.geometry[0][0] += 1;
-    Writer writer(folder.file("volume.h5"), changed.description);
+    Writer writer(folder.path("volume.h5"), changed.description);
     write_blocks(writer, changed);
-    CHECK(identical(read_all(folder.file("volume.h5")), data));
+    CHECK(identical(read_all(folder.path("volume.h5")), data));
     writer.commit();
-    CHECK(identical(read_all(folder.file("volume.h5")), changed));
+    CHECK(identical(read_all(folder.path("volume.h5")), changed));
     CHECK(folder.content() == std::vector<std::string>{"volume.h5"});
 }
 
@@ -45,13 +45,13 @@ TEST_CASE("Two writers of one file do not disturb each other") {
     const VolumeData first = small_volume();
     VolumeData second = first;
     second.geometry[0][0] += 1;
-    Writer a(folder.file("volume.h5"), first.description);
-    Writer b(folder.file("volume.h5"), second.description);
+    Writer a(folder.path("volume.h5"), first.description);
+    Writer b(folder.path("volume.h5"), second.description);
     write_blocks(a, first);
     write_blocks(b, second);
     a.commit();
     b.commit();
-    CHECK(identical(read_all(folder.file("volume.h5")), second));
+    CHECK(identical(read_all(folder.path("volume.h5")), second));
     CHECK(folder.content().size() == 1);
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("Commit refuses what is incomplete and names it") {
     const TemporaryFolder folder;
     const VolumeData data = small_volume();
     const auto commit_without = [&](const std::string& part) {
-        Writer writer(folder.file("volume.h5"), data.description);
+        Writer writer(folder.path("volume.h5"), data.description);
         for (std::size_t i = 0; i < 2; ++i) {
             // Element 0 twice instead of elements 0 and 1.
             const auto n = std::uint64_t{2};
@@ -91,14 +91,14 @@ TEST_CASE("Commit refuses what is incomplete and names it") {
 TEST_CASE("A folder that cannot be written is an error that names the file") {
     const TemporaryFolder folder;
     const VolumeData data = small_volume();
-    const std::string missing = folder.file("no/such/folder/volume.h5");
+    const std::string missing = folder.path("no/such/folder/volume.h5");
     CHECK_THROWS_WITH(Writer(missing, data.description), Contains(missing));
-    write_bytes(folder.file("file"), {'x'});
-    CHECK_THROWS_AS(Writer(folder.file("file") + "/volume.h5", data.description), FileError);
+    write_bytes(folder.path("file"), {'x'});
+    CHECK_THROWS_AS(Writer(folder.path("file") + "/volume.h5", data.description), FileError);
     // A folder in the target's place is found at the end at the latest, and nothing is left beside it.
-    std::filesystem::create_directory(folder.file("volume.h5"));
+    std::filesystem::create_directory(folder.path("volume.h5"));
     {
-        Writer writer(folder.file("volume.h5"), data.description);
+        Writer writer(folder.path("volume.h5"), data.description);
         write_blocks(writer, data);
         CHECK_THROWS_AS(writer.commit(), FileError);
     }
@@ -110,7 +110,7 @@ TEST_CASE("The writer refuses descriptions that no reader would accept") {
     const auto refused = [&](const auto& change) {
         Description d = small_volume().description;
         change(d);
-        CHECK_THROWS_AS(Writer(folder.file("volume.h5"), d), FileError);
+        CHECK_THROWS_AS(Writer(folder.path("volume.h5"), d), FileError);
     };
     refused([](Description& d) { d.classes.clear(); });
     refused([](Description& d) { d.times.clear(); });
@@ -136,7 +136,7 @@ TEST_CASE("The writer refuses descriptions that no reader would accept") {
 TEST_CASE("The writer refuses numbers and faces out of range") {
     const TemporaryFolder folder;
     const VolumeData data = small_volume();
-    Writer writer(folder.file("volume.h5"), data.description);
+    Writer writer(folder.path("volume.h5"), data.description);
     CHECK_THROWS_AS(writer.write_numbers(0, 0, 2, std::vector<std::int64_t>{0, 4}), FileError);
     CHECK_THROWS_AS(writer.write_numbers(0, 0, 2, std::vector<std::int64_t>{-1, 0}), FileError);
     for (const Face face :

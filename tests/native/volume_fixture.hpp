@@ -5,6 +5,7 @@
 #pragma once
 
 #include <elvis/native/volume_file.hpp>
+#include <tests/support/files.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -37,21 +38,7 @@ VolumeData read_all(const std::string& path);
 /** Whether both are the same, bit by bit. */
 bool identical(const VolumeData& a, const VolumeData& b);
 
-/** A folder of its own that goes with this object. */
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string file(const std::string& name) const { return (m_path / name).string(); }
-    /** Names of the files in it. */
-    std::vector<std::string> content() const;
-
-private:
-    std::filesystem::path m_path;
-};
+using test::TemporaryFolder;
 
 std::vector<char> read_bytes(const std::string& path);
 void write_bytes(const std::string& path, const std::vector<char>& bytes);

@@ -8,23 +8,6 @@
 #include <fstream>
 #include <iterator>
 
-TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "elvis-nektarpp-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    m_path = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(m_path, ignored);
-}
-
-std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
-    std::filesystem::create_directories((m_path / name).parent_path());
-    std::ofstream(path(name), std::ios::binary) << content;
-    return path(name);
-}
-
 elvis::SourceVolume open_nektar(const std::vector<std::string>& paths) {
     static const auto plugin = elvis::Plugin::load(NEKTARPP_PLUGIN);
     return elvis::SourceVolume(plugin, paths);
@@ -45,11 +28,6 @@ std::string sample_file(const std::string& name) {
     INFO(path);
     REQUIRE(std::filesystem::exists(path));
     return path;
-}
-
-std::string read_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 Converted::Converted(const elvis::SourceVolume& source, std::size_t field, std::size_t time_step) {

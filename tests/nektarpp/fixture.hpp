@@ -7,27 +7,15 @@
 #include <core/convert/convert.hpp>
 #include <core/plugin_host/source_volume.hpp>
 #include <tests/oracle/volume.hpp>
+#include <tests/support/files.hpp>
 
 #include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/** A folder of its own that goes when the test ends. */
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string path(const std::string& name) const { return (m_path / name).string(); }
-    /** Writes a file, folders above it included, and returns its path. */
-    std::string write(const std::string& name, const std::string& content) const;
-
-private:
-    std::filesystem::path m_path;
-};
+using elvis::test::read_file;
+using elvis::test::TemporaryFolder;
 
 elvis::SourceVolume open_nektar(const std::vector<std::string>& paths);
 
@@ -36,8 +24,6 @@ std::string failure(const std::vector<std::string>& paths);
 
 /** A file of the real data sets; a failure if it is missing. */
 std::string sample_file(const std::string& name);
-
-std::string read_file(const std::string& path);
 
 /** A native volume written by the conversion and read by the oracle, one field at one time step. */
 class Converted {

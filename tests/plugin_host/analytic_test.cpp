@@ -8,7 +8,7 @@
 using namespace elvis;
 using Catch::Matchers::Contains;
 using test::error_of;
-using test::Folder;
+using test::TemporaryFolder;
 
 namespace {
 
@@ -19,8 +19,8 @@ RuntimeVolume open(const std::string& path) { return RuntimeVolume(Plugin::load(
 
 /** Error for a file with this content after the header. */
 std::string error_for(const std::string& content) {
-    const Folder folder;
-    const std::string path = folder.file("bad.txt", "elvis-analytic 1\n" + content);
+    const TemporaryFolder folder;
+    const std::string path = folder.write("bad.txt", "elvis-analytic 1\n" + content);
     const std::string text = error_of([&] { open(path); });
     CHECK_THAT(text, Contains(path));
     return text;
@@ -44,11 +44,11 @@ TEST_CASE("the analytic plugin gives only what is required") {
 }
 
 TEST_CASE("the analytic plugin reads its format") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const RuntimeVolume volume =
-        open(folder.file("good.txt", "elvis-analytic 1 # header\n\nfield u 2 m/s\nterm 0 sine 1 2 3 4 5\n"
-                                     "term 1 pole 7 8 9 10\nfield v 1\nterm 0 gaussian 1 0 0 0 2\n" +
-                                         cube));
+        open(folder.write("good.txt", "elvis-analytic 1 # header\n\nfield u 2 m/s\nterm 0 sine 1 2 3 4 5\n"
+                                      "term 1 pole 7 8 9 10\nfield v 1\nterm 0 gaussian 1 0 0 0 2\n" +
+                                          cube));
     CHECK(volume.n_elements() == 1);
     REQUIRE(volume.fields().size() == 2);
     CHECK(volume.fields()[0].unit == "m/s");
@@ -72,15 +72,15 @@ TEST_CASE("the analytic plugin reads its format") {
 }
 
 TEST_CASE("the analytic plugin is sure of its own files only") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto probe = [](const std::string& path) {
         std::uint32_t confidence = 7;
         CHECK(Plugin::load(ELVIS_ANALYTIC_PLUGIN)->runtime()->probe(nullptr, path.c_str(), &confidence) == ELVIS_OK);
         return confidence;
     };
     CHECK(probe(ELVIS_ANALYTIC_SAMPLES "/twisted_box.txt") == 100);
-    CHECK(probe(folder.file("other.txt", "something else")) == 0);
-    CHECK(probe(folder.file("empty.txt", "")) == 0);
+    CHECK(probe(folder.write("other.txt", "something else")) == 0);
+    CHECK(probe(folder.write("empty.txt", "")) == 0);
     CHECK(probe("/does/not/exist") == 0);
 }
 
@@ -99,8 +99,8 @@ TEST_CASE("a bad analytic file is refused with its line") {
     CHECK_THAT(error_for("\n# comment\ntetrahedron\n"), Contains("line 4: unknown keyword 'tetrahedron'"));
     CHECK_THAT(error_for(cube + "field u 1\n"), Contains("field 'u' has no terms"));
     CHECK_THAT(error_for("field u 1\nterm 0 sine 1 2 3 4 5\n"), Contains("holds no elements"));
-    const Folder folder;
-    CHECK_THAT(error_of([&] { open(folder.file("version.txt", "elvis-analytic 2\n")); }), Contains("line 1"));
-    CHECK_THAT(error_of([&] { open(folder.file("empty.txt", "")); }), Contains("the file ends"));
+    const TemporaryFolder folder;
+    CHECK_THAT(error_of([&] { open(folder.write("version.txt", "elvis-analytic 2\n")); }), Contains("line 1"));
+    CHECK_THAT(error_of([&] { open(folder.write("empty.txt", "")); }), Contains("the file ends"));
     CHECK_THAT(error_of([&] { open("/does/not/exist"); }), Contains("/does/not/exist: cannot be read"));
 }

@@ -4,8 +4,9 @@
  */
 #pragma once
 
-#include <core/base/error.hpp>
 #include <core/plugin_host/plugin.hpp>
+#include <tests/support/error_of.hpp>
+#include <tests/support/files.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -17,17 +18,6 @@
 namespace elvis::test {
 
 inline std::filesystem::path fixture(const std::string& name) { return std::filesystem::path(ELVIS_FIXTURES) / (name + ".so"); }
-
-/** Text of the Error that a call throws; fails the test if it throws none. */
-template <class Call> std::string error_of(Call&& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    FAIL("no error was thrown");
-    return {};
-}
 
 /** Options for the fixtures troubled and troubled_source. */
 inline std::string trouble(const std::string& name) { return "{\"trouble\": \"" + name + "\"}"; }
@@ -50,33 +40,6 @@ private:
     std::string m_name;
     std::string m_before;
     bool m_had_value = false;
-};
-
-/** An empty folder while it lives. */
-class Folder {
-public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "elvis-host-XXXXXX").string();
-        m_path = mkdtemp(name.data());
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(m_path, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    const std::filesystem::path& path() const { return m_path; }
-
-    /** A file with this content; its path. */
-    std::string file(const std::string& name, const std::string& content) const {
-        const std::filesystem::path path = m_path / name;
-        std::ofstream(path) << content;
-        return path.string();
-    }
-
-private:
-    std::filesystem::path m_path;
 };
 
 } // namespace elvis::test

@@ -10,7 +10,7 @@ using Catch::Matchers::Contains;
 using test::Environment;
 using test::error_of;
 using test::fixture;
-using test::Folder;
+using test::TemporaryFolder;
 
 namespace {
 
@@ -25,7 +25,7 @@ const RefusedPlugin* refused(const PluginRegistry& registry, const std::string& 
 
 /** A registry of the fixtures alone. */
 struct Fixtures {
-    Folder home;
+    TemporaryFolder home;
     Environment home_variable{"HOME", home.path().c_str()};
     Environment data_variable{"XDG_DATA_HOME", nullptr};
     Environment path_variable{"ELVIS_PLUGIN_PATH", ELVIS_FIXTURES};
@@ -79,7 +79,7 @@ TEST_CASE("good plugins are found beside misbehaving ones, and each refusal has 
 }
 
 TEST_CASE("the first plugin with an id wins, across folders too") {
-    const Folder first;
+    const TemporaryFolder first;
     std::filesystem::copy_file(fixture("good_again"), first.path() / "zzz.so");
     const std::string both = first.path().string() + ":" + ELVIS_FIXTURES;
     const Environment path("ELVIS_PLUGIN_PATH", both.c_str());
@@ -98,19 +98,19 @@ TEST_CASE("an unknown id is answered with those that are known") {
 
 TEST_CASE("the plugin that is surest of a file serves it") {
     const Fixtures fixtures;
-    const std::string cube = fixtures.home.file("a.cube", "");
+    const std::string cube = fixtures.home.write("a.cube", "");
     CHECK(fixtures.registry.runtime_for(cube)->id() == "org.elvis.test.good");
-    const std::string tetrahedron = fixtures.home.file("a.tetrahedron", "");
+    const std::string tetrahedron = fixtures.home.write("a.tetrahedron", "");
     CHECK(fixtures.registry.converter_for(tetrahedron)->id() == "org.elvis.test.good");
 }
 
 TEST_CASE("a file that no plugin reads is answered with what each one said, broken probes included") {
     const Fixtures fixtures;
-    const std::string with_text = fixtures.home.file("probe-with-text", "");
+    const std::string with_text = fixtures.home.write("probe-with-text", "");
     CHECK_THAT(error_of([&] { fixtures.registry.runtime_for(with_text); }),
                Contains("no runtime plugin") && Contains("org.elvis.test.good: no") &&
                    Contains("org.elvis.test.troubled: " + with_text + ": byte 0: the probe broke"));
-    const std::string without_text = fixtures.home.file("probe-without-text", "");
+    const std::string without_text = fixtures.home.write("probe-without-text", "");
     CHECK_THAT(error_of([&] { fixtures.registry.runtime_for(without_text); }),
                Contains("org.elvis.test.troubled: ") && Contains("out of memory"));
     CHECK_THAT(error_of([&] { fixtures.registry.converter_for(with_text); }), Contains("no conversion plugin"));

@@ -4,53 +4,16 @@
  */
 #pragma once
 
-#include <core/base/error.hpp>
 #include <core/render/transfer_function.hpp>
+#include <tests/support/error_of.hpp>
+#include <tests/support/files.hpp>
 
 #include <catch2/catch.hpp>
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 
 namespace elvis::test {
-
-/** Text of the Error that a call throws; fails the test if it throws none. */
-template <class Call> std::string error_of(Call&& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    FAIL("no error was thrown");
-    return {};
-}
-
-/** A folder for files while it lives. */
-class Folder {
-public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "elvis-scene-XXXXXX").string();
-        m_path = mkdtemp(name.data());
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(m_path, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    std::string file(const std::string& name, const std::string& text) const {
-        std::ofstream(m_path / name) << text;
-        return (m_path / name).string();
-    }
-
-private:
-    std::filesystem::path m_path;
-};
 
 /**
  * A channel at a value, straight from the definition and unlike the program's: from the last point that is not above the value

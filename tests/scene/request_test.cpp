@@ -22,8 +22,8 @@ struct Stage {
     Renderer renderer{device, volume, Precision::float32};
 
     FrameRequest request(const std::string& keys) {
-        const Folder folder;
-        Scene scene = read_scene(folder.file("scene.json", R"({"version": 1)" + (keys.empty() ? "" : ", " + keys) + "}"));
+        const TemporaryFolder folder;
+        Scene scene = read_scene(folder.write("scene.json", R"({"version": 1)" + (keys.empty() ? "" : ", " + keys) + "}"));
         scene.volume = ELVIS_ANALYTIC_SAMPLE;
         return make_frame_request(scene, volume, renderer);
     }

@@ -13,8 +13,8 @@ using Catch::Matchers::Contains;
 namespace {
 
 TransferFunction read(const std::string& text) {
-    const Folder folder;
-    return read_transfer_file(folder.file("transfer.json", text));
+    const TemporaryFolder folder;
+    return read_transfer_file(folder.write("transfer.json", text));
 }
 
 /** One line that names the file. */

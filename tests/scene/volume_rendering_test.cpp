@@ -16,8 +16,8 @@ using nlohmann::json;
 namespace {
 
 SceneVolumeRendering read(const std::string& text) {
-    const Folder folder;
-    const Scene scene = read_scene(folder.file("scene.json", R"({"version": 1, "volume_rendering": )" + text + "}"));
+    const TemporaryFolder folder;
+    const Scene scene = read_scene(folder.write("scene.json", R"({"version": 1, "volume_rendering": )" + text + "}"));
     REQUIRE(scene.volume_rendering.has_value());
     return *scene.volume_rendering;
 }
@@ -36,8 +36,8 @@ json schema_of_volume_rendering() { return schema().at("properties").at("volume_
 } // namespace
 
 TEST_CASE("Nothing said of volume rendering leaves it open, or at its defaults") {
-    const Folder folder;
-    CHECK_FALSE(read_scene(folder.file("scene.json", R"({"version": 1})")).volume_rendering);
+    const TemporaryFolder folder;
+    CHECK_FALSE(read_scene(folder.write("scene.json", R"({"version": 1})")).volume_rendering);
     const SceneVolumeRendering rendering = read("{}");
     CHECK_FALSE(rendering.field);
     CHECK(rendering.is_colored_by_map());
@@ -109,7 +109,7 @@ TEST_CASE("The schema's integrators are those there are") {
 
 TEST_CASE("A transfer function in a file is looked for beside the scene") {
     const SceneVolumeRendering rendering = read(R"({"transfer": "functions/levels.json"})");
-    CHECK_THAT(rendering.transfer_file, Contains("elvis-scene-") && Catch::Matchers::EndsWith("/functions/levels.json"));
+    CHECK_THAT(rendering.transfer_file, Contains("elvis-test-") && Catch::Matchers::EndsWith("/functions/levels.json"));
     CHECK_FALSE(rendering.is_colored_by_map());
     CHECK_FALSE(rendering.has_default_density());
 }

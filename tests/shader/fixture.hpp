@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/shader/composer.hpp>
+#include <tests/support/files.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -15,23 +16,15 @@ namespace elvis::test {
 /** An empty cache folder of its own while it lives, so that no test depends on what others compiled. */
 class CacheFolder {
 public:
-    CacheFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "elvis-cache-XXXXXX").string();
-        m_folder = mkdtemp(name.data());
-        setenv("ELVIS_CACHE_PATH", m_folder.c_str(), 1);
-    }
-    ~CacheFolder() {
-        unsetenv("ELVIS_CACHE_PATH");
-        std::error_code ignored;
-        std::filesystem::remove_all(m_folder, ignored);
-    }
+    CacheFolder() { setenv("ELVIS_CACHE_PATH", path().c_str(), 1); }
+    ~CacheFolder() { unsetenv("ELVIS_CACHE_PATH"); }
     CacheFolder(const CacheFolder&) = delete;
     CacheFolder& operator=(const CacheFolder&) = delete;
 
-    const std::filesystem::path& path() const { return m_folder; }
+    const std::filesystem::path& path() const { return m_folder.path(); }
 
 private:
-    std::filesystem::path m_folder;
+    TemporaryFolder m_folder;
 };
 
 /** The smallest complete snippet: a box scaled by two about each axis, field x + component. */
