@@ -100,15 +100,15 @@ void main() {
         tangent.normal = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
         const core_surroundings around = core_look_around(uvec2(column, row), pixel, true, tangent);
         const core_cut_square square = core_tangent_square(tangent, elvis_real(column), elvis_real(row), elvis_real(0.5LF));
-        const elvis_real departure =
-            core_departure(tangent, square, core_bending[pixel], around.turning, -dot(tangent.normal, direction) / stretch);
-        const elvis_real error = square.error + departure + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
+        const core_departure bent =
+            core_departure_in(tangent, square, core_bending[pixel], around.turning, -dot(tangent.normal, direction) / stretch);
+        const elvis_real error = square.error + bent.distance + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
         const elvis_vec3 origin = shift - position;
         const core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0,
                                             origin + square.corner1, origin + square.corner2, origin + square.corner3, curvature,
                                             tangent.normal, direction, CORE_NO_FACE);
         const bool is_usable = square.all_hit && !around.is_hidden;
-        const bool fills = around.is_smooth, is_estimated = !around.is_smooth || core_bending[pixel] >= CORE_FAR;
+        const bool fills = around.is_smooth, is_estimated = !around.is_smooth || bent.is_estimated;
         const uint entering = 0u;
 #endif
         const bool is_inside = !is_outside && is_usable && cell.is_inside;

@@ -97,9 +97,10 @@ void main() {
     const bool is_smooth = around.is_smooth, is_hidden = around.is_hidden;
 
     const core_cut_square square = core_tangent_square(tangent, column, row, is_smooth ? elvis_real(0.5LF) : elvis_real(1.5LF));
-    const elvis_real departure =
-        core_departure(tangent, square, core_bending[pixel], around.turning, -dot(normal, direction) / stretch);
-    const bool is_estimated = !is_smooth || core_bending[pixel] >= CORE_FAR;
+    const core_departure bent =
+        core_departure_in(tangent, square, core_bending[pixel], around.turning, -dot(normal, direction) / stretch);
+    const elvis_real departure = bent.distance;
+    const bool is_estimated = !is_smooth || bent.is_estimated;
 #endif
 
     const vec3 in_hierarchy = vec3(core_reference_in_hierarchy.xyz);

@@ -53,13 +53,28 @@ core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_
 }
 
 #if !CORE_ON_FACES
-// What the surface may depart from its tangent plane in the square, along the oblique ray. Triangles are flat but not together:
-// what normals of neighbours tell counts, too, and stands for a bending that is not known.
-elvis_real core_departure(core_tangent tangent, core_cut_square square, elvis_real bending, elvis_real turning, elvis_real cosine) {
-    const elvis_real bend = max(bending >= CORE_FAR ? elvis_real(2) * turning : bending, turning);
+// A bound by which the surface could turn this much (in radians) in a pixel tells less than the neighbours do.
+#define CORE_LOOSE elvis_real(0.1LF)
+
+struct core_departure {
+    // Along the oblique ray.
+    elvis_real distance;
+    // It rests on normals of neighbours.
+    bool is_estimated;
+};
+
+// What the surface may depart from its tangent plane in the square. Triangles are flat but not together: what normals of neighbours
+// tell counts, too. Twice that stands for a bending that is not known, or known by a loose bound alone.
+core_departure core_departure_in(core_tangent tangent, core_cut_square square, elvis_real bending, elvis_real turning,
+                                 elvis_real cosine) {
     const elvis_vec3 d0 = square.corner0 - tangent.point, d1 = square.corner1 - tangent.point;
     const elvis_vec3 d2 = square.corner2 - tangent.point, d3 = square.corner3 - tangent.point;
     const elvis_real farthest = max(max(dot(d0, d0), dot(d1, d1)), max(dot(d2, d2), dot(d3, d3)));
-    return elvis_real(0.5LF) * bend * farthest / max(cosine, elvis_real(1e-6LF));
+    core_departure departure;
+    departure.is_estimated = bending >= CORE_FAR ||
+                             (bending * bending * farthest > CORE_LOOSE * CORE_LOOSE && elvis_real(2) * turning < bending);
+    const elvis_real bend = departure.is_estimated ? elvis_real(2) * turning : max(bending, turning);
+    departure.distance = elvis_real(0.5LF) * bend * farthest / max(cosine, elvis_real(1e-6LF));
+    return departure;
 }
 #endif

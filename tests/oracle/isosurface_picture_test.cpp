@@ -267,6 +267,39 @@ TEST_CASE("contours and mesh lines are drawn on isosurfaces") {
     CHECK(n_open < 400);
 }
 
+TEST_CASE("mesh lines on isosurfaces in bent elements are lines, not areas") {
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(native::Shape::tetrahedron, 2), space_of(native::Shape::tetrahedron, 4),
+                                      compose(cube(native::Shape::tetrahedron, 2), quadratic_bend),
+                                      [](const Vector& x) { return std::sin(3 * x.x()) + std::cos(4 * x.y()) * x.z(); }));
+    const TemporaryFile file("bent-lines.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    Renderer renderer(device(), volume, Precision::float32);
+    Surface surface = isosurface({}, {0.6});
+    surface.mesh_lines.emplace();
+    const std::uint32_t size = 192;
+    const Frame frame = renderer.render(request_of(surface, size));
+    std::size_t n_smooth = 0, n_changes = 0, n_missed = 0, n_open = 0;
+    const auto is_line = [&](std::size_t pixel) {
+        return (frame.flags[pixel] & (pixel_flag::mesh_line | pixel_flag::mesh_line_undecided)) != 0;
+    };
+    for (std::size_t pixel = 0; pixel + size < frame.depth.size(); ++pixel) {
+        n_open += (frame.flags[pixel] & pixel_flag::mesh_line_undecided) != 0;
+        for (const std::size_t other : {pixel + 1, pixel + size}) {
+            if (std::abs(frame.depth[pixel] - frame.depth[other]) < 0.02) {
+                ++n_smooth;
+                n_changes += frame.element[pixel] != frame.element[other];
+                n_missed += frame.element[pixel] != frame.element[other] && !is_line(pixel) && !is_line(other);
+            }
+        }
+    }
+    WARN(n_smooth / 2 << " smooth pixels, " << n_changes << " changes of element, " << n_open << " pixels open");
+    CHECK(n_changes > 150);
+    CHECK(n_missed == 0);
+    CHECK(n_open < n_smooth / 2 / 4);
+}
+
 TEST_CASE("an element whose values are no numbers is flagged, and hides nothing") {
     VolumeData data;
     data.classes.push_back(make_class(space_of(native::Shape::hexahedron, 1), space_of(native::Shape::hexahedron, 1),
