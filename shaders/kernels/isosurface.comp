@@ -120,6 +120,7 @@ void main() {
         // the best crossing.
         elvis_real bend = CORE_FAR, best_bend = CORE_FAR;
         uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
+        bool best_is_certain = true;
         const bool was_hit = core_marks[pixel].owner != 0u;
         for (uint turn = 0u; turn < (was_hit ? 1u : 0u); ++turn) {
             best_t = core_samples[pixel].depth / stretch - along.reference_distance;
@@ -246,9 +247,12 @@ void main() {
                                     (bend_here * piece.radius * piece.radius <= piece.error &&
                                      distance <= (moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * speed * crossing.half_width);
             const elvis_vec3 root = xi + to_root;
-            // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face.
-            const bool is_inside = core_excess(root.x, root.y, root.z) <=
-                                   CORE_CONSTRAINT_NORM * (elvis_real(2) * piece.beyond + elvis_real(0.25LF) * speed * crossing.half_width);
+            // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face. As near to a
+            // face as that, a root is certain only if another element has it, too: beyond the face there may be nothing.
+            const elvis_real excess = core_excess(root.x, root.y, root.z);
+            const elvis_real along_ray = elvis_real(0.25LF) * speed * crossing.half_width;
+            const bool is_inside = excess <= CORE_CONSTRAINT_NORM * (elvis_real(2) * piece.beyond + along_ray);
+            const bool is_surely_inside = excess <= -CORE_CONSTRAINT_NORM * (piece.beyond + along_ray);
 
             // A narrow part is looked at as a whole, even if it reaches beyond the piece: then the root is in its middle.
             const bool is_part = piece.is_known && to - from < elvis_real(0.6LF) * (piece.high - piece.low) && from <= piece.high && to >= piece.low;
@@ -269,7 +273,10 @@ void main() {
             const uint number = elvis_fetch_core_elements(safe_element, 0u);
             const elvis_real slack = max(crossing.half_width, best_slack);
             const bool is_same = abs(t - best_t) <= slack;
-            const bool is_better = takes && is_inside && is_behind_start && (is_same ? number < best_number : t < best_t);
+            const bool is_hit = takes && is_inside && is_behind_start;
+            const bool is_better = is_hit && (is_same ? number < best_number : t < best_t);
+            const bool is_shared = is_same && best_element != element;
+            best_is_certain = is_better ? is_surely_inside || is_shared : best_is_certain || (is_hit && is_shared);
             best_element = is_better ? element : best_element;
             best_number = is_better ? number : best_number;
             best_t = is_better ? t : best_t;
@@ -289,7 +296,7 @@ void main() {
             flags |= rests_on_estimates ? CORE_FLAG_ESTIMATED : 0u;
 
             // What is looked at next.
-            const bool is_over = is_broken || (takes && is_inside && is_behind_start);
+            const bool is_over = is_broken || is_hit;
             const bool goes_on = is_done_with || takes || is_stuck || is_broken;
             const bool cuts = !goes_on && (ends_here || is_cut);
             const bool moves_on = !goes_on && !cuts && (is_flat || is_short || (is_far && moves < CORE_MAX_MOVES));
@@ -329,6 +336,7 @@ void main() {
         flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
         const bool is_hit = best_element != CORE_NO_ELEMENT;
         flags |= is_hit ? CORE_FLAG_ISOSURFACE : 0u;
+        flags |= is_hit && !best_is_certain ? CORE_FLAG_UNDECIDED : 0u;
         for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
             core_marks[pixel].flags |= flags;
         }

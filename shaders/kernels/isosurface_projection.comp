@@ -263,6 +263,7 @@ void main() {
     elvis_real best_t = CORE_FAR, best_slack = elvis_real(0), best_x = elvis_real(0), best_y = best_x, best_z = best_x, best_isovalue = best_x;
     elvis_real normal_x = best_x, normal_y = best_x, normal_z = best_x, best_bend = CORE_FAR, undecided_t = CORE_FAR;
     uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
+    bool best_is_certain = true;
     const bool was_hit = is_pixel && core_marks[pixel].owner != 0u;
     for (uint turn = 0u; turn < (was_hit ? 1u : 0u); ++turn) {
         best_t = core_samples[pixel].depth / stretch - along.reference_distance;
@@ -458,6 +459,9 @@ void main() {
             const bool is_confirmed = !is_candidate || keeps_slope || (is_seen_below && is_seen_above) || CORE_PLAIN == 1;
             const elvis_real slack = walk_ray.tolerance + elvis_real(0.25LF) * half_width;
             const bool is_inside = root_t >= part_from - slack && root_t <= part_to + slack;
+            // As near to a face as rounding moves it, a crossing is certain only if another element has it, too: beyond the face
+            // there may be nothing.
+            const bool is_surely_inside = root_t >= part.enter + part.enter_error + slack && root_t <= part.leave - part.leave_error - slack;
             const bool is_behind_start = root_t > ray.least_t + ray.widths_behind * half_width && root_t > ray.least_t;
             const bool is_hit = is_settled && is_confirmed && is_inside && is_behind_start;
             const bool is_undecided = !is_hit && (is_settled ? !is_confirmed : is_last);
@@ -471,6 +475,8 @@ void main() {
             const uint number = elvis_fetch_core_elements(element, 0u);
             const bool is_same = abs(root_t - best_t) <= max(half_width, best_slack);
             const bool is_better = is_hit && (is_same ? number < best_number : root_t < best_t);
+            const bool is_shared = is_same && best_element != element;
+            best_is_certain = is_better ? is_surely_inside || is_shared : best_is_certain || (is_hit && is_shared);
             const elvis_vec3 gradient = found.gradient.x * found.frame.row0 + found.gradient.y * found.frame.row1 + found.gradient.z * found.frame.row2;
             const elvis_vec3 point = found.xi + found.q + (root_t - t) * found.w;
             best_element = is_better ? element : best_element;
@@ -521,6 +527,7 @@ void main() {
     const bool is_hit = best_element != CORE_NO_ELEMENT;
     flags |= undecided_t <= best_t + best_slack && undecided_t < CORE_FAR ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
     flags |= is_hit ? CORE_FLAG_ISOSURFACE : 0u;
+    flags |= is_hit && !best_is_certain ? CORE_FLAG_UNDECIDED : 0u;
     for (uint turn = 0u; turn < (is_pixel && flags != 0u ? 1u : 0u); ++turn) {
         core_marks[pixel].flags |= flags;
     }

@@ -1,7 +1,7 @@
 #include "isosurface_accuracy.hpp"
 
 #include "meshes.hpp"
-#include "test_files.hpp"
+#include "temporary_file.hpp"
 
 #include <core/render/renderer.hpp>
 
@@ -31,11 +31,11 @@ FrameRequest isosurface_request(const RandomVolume& random, std::uint32_t size, 
     return request;
 }
 
-RandomAccuracy measure_random(const Device& device, const RandomVolume& random, std::uint32_t size, std::span<const Precision> precisions,
-                              IsosurfaceMethod method) {
+RandomAccuracy measure_random(const Device& device, const PluginRegistry& registry, const RandomVolume& random, std::uint32_t size,
+                              std::span<const Precision> precisions, IsosurfaceMethod method) {
     const TemporaryFile file("random.h5");
     write_volume(file.path(), random.data);
-    const RuntimeVolume volume = open_volume(file.path());
+    const RuntimeVolume volume(registry.runtime_for(file.path()), file.path());
     const Model model(random.data);
     IsosurfaceTracer tracer(model, {scalar_of_field(model.volume, 0), random.values, random.clip});
     const IsosurfacePicture exact = draw_isosurface(model, tracer.isosurface(), random.camera, size, size);

@@ -7,6 +7,7 @@
 #include "isosurface_compare.hpp"
 #include "random_volumes.hpp"
 
+#include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/vulkan/device.hpp>
 
@@ -29,8 +30,8 @@ struct RandomAccuracy {
     double oracle_seconds = 0;
     std::uint64_t oracle_failures = 0;
 };
-RandomAccuracy measure_random(const Device& device, const RandomVolume& random, std::uint32_t size, std::span<const Precision> precisions,
-                              IsosurfaceMethod method = IsosurfaceMethod::interval);
+RandomAccuracy measure_random(const Device& device, const PluginRegistry& registry, const RandomVolume& random, std::uint32_t size,
+                              std::span<const Precision> precisions, IsosurfaceMethod method = IsosurfaceMethod::interval);
 
 /** The sphere |x| = 1 as isosurface of a volume whose field is |x|^2, in closed form. */
 struct SphereAccuracy {

@@ -57,7 +57,7 @@ TEST_CASE("isosurfaces of random fields are where the oracle finds them") {
     std::vector<IsosurfaceComparison> sums(precisions.size());
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         const RandomVolume random = random_volume(seed);
-        const RandomAccuracy one = measure_random(device(), random, 40, precisions);
+        const RandomAccuracy one = measure_random(device(), plugins(), random, 40, precisions);
         CAPTURE(seed, random.description);
         CHECK(one.oracle_failures == 0);
         for (std::size_t i = 0; i < precisions.size(); ++i) {
@@ -84,7 +84,7 @@ TEST_CASE("isosurfaces by projection are where the oracle finds them") {
     // Fields of high order in few curved elements: five values let one of 148 pass as a parabola, 145 is mostly rounding.
     for (const std::uint64_t seed : {101, 103, 145, 148}) {
         const RandomVolume random = random_volume(seed);
-        const RandomAccuracy one = measure_random(device(), random, 24, precisions, IsosurfaceMethod::bernstein);
+        const RandomAccuracy one = measure_random(device(), plugins(), random, 24, precisions, IsosurfaceMethod::bernstein);
         for (std::size_t i = 0; i < precisions.size(); ++i) {
             const IsosurfaceComparison& comparison = one.comparisons[i];
             CAPTURE(seed, random.description, i, to_text(comparison), comparison.worst_pixel);
@@ -102,7 +102,7 @@ TEST_CASE("isosurfaces by eigenvalues are where the oracle finds them, or say th
     for (const std::uint64_t seed : {101, 108}) {
         const RandomVolume random = random_volume(seed);
         const RandomAccuracy one =
-            measure_random(device(), random, 24, std::vector<Precision>{Precision::float64}, IsosurfaceMethod::companion);
+            measure_random(device(), plugins(), random, 24, std::vector<Precision>{Precision::float64}, IsosurfaceMethod::companion);
         const IsosurfaceComparison& comparison = one.comparisons[0];
         CAPTURE(seed, random.description, to_text(comparison), comparison.worst_pixel);
         CHECK(comparison.n_wrong + comparison.n_wrong_grazing + comparison.n_wrong_masks + comparison.n_other_element == 0);

@@ -1,39 +1,20 @@
 /**
  * @file test_files.hpp
- * Temporary volumes for tests, and the program's ways to make and open them.
+ * The program's ways to make and open volumes for tests.
  */
 #pragma once
+
+#include "temporary_file.hpp"
 
 #include <core/convert/convert.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
-#include <unistd.h>
-
 namespace elvis::oracle {
-
-/** A name in the system's temporary folder; the file is removed at the end. */
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const std::string& name)
-        : m_path(std::filesystem::temp_directory_path() / ("elvis-" + std::to_string(::getpid()) + "-" + name)) {}
-    ~TemporaryFile() {
-        std::error_code ignored;
-        std::filesystem::remove(m_path, ignored);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    std::string path() const { return m_path.string(); }
-
-private:
-    std::filesystem::path m_path;
-};
 
 /** The plugins of this build. */
 inline const PluginRegistry& plugins() {
