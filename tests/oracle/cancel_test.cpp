@@ -45,8 +45,8 @@ Surface isosurface(IsosurfaceMethod method) {
 
 std::vector<std::pair<std::string, FrameRequest>> scenes() {
     FrameRequest request;
-    request.width = 160;
-    request.height = 120;
+    request.width = 72;
+    request.height = 54;
     request.camera.eye = {2.3, 1.9, 1.6};
     request.camera.up = {0, 0, 1};
     request.camera.field_of_view = 42;
@@ -100,7 +100,7 @@ std::optional<double> cancel(Renderer& renderer, const FrameRequest& request, do
 
 TEST_CASE("after a cancelled picture the next one is the same as ever") {
     const TemporaryFile file("cancel.h5");
-    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 3, "order": 4, "geometry_order": 3, "field": "waves"})",
+    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 3, "geometry_order": 2, "field": "waves"})",
              file.path());
     const RuntimeVolume volume = open_volume(file.path());
     std::size_t n_cancelled = 0;
@@ -109,7 +109,7 @@ TEST_CASE("after a cancelled picture the next one is the same as ever") {
         const Frame expected = reference.render(request);
         // From the start, while nothing is there yet.
         Renderer renderer(device(), volume, Precision::float32);
-        for (const double after : {0.0, 3.0, 10.0, 40.0, 150.0}) {
+        for (const double after : {0.0, 10.0, 100.0}) {
             n_cancelled += cancel(renderer, request, after) ? 1 : 0;
         }
         check_same(renderer.render(request), expected);
@@ -117,7 +117,7 @@ TEST_CASE("after a cancelled picture the next one is the same as ever") {
         renderer.render(request);
         const double whole = milliseconds_since(start);
         double longest = 0;
-        for (const double share : {0.1, 0.35, 0.6, 0.85}) {
+        for (const double share : {0.15, 0.5, 0.8}) {
             const std::optional<double> latency = cancel(renderer, request, share * whole);
             n_cancelled += latency ? 1 : 0;
             longest = std::max(longest, latency.value_or(0));
@@ -128,12 +128,12 @@ TEST_CASE("after a cancelled picture the next one is the same as ever") {
         // Far more than parts take, for machines that do other work.
         CHECK(longest < 1000);
     }
-    CHECK(n_cancelled >= 35);
+    CHECK(n_cancelled >= 25);
 }
 
 TEST_CASE("a picture cancelled for another step, value or field does not mix them") {
     const TemporaryFile file("steps.h5");
-    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 3, "order": 4, "geometry_order": 3, "field": "waves"})",
+    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 3, "geometry_order": 2, "field": "waves"})",
              file.path());
     const RuntimeVolume volume = open_volume(file.path());
     const FrameRequest first = scenes().back().second;
@@ -145,7 +145,7 @@ TEST_CASE("a picture cancelled for another step, value or field does not mix the
     const Frame expected_second = Renderer(device(), volume, Precision::float32).render(second);
     Renderer renderer(device(), volume, Precision::float32);
     renderer.render(first);
-    for (const double after : {0.0, 2.0, 5.0, 10.0, 20.0}) {
+    for (const double after : {0.0, 5.0, 15.0}) {
         cancel(renderer, second, after);
         check_same(renderer.render(first), expected_first);
     }
