@@ -1,4 +1,7 @@
 #include "commands.hpp"
+#include "render_animation.hpp"
+#include "render_options.hpp"
+#include "render_stats.hpp"
 #include "volume_argument.hpp"
 
 #include <core/annotation/font.hpp>
@@ -10,14 +13,10 @@
 #include <core/scene/png_file.hpp>
 #include <core/scene/scene.hpp>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 namespace elvis::commands {
@@ -30,325 +29,15 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-struct Arguments {
-    std::string input;
-    std::string output;
-    std::string field;
-    std::vector<std::string> cut_planes;
-    std::vector<std::string> boundary_groups;
-    bool boundary = false;
-    std::vector<double> isovalues;
-    std::string volume;
-    std::string integrator;
-    double volume_step = 0;
-    double volume_tolerance = 0;
-    std::string contours;
-    bool mesh_lines = false;
-    std::string color_map;
-    std::string range;
-    std::string eye, look_at, up;
-    double field_of_view = 0;
-    double orthographic = 0;
-    std::string background;
-    std::string annotation;
-    std::string lighting;
-    std::string size;
-    std::string precision;
-    std::string device;
-    std::string buffers;
-    std::string stats;
-    int time_step = -1;
-    int repeat = 0;
-    int bits = 8;
-    bool validation = false;
-    bool schema = false;
+/** When the command began, and what loading the volume took. */
+struct Times {
+    Clock::time_point start;
+    double load;
 };
 
-/** "1,0,0,-0.5" as that many finite numbers. */
-std::vector<double> numbers(const char* option, const std::string& text, std::size_t least, std::size_t most) {
-    std::vector<double> list;
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string part = text.substr(begin, end - begin);
-        std::size_t used = 0;
-        double value = std::nan("");
-        try {
-            value = std::stod(part, &used);
-        } catch (const std::exception&) {
-            used = 0;
-        }
-        if (used == 0 || used != part.size() || !std::isfinite(value)) {
-            throw UsageError(option, "'" + text + "' is no list of numbers separated by commas");
-        }
-        list.push_back(value);
-        begin = end + 1;
-    }
-    if (list.size() < least || list.size() > most) {
-        throw UsageError(option, "'" + text + "' has " + std::to_string(list.size()) + " numbers where " +
-                                     std::to_string(least) + (most > least ? " or " + std::to_string(most) : "") +
-                                     " are expected");
-    }
-    return list;
-}
-
-Vector3 vector3(const char* option, const std::string& text) {
-    const std::vector<double> list = numbers(option, text, 3, 3);
-    return {list[0], list[1], list[2]};
-}
-
-/** Surfaces of the command line stand instead of those of the file. */
-void apply_surfaces(const Arguments& arguments, Scene& scene) {
-    if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty()) {
-        scene.surfaces.clear();
-    }
-    for (const std::string& text : arguments.cut_planes) {
-        const std::vector<double> list = numbers("--cut-plane", text, 4, 4);
-        if (list[0] == 0 && list[1] == 0 && list[2] == 0) {
-            throw UsageError("--cut-plane", "'" + text + "' has a normal of length zero");
-        }
-        scene.surfaces.push_back({CutPlane{{list[0], list[1], list[2], list[3]}}});
-    }
-    if (arguments.boundary) {
-        scene.surfaces.push_back({BoundaryFaces{arguments.boundary_groups}});
-    }
-    if (!arguments.isovalues.empty()) {
-        Isosurfaces isosurfaces;
-        isosurfaces.values = arguments.isovalues;
-        std::sort(isosurfaces.values.begin(), isosurfaces.values.end());
-        scene.surfaces.push_back({std::move(isosurfaces)});
-    }
-    if (!arguments.contours.empty()) {
-        scene.contours = SceneContours{};
-        scene.contours->values = numbers("--contours", arguments.contours, 1, 1000);
-        std::sort(scene.contours->values.begin(), scene.contours->values.end());
-        scene.contours->style.color = Rgb{0, 0, 0};
-    }
-    if (arguments.mesh_lines) {
-        scene.mesh_lines = SceneLineStyle{};
-    }
-}
-
-/** A volume rendering of the command line stands instead of that of the file; how it is integrated, beside. */
-void apply_volume(const Arguments& arguments, Scene& scene) {
-    if (arguments.volume == "none") {
-        scene.volume_rendering.reset();
-    } else if (!arguments.volume.empty()) {
-        scene.volume_rendering = SceneVolumeRendering{};
-        scene.volume_rendering->transfer_file = arguments.volume == "default" ? "" : arguments.volume;
-    }
-    for (const auto& [option, is_given] : {std::pair{"--integrator", !arguments.integrator.empty()},
-                                           std::pair{"--volume-step", arguments.volume_step > 0},
-                                           std::pair{"--volume-tolerance", arguments.volume_tolerance > 0}}) {
-        if (is_given && !scene.volume_rendering) {
-            throw UsageError(option, "means nothing without --volume, or a scene with volume_rendering");
-        }
-    }
-    if (!arguments.integrator.empty()) {
-        scene.volume_rendering->integrator = integrator_named(arguments.integrator).value();
-    }
-    if (arguments.volume_step > 0) {
-        if (!has_steps(scene.volume_rendering->integrator)) {
-            throw UsageError("--volume-step", "is of the integrators riemann, trapezoid and categories only");
-        }
-        scene.volume_rendering->step = arguments.volume_step;
-    }
-    if (arguments.volume_tolerance > 0) {
-        if (has_steps(scene.volume_rendering->integrator)) {
-            throw UsageError("--volume-tolerance", "is of the integrators exact and adaptive-trapezoid only");
-        }
-        scene.volume_rendering->tolerance = arguments.volume_tolerance;
-    }
-}
-
-/** What the command line says goes before what the file says. */
-void apply_options(const Arguments& arguments, Scene& scene) {
-    if (!arguments.field.empty()) {
-        scene.field = arguments.field;
-    }
-    apply_surfaces(arguments, scene);
-    apply_volume(arguments, scene);
-    if (!arguments.color_map.empty()) {
-        const bool is_file = std::filesystem::exists(arguments.color_map);
-        scene.color_map.name = is_file ? "" : arguments.color_map;
-        scene.color_map.file = is_file ? arguments.color_map : "";
-        scene.color_map.points.clear();
-    }
-    if (!arguments.range.empty()) {
-        const std::vector<double> list = numbers("--range", arguments.range, 2, 2);
-        if (!(list[0] < list[1])) {
-            throw UsageError("--range", "'" + arguments.range + "' must go from a smaller to a larger value");
-        }
-        scene.color_map.range = {list[0], list[1]};
-    }
-    if (!arguments.eye.empty()) {
-        scene.camera.eye = vector3("--eye", arguments.eye);
-    }
-    if (!arguments.look_at.empty()) {
-        scene.camera.look_at = vector3("--look-at", arguments.look_at);
-    }
-    if (!arguments.up.empty()) {
-        scene.camera.up = vector3("--up", arguments.up);
-    }
-    if (arguments.field_of_view > 0) {
-        scene.camera.field_of_view = arguments.field_of_view;
-    }
-    if (arguments.orthographic > 0) {
-        scene.camera.orthographic = true;
-        scene.camera.height = arguments.orthographic;
-    }
-    if (!arguments.background.empty()) {
-        const std::vector<double> list = numbers("--background", arguments.background, 3, 4);
-        scene.background = {list[0], list[1], list[2], list.size() > 3 ? list[3] : 1.0};
-        for (const double channel : scene.background) {
-            if (channel < 0 || channel > 1) {
-                throw UsageError("--background", "'" + arguments.background + "' has a number outside 0 to 1");
-            }
-        }
-    }
-    if (!arguments.annotation.empty()) {
-        scene.annotation = arguments.annotation == "default" ? std::optional(SceneAnnotation{}) : std::nullopt;
-    }
-    if (!arguments.lighting.empty()) {
-        scene.lighting = arguments.lighting == "default" ? std::optional(Lighting{}) : std::nullopt;
-    }
-    if (!arguments.size.empty()) {
-        unsigned width = 0, height = 0;
-        int used = 0;
-        if (std::sscanf(arguments.size.c_str(), "%ux%u%n", &width, &height, &used) != 2 ||
-            static_cast<std::size_t>(used) != arguments.size.size() || width == 0 || height == 0 || width > 32768 ||
-            height > 32768) {
-            throw UsageError("--size", "'" + arguments.size + "' is not WIDTHxHEIGHT with both from 1 to 32768");
-        }
-        scene.size = {width, height};
-    }
-    if (!arguments.precision.empty()) {
-        scene.precision = arguments.precision;
-    }
-    if (arguments.time_step >= 0) {
-        scene.time_step = static_cast<std::uint32_t>(arguments.time_step);
-    }
-}
-
-nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,
-                                  double load, double total, const std::vector<double>& repeated) {
-    nlohmann::ordered_json root;
-    root["device"] = device.summary().name;
-    root["driver"] = device.summary().driver;
-    root["precision"] = is_double ? "float64" : "float32";
-    const RendererTimes& times = renderer.times();
-    root["milliseconds"] = {{"load", load},
-                            {"upload", times.upload_milliseconds},
-                            {"hierarchy", times.hierarchy_milliseconds},
-                            {"compile", times.compile_milliseconds},
-                            {"render", frame.render_milliseconds},
-                            {"device", frame.device_milliseconds},
-                            {"total", total}};
-    const FrameCounts& counts = frame.counts;
-    root["counts"] = {{"pixels", counts.pixels},
-                      {"hit_pixels", counts.hit_pixels},
-                      {"field_evaluations", counts.field_evaluations},
-                      {"newton_iterations", counts.newton_iterations},
-                      {"newton_failures", counts.newton_failures},
-                      {"undecided_pixels", counts.undecided_pixels},
-                      {"nan_pixels", counts.nan_pixels},
-                      {"work_limit_pixels", counts.work_limit_pixels},
-                      {"estimated_pixels", counts.estimated_pixels},
-                      {"contour_pixels", counts.contour_pixels},
-                      {"undecided_contour_pixels", counts.undecided_contour_pixels},
-                      {"mesh_line_pixels", counts.mesh_line_pixels},
-                      {"undecided_mesh_line_pixels", counts.undecided_mesh_line_pixels},
-                      {"refined_pixels", counts.refined_pixels},
-                      {"isosurface_pixels", counts.isosurface_pixels},
-                      {"undecided_isosurface_pixels", counts.undecided_isosurface_pixels},
-                      {"isosurface_crossings", counts.isosurface_crossings},
-                      {"projected_pixels", counts.projected_pixels},
-                      {"certified_segments", counts.certified_segments},
-                      {"segments", counts.segments},
-                      {"verified_segments", counts.verified_segments},
-                      {"undecided_segments", counts.undecided_segments},
-                      {"excluded_pieces", counts.excluded_pieces},
-                      {"undecided_pieces", counts.undecided_pieces},
-                      {"volume_pixels", counts.volume_pixels},
-                      {"inexact_volume_pixels", counts.inexact_volume_pixels},
-                      {"volume_segments", counts.volume_segments},
-                      {"empty_segments", counts.empty_segments},
-                      {"volume_steps", counts.volume_steps},
-                      {"volume_breakpoints", counts.volume_breakpoints}};
-    const RendererMemory memory = renderer.memory();
-    root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
-    if (!repeated.empty()) {
-        root["frame_milliseconds"] = repeated;
-    }
-    return root;
-}
-
-void warn_about(const FrameCounts& counts) {
-    if (counts.hit_pixels == 0 && counts.volume_pixels == 0) {
-        spdlog::warn("nothing is hit: the picture shows background only");
-    }
-    if (counts.newton_failures > 0) {
-        spdlog::warn("{} inversions of the mapping failed; their pixels carry flag 8, of isosurfaces flag 64 if that leaves them open", counts.newton_failures);
-    }
-    if (counts.nan_pixels > 0) {
-        spdlog::warn("{} pixels show values that are not finite", counts.nan_pixels);
-    }
-    if (counts.work_limit_pixels > 0) {
-        spdlog::warn("{} pixels reached the work limit and may be wrong; they carry flag 1024", counts.work_limit_pixels);
-    }
-    if (counts.inexact_volume_pixels > 0) {
-        spdlog::info("in {} pixels volume rendering did not reach its tolerance; they carry flag 128",
-                     counts.inexact_volume_pixels);
-    }
-    if (counts.undecided_pixels > 0) {
-        spdlog::info("{} pixels are undecided within rounding", counts.undecided_pixels);
-    }
-    if (counts.undecided_isosurface_pixels > 0) {
-        spdlog::info("for {} pixels it is undecided whether they meet an isosurface, or one before that shown; they carry flag 64",
-                     counts.undecided_isosurface_pixels);
-    }
-    if (counts.undecided_contour_pixels > 0) {
-        spdlog::info("for {} pixels it is undecided whether they meet a contour; they carry flag 2",
-                     counts.undecided_contour_pixels);
-    }
-    if (counts.undecided_mesh_line_pixels > 0) {
-        spdlog::info("for {} pixels it is undecided whether they meet a mesh line; they carry flag 512",
-                     counts.undecided_mesh_line_pixels);
-    }
-}
-
-void run(const Arguments& arguments) {
-    if (arguments.schema) {
-        std::printf("%s", std::string(scene_schema_text()).c_str());
-        return;
-    }
-    if (arguments.input.empty() || arguments.output.empty()) {
-        throw UsageError("render", "needs a scene or volume, and -o OUT.png; see elvis render --help");
-    }
-    const Clock::time_point start = Clock::now();
-    Scene scene;
-    if (is_scene(arguments.input)) {
-        scene = read_scene(arguments.input);
-    } else {
-        scene.volume = arguments.input;
-    }
-    apply_options(arguments, scene);
-    if (scene.volume.empty()) {
-        throw Error(arguments.input, "'volume' is missing");
-    }
-    if (scene.annotation) {
-        // Before the work is done: is there a font?
-        const Font font(scene.annotation->style.font);
-    }
+void render_picture(const RenderArguments& arguments, const Scene& scene, const Device& device, const RuntimeVolume& volume,
+                    Renderer& renderer, const Times& times) {
     const bool is_double = scene.precision.value_or("float32") == "float64";
-
-    const PluginRegistry registry;
-    const RuntimeVolume volume = open_volume(registry, scene.volume, scene.plugin, scene.plugin_options);
-    const double load = milliseconds_since(start);
-
-    const Device device(arguments.device, arguments.validation);
-    spdlog::info("device: {}", device.summary().name);
-    Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
     FrameRequest request = make_frame_request(scene, volume, renderer);
     if (scene.volume_rendering && scene.volume_rendering->has_default_density()) {
         const auto& density = request.volume->transfer.density;
@@ -374,10 +63,50 @@ void run(const Arguments& arguments) {
         write_buffers(frame, arguments.buffers, is_double);
     }
     if (!arguments.stats.empty()) {
-        const auto stats = stats_json(device, is_double, frame, renderer, load, milliseconds_since(start), repeated);
+        const auto stats = stats_json(device, is_double, frame, renderer, times.load, milliseconds_since(times.start), repeated);
         write_text_file(arguments.stats, stats.dump(2) + "\n");
     }
     warn_about(frame.counts);
+}
+
+void run(const RenderArguments& arguments) {
+    if (arguments.schema) {
+        std::printf("%s", std::string(scene_schema_text()).c_str());
+        return;
+    }
+    if (arguments.input.empty() || arguments.output.empty()) {
+        throw UsageError("render", "needs a scene or volume, and -o OUT.png; see elvis render --help");
+    }
+    const Clock::time_point start = Clock::now();
+    Scene scene;
+    if (is_scene(arguments.input)) {
+        scene = read_scene(arguments.input);
+    } else {
+        scene.volume = arguments.input;
+    }
+    apply_options(arguments, scene);
+    check_animation(arguments, scene);
+    if (scene.volume.empty()) {
+        throw Error(arguments.input, "'volume' is missing");
+    }
+    if (scene.annotation) {
+        // Before the work is done: is there a font?
+        const Font font(scene.annotation->style.font);
+    }
+    const bool is_double = scene.precision.value_or("float32") == "float64";
+
+    const PluginRegistry registry;
+    const RuntimeVolume volume = open_volume(registry, scene.volume, scene.plugin, scene.plugin_options);
+    const double load = milliseconds_since(start);
+
+    const Device device(arguments.device, arguments.validation);
+    spdlog::info("device: {}", device.summary().name);
+    Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
+    if (scene.animation) {
+        render_animation(arguments, scene, device, volume, renderer);
+    } else {
+        render_picture(arguments, scene, device, volume, renderer, {start, load});
+    }
     if (arguments.validation && !device.validation_messages().empty()) {
         throw Error("validation layer", device.validation_messages().front());
     }
@@ -386,10 +115,10 @@ void run(const Arguments& arguments) {
 } // namespace
 
 void add_render(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("render", "Draw one picture of a volume, from a scene file or options");
-    auto a = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("render", "Draw one picture of a volume, or an animation, from a scene file or options");
+    auto a = std::make_shared<RenderArguments>();
     command->add_option("input", a->input, "Scene file (JSON) or volume");
-    command->add_option("-o,--output", a->output, "Picture to write (PNG)");
+    command->add_option("-o,--output", a->output, "Picture to write (PNG), or folder for those of an animation");
     command->add_option("--field", a->field, "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
     command->add_option("--cut-plane", a->cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
         ->allow_extra_args(false);
@@ -432,6 +161,13 @@ void add_render(CLI::App& app) {
     command->add_option("--precision", a->precision, "float32 or float64")->check(CLI::IsMember({"float32", "float64"}));
     command->add_option("--device", a->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--time-step", a->time_step, "Which time step")->check(CLI::NonNegativeNumber);
+    command->add_option("--time-steps", a->time_steps, "all, FIRST:LAST or FIRST:LAST:STRIDE: a picture of each of these steps");
+    command->add_option("--turntable", a->turntable, "That many pictures with the eye once around the point looked at")
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--turntable-axis", a->turntable_axis, "x,y,z that the eye goes around; by default the camera's up");
+    command->add_option("--film", a->film, "Also make a film of the pictures, such as FILM.mp4; needs ffmpeg");
+    command->add_option("--frames-a-second", a->frames_a_second, "Of the film; 25 by default")->check(CLI::PositiveNumber);
+    command->add_flag("--resume", a->resume, "Keep pictures of the animation that are there already");
     command->add_option("--buffers", a->buffers, "HDF5 file with what the picture is made of, per pixel");
     command->add_option("--stats", a->stats, "JSON file with times and counts");
     command->add_option("--repeat", a->repeat, "Draw the frame that many times more, and put the times into --stats")

@@ -539,9 +539,10 @@ FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_st
     return m_impl->fields.range(field, time_step, certainty);
 }
 
-Frame Renderer::render(const FrameRequest& wanted) {
+Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     Impl& impl = *m_impl;
     impl.check(wanted);
+    const DeviceTask task(impl.device, control);
     const FrameRequest request = impl.with_offsets(wanted);
     Frame frame;
     frame.width = request.width;

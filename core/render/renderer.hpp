@@ -28,7 +28,8 @@ struct RendererMemory {
 
 /**
  * Keeps the volume's buffers, hierarchies and kernels between frames: the first frame uploads and compiles what it needs, later
- * ones only what changed (field, time step). Device and volume must outlive it. One thread at a time.
+ * ones only what changed (field, time step). Device and volume must outlive it. One thread at a time. No dispatch takes long
+ * (core/vulkan/dispatch_pace.hpp): other work on the device, a window's, comes in between.
  */
 class Renderer {
 public:
@@ -42,7 +43,11 @@ public:
     /** Range of a field (component or magnitude) over the volume at a time step, and whether it is certified. */
     FieldRange field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
 
-    Frame render(const FrameRequest& request);
+    /**
+     * Draws a picture. With a control it can be cancelled from another thread: then Cancelled is thrown within some 50 ms, other
+     * than while a driver compiles a kernel for the first time, and the next picture is what it would have been anyway.
+     */
+    Frame render(const FrameRequest& request, const TaskControl* control = nullptr);
 
     const RendererTimes& times() const;
     RendererMemory memory() const;

@@ -107,8 +107,9 @@ ShownComponent ShownFields::component(const FieldChoice& field) const {
 }
 
 const ShownFields::Ranges& ShownFields::of_components(std::uint32_t field, std::uint32_t time_step) {
-    const auto [found, is_new] = m_of_components.try_emplace({field, time_step});
-    if (is_new) {
+    // Kept once it is known: finding it may be cancelled.
+    auto found = m_of_components.find({field, time_step});
+    if (found == m_of_components.end()) {
         elvis_certainty certainty = ELVIS_ESTIMATED;
         const std::uint32_t n_components = m_volume.fields()[field].n_components;
         std::vector<FieldRange> all;
@@ -118,7 +119,7 @@ const ShownFields::Ranges& ShownFields::of_components(std::uint32_t field, std::
             m_data.select({{{field, std::vector<double>(n_components, 0.0)}}, time_step, nullptr});
             all = ranges_from_samples(m_device, m_volume, m_data, n_components);
         }
-        found->second = {std::move(all), certainty};
+        found = m_of_components.try_emplace({field, time_step}, std::move(all), certainty).first;
     }
     return found->second;
 }
@@ -131,10 +132,11 @@ FieldRange ShownFields::range(const FieldChoice& field, std::uint32_t time_step,
         }
         return field.component < 0 ? magnitude_range(components) : components[static_cast<std::size_t>(field.component)];
     }
-    const auto [found, is_new] = m_of_expressions.try_emplace({field.expression->text(), time_step});
-    if (is_new) {
+    const std::pair key(field.expression->text(), time_step);
+    auto found = m_of_expressions.find(key);
+    if (found == m_of_expressions.end()) {
         m_data.select(selection(field, time_step));
-        found->second = ranges_from_samples(m_device, m_volume, m_data, 1)[0];
+        found = m_of_expressions.try_emplace(key, ranges_from_samples(m_device, m_volume, m_data, 1)[0]).first;
     }
     if (certainty) {
         *certainty = ELVIS_ESTIMATED;
@@ -147,10 +149,11 @@ double ShownFields::float32_error(const FieldChoice& field, std::uint32_t time_s
         const FieldRange of_field = range(field, time_step);
         return float32_value_error * std::max(std::abs(of_field.lower - offset), std::abs(of_field.upper - offset));
     }
-    const auto [found, is_new] = m_errors.try_emplace({field.expression->text(), time_step});
-    if (is_new) {
+    const std::pair key(field.expression->text(), time_step);
+    auto found = m_errors.find(key);
+    if (found == m_errors.end()) {
         m_data.select(selection(field, time_step));
-        found->second = rounding_of_expression(m_device, m_volume, m_data, *field.expression);
+        found = m_errors.try_emplace(key, rounding_of_expression(m_device, m_volume, m_data, *field.expression)).first;
     }
     return found->second;
 }

@@ -90,8 +90,13 @@ std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& fiel
     if (map.range) {
         return *map.range;
     }
-    const FieldRange of_field = renderer.field_range(field, scene.time_step);
-    return {of_field.lower, of_field.upper};
+    const std::vector<std::uint32_t> steps = scene.range_steps.empty() ? std::vector{scene.time_step} : scene.range_steps;
+    FieldRange all = renderer.field_range(field, steps.front());
+    for (const std::uint32_t step : steps) {
+        const FieldRange range = renderer.field_range(field, step);
+        all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
+    }
+    return {all.lower, all.upper};
 }
 
 VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Scene& scene, const RuntimeVolume& volume,

@@ -24,6 +24,7 @@ template <std::size_t N> std::array<double, N> fixed(const std::vector<double>& 
 /** A path of the scene file, seen from the working directory. */
 std::string beside(const std::string& scene, const std::string& path);
 
+SceneAnimation read_animation(const JsonObject& object);
 /** Of the key "annotation"; nothing for "none". */
 std::optional<SceneAnnotation> read_annotation(const JsonObject& image, const std::string& scene);
 SceneColorMap read_color_map(const JsonObject& object, const std::string& scene);

@@ -128,6 +128,9 @@ Scene read_scene(const std::string& path) {
     if (root.has("volume_rendering")) {
         scene.volume_rendering = read_volume_rendering(root.object("volume_rendering"), path);
     }
+    if (root.has("animation")) {
+        scene.animation = read_animation(root.object("animation"));
+    }
     return scene;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/render/frame.hpp>
+#include <core/scene/animation.hpp>
 #include <core/scene/opacity.hpp>
 #include <core/scene/scene_annotation.hpp>
 
@@ -134,6 +135,9 @@ struct Scene {
     std::optional<SceneVolumeRendering> volume_rendering;
     /** Colours are those of the colour map if absent. */
     std::optional<Lighting> lighting;
+    std::optional<SceneAnimation> animation;
+    /** Steps whose values colour maps span where no range is given; the one that is drawn if empty. */
+    std::vector<std::uint32_t> range_steps;
 };
 
 /** Reads a scene file; paths in it become relative to the working directory. Throws Error naming file, key and cause. */

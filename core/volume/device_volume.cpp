@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace elvis {
 
@@ -149,7 +150,8 @@ void DeviceVolume::select(const FieldSelection& selection) {
         is_changed = provide(wanted, **found) || is_changed;
         m_selected.push_back(found->get());
     }
-    bool is_geometry_changed = !m_has_elements;
+    // If this is cancelled, what follows from the geometry is still to be made.
+    bool is_geometry_changed = !std::exchange(m_has_elements, false);
     for (std::uint32_t index = 0; index < m_buffers.size(); ++index) {
         PluginBuffer& buffer = m_buffers[index];
         buffer.info = m_volume.buffer(index, slot(0).field);
@@ -165,9 +167,9 @@ void DeviceVolume::select(const FieldSelection& selection) {
                 m_classes[element_class].curvature_records.reset();
             }
         }
-        m_has_elements = true;
         ++m_geometry_version;
     }
+    m_has_elements = true;
     m_upload_milliseconds = is_changed || is_geometry_changed ? milliseconds_since(start) : m_upload_milliseconds;
 }
 
@@ -189,7 +191,7 @@ bool DeviceVolume::provide(const FieldSlot& wanted, Slot& slot) {
 
 bool DeviceVolume::provide(std::uint32_t index, const Slot& slot, PluginBuffer& buffer) {
     const bool depends_on_time = (buffer.info.depends & ELVIS_DEPENDS_ON_TIME) != 0;
-    const bool is_stale = !buffer.records || (depends_on_time && buffer.time_step != m_time_step);
+    const bool is_stale = !buffer.is_filled || (depends_on_time && buffer.time_step != m_time_step);
     if (is_stale) {
         fill(index, slot, buffer);
     }
@@ -204,7 +206,7 @@ void DeviceVolume::fill(std::uint32_t index, const Slot& slot, PluginBuffer& buf
         buffer.records = std::make_unique<RecordBuffer>(m_device, is_real ? RecordKind::real : RecordKind::uint, m_precision,
                                                         info.n_records, info.record_size);
     }
-    buffer.time_step = m_time_step;
+    buffer.is_filled = false;
     elvis_fill_request request{};
     request.struct_size = sizeof request;
     request.buffer = index;
@@ -219,6 +221,7 @@ void DeviceVolume::fill(std::uint32_t index, const Slot& slot, PluginBuffer& buf
         if (m_control) {
             m_control->check();
         }
+        m_device.check_task();
         request.count = std::min(block, info.n_records - request.first);
         if (is_real) {
             reals.resize(request.count * info.record_size);
@@ -230,6 +233,8 @@ void DeviceVolume::fill(std::uint32_t index, const Slot& slot, PluginBuffer& buf
             buffer.records->write_uints(request.first, uints);
         }
     }
+    buffer.time_step = m_time_step;
+    buffer.is_filled = true;
 }
 
 std::array<double, 3> DeviceVolume::origin(std::uint64_t element) const {

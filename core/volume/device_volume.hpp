@@ -108,6 +108,8 @@ private:
     struct PluginBuffer {
         BufferInfo info;
         std::unique_ptr<RecordBuffer> records;
+        /** Whether all of it is there: filling may have been cancelled. */
+        bool is_filled = false;
         std::uint32_t time_step = 0;
     };
     /** A field on the device. */

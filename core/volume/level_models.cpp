@@ -42,6 +42,8 @@ void LevelModels::provide(const LevelComponent& component) {
     if (component == m_component) {
         return;
     }
+    // Until all are made: that may be cancelled.
+    m_component = {0, 0};
     for (std::size_t index = 0; index < m_classes.size(); ++index) {
         const ClassModels& of = m_classes[index];
         const std::uint64_t n_elements = m_volume.classes()[index].n_elements;

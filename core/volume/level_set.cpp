@@ -148,6 +148,8 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
 }
 
 void LevelSet::make_models(const LevelComponent& component) {
+    // Until all are made: that may be cancelled.
+    m_component = {0, 0};
     m_is_all_estimated = true;
     std::vector<std::vector<std::uint32_t>> models(m_classes.size());
     for (std::size_t index = 0; index < m_classes.size(); ++index) {
@@ -180,7 +182,7 @@ void LevelSet::make_models(const LevelComponent& component) {
         }
     }
     m_component = component;
-    m_choice = {};
+    m_is_chosen = false;
 }
 
 void LevelSet::choose(std::span<const double> isovalues, const LevelComponent& component, bool skips_by_range) {
@@ -188,9 +190,10 @@ void LevelSet::choose(std::span<const double> isovalues, const LevelComponent& c
         make_models(component);
     }
     Choice choice{std::vector<double>(isovalues.begin(), isovalues.end()), skips_by_range};
-    if (choice == m_choice) {
+    if (m_is_chosen && choice == m_choice) {
         return;
     }
+    m_is_chosen = false;
     m_choice = std::move(choice);
     std::vector<double> all;
     for (std::size_t index = 0; index < m_classes.size(); ++index) {
@@ -216,6 +219,7 @@ void LevelSet::choose(std::span<const double> isovalues, const LevelComponent& c
             make_cells(levels, info.shape);
         }
     }
+    m_is_chosen = true;
 }
 
 bool LevelSet::may_skip(const ClassLevels& levels, std::uint64_t element) const {

@@ -87,6 +87,8 @@ private:
     LevelComponent m_component{0, 0};
     bool m_is_all_estimated = false;
     Choice m_choice;
+    /** Whether all that the choice needs is there: making it may have been cancelled. */
+    bool m_is_chosen = false;
 };
 
 } // namespace elvis

@@ -222,6 +222,21 @@ void Device::Impl::submit(const std::function<void(VkCommandBuffer)>& record) {
     check_vulkan(vkResetFences(device, 1, &fence), place(), "resetting a fence");
 }
 
+const TaskControl* Device::Impl::task() {
+    const std::lock_guard lock(tasks_mutex);
+    const auto found = tasks.find(std::this_thread::get_id());
+    return found == tasks.end() ? nullptr : found->second;
+}
+
+void Device::Impl::set_task(const TaskControl* control) {
+    const std::lock_guard lock(tasks_mutex);
+    if (control != nullptr) {
+        tasks[std::this_thread::get_id()] = control;
+    } else {
+        tasks.erase(std::this_thread::get_id());
+    }
+}
+
 Device::Device(const DeviceOptions& options) : m_impl(std::make_unique<Impl>(options)) {}
 
 Device::Device(const std::string& wanted, bool validation) {
@@ -250,5 +265,19 @@ std::vector<std::string> Device::validation_messages() const {
 }
 
 void Device::submit(const std::function<void(VkCommandBuffer)>& record) const { m_impl->submit(record); }
+
+void Device::check_task() const {
+    if (const TaskControl* control = m_impl->task()) {
+        control->check();
+    }
+}
+
+DeviceTask::DeviceTask(const Device& device, const TaskControl* control) : m_device(device), m_before(device.impl().task()) {
+    if (control != nullptr) {
+        device.impl().set_task(control);
+    }
+}
+
+DeviceTask::~DeviceTask() { m_device.impl().set_task(m_before); }
 
 } // namespace elvis

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/base/cancel.hpp>
+
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
@@ -93,12 +95,32 @@ public:
     /** Records commands, submits them and waits. A lost device is an Error that says so. */
     void submit(const std::function<void(VkCommandBuffer)>& record) const;
 
+    /** Throws Cancelled if this thread's task is to stop (DeviceTask). Kernels ask before each part of their work. */
+    void check_task() const;
+
     /** For the other files of core/vulkan. */
     struct Impl;
     Impl& impl() const { return *m_impl; }
 
 private:
     std::unique_ptr<Impl> m_impl;
+};
+
+/**
+ * While it lives, what this thread runs on the device belongs to a task, which can be cancelled: then kernels stop before the next
+ * part of their work and throw Cancelled, with what they have written so far in their buffers.
+ */
+class DeviceTask {
+public:
+    /** Null: the task stays as it is. Device and control must outlive this. */
+    DeviceTask(const Device& device, const TaskControl* control);
+    ~DeviceTask();
+    DeviceTask(const DeviceTask&) = delete;
+    DeviceTask& operator=(const DeviceTask&) = delete;
+
+private:
+    const Device& m_device;
+    const TaskControl* m_before;
 };
 
 } // namespace elvis

@@ -9,7 +9,9 @@
 
 #include <atomic>
 #include <cstddef>
+#include <map>
 #include <mutex>
+#include <thread>
 
 namespace elvis {
 
@@ -71,6 +73,10 @@ struct Device::Impl {
     /** Guards the staging buffer; taken before submit_mutex. */
     std::mutex staging_mutex;
     Staging staging;
+    /** Guards the tasks. */
+    std::mutex tasks_mutex;
+    /** By thread. */
+    std::map<std::thread::id, const TaskControl*> tasks;
 
     /** "device 'NAME'", for errors. */
     std::string place() const { return "device '" + summary.name + "'"; }
@@ -79,6 +85,9 @@ struct Device::Impl {
     /** Needs staging_mutex. Makes the staging buffer when it is first needed. */
     Staging& use_staging();
     void submit(const std::function<void(VkCommandBuffer)>& record);
+    /** Of this thread; null if there is none. */
+    const TaskControl* task();
+    void set_task(const TaskControl* control);
 
 private:
     void create_device();

@@ -3,11 +3,14 @@
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
+#include <core/vulkan/dispatch_pace.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <chrono>
 #include <mutex>
+#include <thread>
 
 namespace elvis {
 
@@ -30,6 +33,40 @@ void check_limit(std::size_t needed, std::uint32_t limit, const std::string& pla
     }
 }
 
+/** Groups of which fewer leave parts of the device idle. */
+std::uint64_t groups_at_once(const Device& device) {
+    // Any real GPU has fewer than 256 processors, with room for some groups each.
+    constexpr std::uint64_t of_gpu = 1024;
+    return device.summary().type == "cpu" ? std::max(1u, std::thread::hardware_concurrency()) : of_gpu;
+}
+
+using Groups = std::array<std::uint32_t, 3>;
+
+/** A box of work groups. */
+struct DispatchPart {
+    Groups first{}, count{};
+
+    std::uint64_t n_groups() const { return std::uint64_t{count[0]} * count[1] * count[2]; }
+};
+
+/** The part that follows the first `done` groups of `all`, x running fastest: whole layers, rows of one layer, or a piece of a row. */
+DispatchPart next_part(const Groups& all, std::uint64_t done, std::uint64_t n_wanted) {
+    const std::uint64_t row = all[0], layer = row * all[1];
+    DispatchPart part;
+    part.first = {static_cast<std::uint32_t>(done % row), static_cast<std::uint32_t>(done / row % all[1]),
+                  static_cast<std::uint32_t>(done / layer)};
+    part.count = {all[0] - part.first[0], 1, 1};
+    if (part.first[0] > 0 || n_wanted < row) {
+        part.count[0] = static_cast<std::uint32_t>(std::min<std::uint64_t>(part.count[0], n_wanted));
+    } else if (part.first[1] > 0 || n_wanted < layer) {
+        part.count[1] = static_cast<std::uint32_t>(std::min<std::uint64_t>(all[1] - part.first[1], n_wanted / row));
+    } else {
+        part.count[1] = all[1];
+        part.count[2] = static_cast<std::uint32_t>(std::min<std::uint64_t>(all[2] - part.first[2], n_wanted / layer));
+    }
+    return part;
+}
+
 } // namespace
 
 struct Kernel::Impl {
@@ -42,12 +79,13 @@ struct Kernel::Impl {
     VkPipeline pipeline = VK_NULL_HANDLE;
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    /** Guards the descriptor set until the dispatch that uses it is over. */
+    /** Guards the descriptor set until the dispatch that uses it is over, and the pace. */
     std::mutex mutex;
+    DispatchPace pace;
 
     Impl(const Device& on, std::vector<BindingLayout> bindings, std::uint32_t push_bytes, const std::string& name)
         : device(on), layout(std::move(bindings)), push_constant_bytes(push_bytes),
-          place("kernel '" + name + "' on " + on.impl().place()) {}
+          place("kernel '" + name + "' on " + on.impl().place()), pace(groups_at_once(on)) {}
 
     ~Impl() {
         vkDestroyDescriptorPool(device.handle(), pool, nullptr);
@@ -68,6 +106,7 @@ struct Kernel::Impl {
     void create_pipeline(std::span<const std::uint32_t> spirv);
     void create_set();
     void update_set(std::span<const BoundBuffer> bindings);
+    void run(const DispatchPart& part, std::span<const std::byte> push_constants);
 };
 
 void Kernel::Impl::check_limits() const {
@@ -110,6 +149,7 @@ void Kernel::Impl::create_pipeline(std::span<const std::uint32_t> spirv) {
 
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
@@ -181,6 +221,20 @@ void Kernel::Impl::update_set(std::span<const BoundBuffer> bindings) {
     vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }
 
+void Kernel::Impl::run(const DispatchPart& part, std::span<const std::byte> push_constants) {
+    device.submit([&](VkCommandBuffer commands) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        if (set != VK_NULL_HANDLE) {
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout, 0, 1, &set, 0, nullptr);
+        }
+        if (!push_constants.empty()) {
+            vkCmdPushConstants(commands, pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                               static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
+        }
+        vkCmdDispatchBase(commands, part.first[0], part.first[1], part.first[2], part.count[0], part.count[1], part.count[2]);
+    });
+}
+
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::vector<BindingLayout> layout,
                std::uint32_t push_constant_bytes, std::string name)
     : m_impl(std::make_unique<Impl>(device, std::move(layout), push_constant_bytes, name)) {
@@ -201,25 +255,23 @@ void Kernel::dispatch(std::span<const BoundBuffer> bindings, std::span<const std
     if (groups_x == 0 || groups_y == 0 || groups_z == 0) {
         return;
     }
-    const std::array<std::uint32_t, 3> groups{groups_x, groups_y, groups_z};
+    const Groups groups{groups_x, groups_y, groups_z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         check_limit(groups[axis], impl.device.limits().maxComputeWorkGroupCount[axis], impl.place,
                     "work groups in one direction");
     }
     const std::lock_guard lock(impl.mutex);
     impl.update_set(bindings);
-    impl.device.submit([&](VkCommandBuffer commands) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, impl.pipeline);
-        if (impl.set != VK_NULL_HANDLE) {
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, impl.pipeline_layout, 0, 1, &impl.set, 0,
-                                    nullptr);
-        }
-        if (!push_constants.empty()) {
-            vkCmdPushConstants(commands, impl.pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                               static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
-        }
-        vkCmdDispatch(commands, groups_x, groups_y, groups_z);
-    });
+    const std::uint64_t n_groups = std::uint64_t{groups_x} * groups_y * groups_z;
+    for (std::uint64_t done = 0; done < n_groups;) {
+        impl.device.check_task();
+        const DispatchPart part = next_part(groups, done, impl.pace.next(n_groups - done));
+        const auto start = std::chrono::steady_clock::now();
+        impl.run(part, push_constants);
+        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+        impl.pace.took(part.n_groups(), time.count());
+        done += part.n_groups();
+    }
 }
 
 } // namespace elvis

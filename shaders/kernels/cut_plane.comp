@@ -33,7 +33,8 @@ layout(push_constant) uniform core_parameters {
 };
 
 uint core_first_entry() {
-    return (gl_WorkGroupID.x + (core_first_tile_row + gl_WorkGroupID.y) * gl_NumWorkGroups.x) * CORE_TILE_STRIDE + 1u;
+    const uint tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    return (gl_WorkGroupID.x + (core_first_tile_row + gl_WorkGroupID.y) * tiles_a_row) * CORE_TILE_STRIDE + 1u;
 }
 
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }

@@ -157,7 +157,8 @@ void main() {
         for (uint i = 0u; i < CORE_TILE_WIDTH; ++i) {
             least = min(least, core_lane_boxes[lane * CORE_TILE_WIDTH + i]);
         }
-        const uint part = (core_first_tile_row * parts + gl_WorkGroupID.y) * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+        const uint tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+        const uint part = (core_first_tile_row * parts + gl_WorkGroupID.y) * tiles_a_row + gl_WorkGroupID.x;
         core_boxes[6u * part + lane] = least;
     }
     for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {

@@ -166,3 +166,98 @@ TEST_CASE("A dispatch costs little beside its work") {
     // Typically 20 to 60; the limit leaves room for machines that do other work.
     CHECK(time.count() / n < 1000);
 }
+
+namespace {
+
+// Each invocation adds up many numbers, more where its work group's place says so, and writes the place; counts[0] is how many did.
+constexpr const char* slow_places = R"(#version 460
+layout(local_size_x = 8) in;
+layout(std430, binding = 0) buffer result_block { uint result[]; };
+layout(push_constant) uniform push_block { uvec3 groups; uint turns; };
+void main() {
+    const uint group = gl_WorkGroupID.x + groups.x * (gl_WorkGroupID.y + groups.y * gl_WorkGroupID.z);
+    uint sum = group;
+    const uint n_turns = group % 7u == 0u ? turns : 1u;
+    for (uint turn = 0u; turn < n_turns; ++turn) {
+        sum = sum * 1664525u + 1013904223u;
+    }
+    const uint i = gl_LocalInvocationID.x + 8u * group;
+    result[i] = result[i] + (sum == 7u ? 2u : 1u) * (1u + gl_GlobalInvocationID.x);
+}
+)";
+
+struct SlowPlaces {
+    explicit SlowPlaces(const Device& device, std::array<std::uint32_t, 3> of)
+        : groups(of), n(8 * of[0] * of[1] * of[2]), result(device, n * sizeof(std::uint32_t)),
+          kernel(device, compile_shader(slow_places, "slow_places"), {{0, BindingType::storage_buffer}}, 16, "slow_places") {
+        result.fill(0);
+    }
+    void run(std::uint32_t turns) const {
+        const std::array<std::uint32_t, 4> constants{groups[0], groups[1], groups[2], turns};
+        const std::array<BoundBuffer, 1> bound{BoundBuffer{0, &result}};
+        kernel.dispatch(bound, std::as_bytes(std::span(constants)), groups[0], groups[1], groups[2]);
+    }
+    std::array<std::uint32_t, 3> groups;
+    std::uint32_t n;
+    Buffer result;
+    Kernel kernel;
+};
+
+} // namespace
+
+TEST_CASE("A dispatch in parts runs every work group once, whatever their number in each direction") {
+    DeviceOptions options;
+    options.validation = true;
+    const Device device(options);
+    for (const std::array<std::uint32_t, 3>& groups : {std::array<std::uint32_t, 3>{5000, 1, 1}, {3, 700, 2}, {130, 40, 1}, {1, 1, 900}}) {
+        const SlowPlaces test(device, groups);
+        for (int round = 0; round < 3; ++round) {
+            test.run(20000);
+        }
+        const auto result = test.result.read_items<std::uint32_t>(test.n);
+        std::uint32_t n_wrong = 0;
+        for (std::uint32_t i = 0; i < test.n; ++i) {
+            const std::uint32_t x = i % 8 + 8 * (i / 8 % groups[0]);
+            n_wrong += result[i] != 3 * (1 + x) && result[i] != 6 * (1 + x) ? 1 : 0;
+        }
+        CAPTURE(groups[0], groups[1], groups[2]);
+        CHECK(n_wrong == 0);
+    }
+    CHECK(device.validation_messages() == std::vector<std::string>{});
+}
+
+TEST_CASE("A cancelled task stops its kernels between parts, and not those of others") {
+    const Device device;
+    const SlowPlaces test(device, {20000, 1, 1});
+    test.run(60000);
+    TaskControl control;
+    std::chrono::steady_clock::time_point asked, stopped;
+    const auto run_cancelled = [&](int after_milliseconds) {
+        control.cancelled = false;
+        const DeviceTask task(device, &control);
+        std::jthread owner([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(after_milliseconds));
+            asked = std::chrono::steady_clock::now();
+            control.cancelled = true;
+        });
+        for (int i = 0; i < 1000; ++i) {
+            test.run(60000);
+        }
+    };
+    for (const int after : {0, 30, 100}) {
+        CHECK_THROWS_AS(run_cancelled(after), Cancelled);
+        stopped = std::chrono::steady_clock::now();
+        const std::chrono::duration<double, std::milli> latency = stopped - asked;
+        std::cout << "cancelled after " << after << " ms: stopped " << latency.count() << " ms later\n";
+        // Parts take some 20 ms; the limit leaves room for machines that do other work.
+        CHECK(latency.count() < 500);
+    }
+    // The control still says so, but it is nobody's task any more.
+    test.run(1);
+    control.cancelled = true;
+    const DeviceTask task(device, &control);
+    std::jthread([&] { test.run(1); });
+    CHECK_THROWS_AS(test.run(1), Cancelled);
+    const DeviceTask none(device, nullptr);
+    CHECK_THROWS_AS(test.run(1), Cancelled);
+}

@@ -1,0 +1,58 @@
+/**
+ * @file render_options.hpp
+ * What `elvis render` is told, and what of it goes into the scene.
+ */
+#pragma once
+
+#include <core/scene/scene.hpp>
+
+#include <string>
+#include <vector>
+
+namespace elvis::commands {
+
+/** What `elvis render` is told on the command line. */
+struct RenderArguments {
+    std::string input;
+    std::string output;
+    std::string time_steps;
+    int turntable = 0;
+    std::string turntable_axis;
+    std::string film;
+    double frames_a_second = 0;
+    bool resume = false;
+    std::string field;
+    std::vector<std::string> cut_planes;
+    std::vector<std::string> boundary_groups;
+    bool boundary = false;
+    std::vector<double> isovalues;
+    std::string volume;
+    std::string integrator;
+    double volume_step = 0;
+    double volume_tolerance = 0;
+    std::string contours;
+    bool mesh_lines = false;
+    std::string color_map;
+    std::string range;
+    std::string eye, look_at, up;
+    double field_of_view = 0;
+    double orthographic = 0;
+    std::string background;
+    std::string annotation;
+    std::string lighting;
+    std::string size;
+    std::string precision;
+    std::string device;
+    std::string buffers;
+    std::string stats;
+    int time_step = -1;
+    int repeat = 0;
+    int bits = 8;
+    bool validation = false;
+    bool schema = false;
+};
+
+/** What the command line says goes before what the file says. */
+void apply_options(const RenderArguments& arguments, Scene& scene);
+
+} // namespace elvis::commands

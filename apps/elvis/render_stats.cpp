@@ -1,0 +1,97 @@
+#include "render_stats.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace elvis::commands {
+
+nlohmann::ordered_json counts_json(const FrameCounts& counts) {
+    return {{"pixels", counts.pixels},
+            {"hit_pixels", counts.hit_pixels},
+            {"field_evaluations", counts.field_evaluations},
+            {"newton_iterations", counts.newton_iterations},
+            {"newton_failures", counts.newton_failures},
+            {"undecided_pixels", counts.undecided_pixels},
+            {"nan_pixels", counts.nan_pixels},
+            {"work_limit_pixels", counts.work_limit_pixels},
+            {"estimated_pixels", counts.estimated_pixels},
+            {"contour_pixels", counts.contour_pixels},
+            {"undecided_contour_pixels", counts.undecided_contour_pixels},
+            {"mesh_line_pixels", counts.mesh_line_pixels},
+            {"undecided_mesh_line_pixels", counts.undecided_mesh_line_pixels},
+            {"refined_pixels", counts.refined_pixels},
+            {"isosurface_pixels", counts.isosurface_pixels},
+            {"undecided_isosurface_pixels", counts.undecided_isosurface_pixels},
+            {"isosurface_crossings", counts.isosurface_crossings},
+            {"projected_pixels", counts.projected_pixels},
+            {"certified_segments", counts.certified_segments},
+            {"segments", counts.segments},
+            {"verified_segments", counts.verified_segments},
+            {"undecided_segments", counts.undecided_segments},
+            {"excluded_pieces", counts.excluded_pieces},
+            {"undecided_pieces", counts.undecided_pieces},
+            {"volume_pixels", counts.volume_pixels},
+            {"inexact_volume_pixels", counts.inexact_volume_pixels},
+            {"volume_segments", counts.volume_segments},
+            {"empty_segments", counts.empty_segments},
+            {"volume_steps", counts.volume_steps},
+            {"volume_breakpoints", counts.volume_breakpoints}};
+}
+
+nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,
+                                  double load, double total, const std::vector<double>& repeated) {
+    nlohmann::ordered_json root;
+    root["device"] = device.summary().name;
+    root["driver"] = device.summary().driver;
+    root["precision"] = is_double ? "float64" : "float32";
+    const RendererTimes& times = renderer.times();
+    root["milliseconds"] = {{"load", load},
+                            {"upload", times.upload_milliseconds},
+                            {"hierarchy", times.hierarchy_milliseconds},
+                            {"compile", times.compile_milliseconds},
+                            {"render", frame.render_milliseconds},
+                            {"device", frame.device_milliseconds},
+                            {"total", total}};
+    root["counts"] = counts_json(frame.counts);
+    const RendererMemory memory = renderer.memory();
+    root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
+    if (!repeated.empty()) {
+        root["frame_milliseconds"] = repeated;
+    }
+    return root;
+}
+
+void warn_about(const FrameCounts& counts) {
+    if (counts.hit_pixels == 0 && counts.volume_pixels == 0) {
+        spdlog::warn("nothing is hit: the picture shows background only");
+    }
+    if (counts.newton_failures > 0) {
+        spdlog::warn("{} inversions of the mapping failed; their pixels carry flag 8, of isosurfaces flag 64 if that leaves them open", counts.newton_failures);
+    }
+    if (counts.nan_pixels > 0) {
+        spdlog::warn("{} pixels show values that are not finite", counts.nan_pixels);
+    }
+    if (counts.work_limit_pixels > 0) {
+        spdlog::warn("{} pixels reached the work limit and may be wrong; they carry flag 1024", counts.work_limit_pixels);
+    }
+    if (counts.inexact_volume_pixels > 0) {
+        spdlog::info("in {} pixels volume rendering did not reach its tolerance; they carry flag 128",
+                     counts.inexact_volume_pixels);
+    }
+    if (counts.undecided_pixels > 0) {
+        spdlog::info("{} pixels are undecided within rounding", counts.undecided_pixels);
+    }
+    if (counts.undecided_isosurface_pixels > 0) {
+        spdlog::info("for {} pixels it is undecided whether they meet an isosurface, or one before that shown; they carry flag 64",
+                     counts.undecided_isosurface_pixels);
+    }
+    if (counts.undecided_contour_pixels > 0) {
+        spdlog::info("for {} pixels it is undecided whether they meet a contour; they carry flag 2",
+                     counts.undecided_contour_pixels);
+    }
+    if (counts.undecided_mesh_line_pixels > 0) {
+        spdlog::info("for {} pixels it is undecided whether they meet a mesh line; they carry flag 512",
+                     counts.undecided_mesh_line_pixels);
+    }
+}
+
+} // namespace elvis::commands

@@ -1,0 +1,25 @@
+/**
+ * @file render_stats.hpp
+ * What `elvis render` says of the pictures that it has drawn.
+ */
+#pragma once
+
+#include <core/render/renderer.hpp>
+#include <core/vulkan/device.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <vector>
+
+namespace elvis::commands {
+
+nlohmann::ordered_json counts_json(const FrameCounts& counts);
+
+/** Of --stats; times of loading and of the whole in milliseconds, and those of repeated frames. */
+nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,
+                                  double load, double total, const std::vector<double>& repeated);
+
+/** Says what is not as it should be. */
+void warn_about(const FrameCounts& counts);
+
+} // namespace elvis::commands

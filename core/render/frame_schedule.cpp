@@ -1,0 +1,110 @@
+#include <core/render/frame_schedule.hpp>
+
+#include <algorithm>
+
+namespace elvis {
+
+namespace {
+
+/** Of volume rendering, before it is exact: what a picture of 8 bits just shows. */
+constexpr double coarse_tolerance = 1e-2;
+/** Halvings of pixels where lines are looked for, before they are exact. */
+constexpr std::uint32_t coarse_subdivisions = 2;
+/** Of the budget that a picture of a larger size may be expected to take: less, so that the size does not go up and down. */
+constexpr double most_of_budget = 0.7;
+
+bool has_tolerance(Integrator integrator) { return !has_steps(integrator); }
+
+bool is_coarser(const VolumeRendering& volume) { return has_tolerance(volume.integrator) && volume.tolerance < coarse_tolerance; }
+
+bool is_coarser(const Surface& surface) { return surface.has_lines() && surface.subdivisions > coarse_subdivisions; }
+
+} // namespace
+
+bool has_refinement(const FrameRequest& request) {
+    return (request.volume && is_coarser(*request.volume)) ||
+           std::any_of(request.surfaces.begin(), request.surfaces.end(), [](const Surface& surface) { return is_coarser(surface); });
+}
+
+FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor) {
+    FrameRequest result = request;
+    if (stage == FrameStage::exact) {
+        return result;
+    }
+    result.width = std::max(1u, (request.width + divisor - 1) / divisor);
+    result.height = std::max(1u, (request.height + divisor - 1) / divisor);
+    for (double& shift : result.camera.image_shift) {
+        shift /= divisor;
+    }
+    if (result.volume && is_coarser(*result.volume)) {
+        result.volume->tolerance = coarse_tolerance;
+    }
+    for (Surface& surface : result.surfaces) {
+        if (is_coarser(surface)) {
+            surface.subdivisions = coarse_subdivisions;
+        }
+    }
+    return result;
+}
+
+void FrameSchedule::touch(Time now) {
+    ++m_version;
+    m_is_moving = true;
+    m_touched = now;
+}
+
+std::optional<FrameSchedule::Step> FrameSchedule::next(Time now, const FrameRequest& request) const {
+    const FrameStage at_full_size = has_refinement(request) ? FrameStage::full : FrameStage::exact;
+    const FrameStage on_screen = shown();
+    if (moves(now)) {
+        if (on_screen != FrameStage::none) {
+            return {};
+        }
+        return m_divisor == 1 ? Step{at_full_size, 1, m_version} : Step{FrameStage::moving, m_divisor, m_version};
+    }
+    switch (on_screen) {
+    case FrameStage::exact:
+        return {};
+    case FrameStage::full:
+        return Step{FrameStage::exact, 1, m_version};
+    default:
+        return Step{at_full_size, 1, m_version};
+    }
+}
+
+bool FrameSchedule::is_outdated(const Step& step, Time now) const {
+    if (step.version == m_version) {
+        return false;
+    }
+    // Small pictures are finished: cancelled ones would show nothing at all of a movement.
+    return step.stage != FrameStage::moving || !moves(now);
+}
+
+void FrameSchedule::drawn(const Step& step, const FrameRequest& request, double milliseconds) {
+    m_shown = step.stage;
+    m_shown_version = step.version;
+    // What is exact takes longer than what would be drawn while things move, if it is anything else.
+    if (step.stage != FrameStage::exact || !has_refinement(request)) {
+        choose_divisor(step.divisor, milliseconds);
+    }
+}
+
+/** Time goes with the number of pixels, but for a part that does not: going on from the size at hand finds that, too. */
+void FrameSchedule::choose_divisor(std::uint32_t drawn, double milliseconds) {
+    const auto expected = [&](std::uint32_t divisor) {
+        const double ratio = static_cast<double>(drawn) / divisor;
+        return milliseconds * ratio * ratio;
+    };
+    const auto fits = [&](std::uint32_t divisor) {
+        return expected(divisor) <= (divisor < m_divisor ? most_of_budget : 1.0) * m_budget;
+    };
+    const auto found = std::find_if(divisors.begin(), divisors.end(), fits);
+    std::uint32_t wanted = found == divisors.end() ? divisors.back() : *found;
+    if (wanted < m_divisor && drawn != m_divisor) {
+        // A picture of another size tells less than one of this.
+        wanted = m_divisor;
+    }
+    m_divisor = wanted;
+}
+
+} // namespace elvis

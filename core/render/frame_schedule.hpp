@@ -1,0 +1,90 @@
+/**
+ * @file frame_schedule.hpp
+ * Which picture to draw next while somebody looks: a small one while things move, then all of it.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace elvis {
+
+/** What is on the screen. */
+enum class FrameStage {
+    /** Nothing that was asked for. */
+    none,
+    /** Fewer pixels, and as coarse as `full`: while things move. */
+    moving,
+    /** Every pixel, but volume rendering to a hundredth of a channel, and lines that are looked for in few parts of a pixel. */
+    full,
+    /** The request itself: to the byte what `elvis render` draws of it. */
+    exact
+};
+
+/** The request as a stage draws it, `divisor` pixels across and down in one. */
+FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor);
+
+/** Whether `full` leaves anything to `exact`: surfaces without lines are pixel-exact as soon as every pixel is drawn. */
+bool has_refinement(const FrameRequest& request);
+
+/**
+ * Decides from measured times. Calls come from one thread, with the time they happen; nothing is drawn here:
+ *
+ *     touch() whenever the camera or anything else changes; release() when the hand lets go, if that is known
+ *     step = next(); if there is one: draw request_for(request, step.stage, step.divisor); then drawn()
+ *     while it is drawn: if is_outdated(step), cancel it and take the next one
+ *
+ * Without release() things have come to rest when nothing changes for `rest`.
+ */
+class FrameSchedule {
+public:
+    using Clock = std::chrono::steady_clock;
+    using Time = Clock::time_point;
+    struct Step {
+        FrameStage stage = FrameStage::none;
+        std::uint32_t divisor = 1;
+        /** Of what is asked for. */
+        std::uint64_t version = 0;
+    };
+
+    static constexpr std::chrono::milliseconds rest{200};
+    /** Divisors of moving pictures: few, as another size takes other buffers. */
+    static constexpr std::array<std::uint32_t, 9> divisors = {1, 2, 3, 4, 6, 8, 12, 16, 24};
+
+    explicit FrameSchedule(double wanted_frames_a_second = 10) : m_budget(1000 / wanted_frames_a_second) {}
+
+    /** Something else is to be shown from now on, and more of that may follow. */
+    void touch(Time now);
+    /** Something else is to be shown, and this is all for now: a value typed in, a file opened. */
+    void change() { ++m_version, m_is_moving = false; }
+    void release() { m_is_moving = false; }
+
+    /** What to draw now; nothing if the screen shows it, or until something happens. `request` is what is asked for. */
+    std::optional<Step> next(Time now, const FrameRequest& request) const;
+    /** Whether the step is no longer worth its time: another one is wanted, which a pixel-exact picture must not delay. */
+    bool is_outdated(const Step& step, Time now) const;
+    /** It is on the screen; `milliseconds` without compilation and upload, as Frame::render_milliseconds. */
+    void drawn(const Step& step, const FrameRequest& request, double milliseconds);
+
+    /** Of the last picture that was drawn. FrameStage::none once something else is asked for and nothing of it was drawn. */
+    FrameStage shown() const { return m_shown_version == m_version ? m_shown : FrameStage::none; }
+    /** Into how many pixels across one of the moving pictures goes. */
+    std::uint32_t moving_divisor() const { return m_divisor; }
+
+private:
+    bool moves(Time now) const { return m_is_moving && now - m_touched < rest; }
+    void choose_divisor(std::uint32_t drawn, double milliseconds);
+
+    double m_budget;
+    std::uint64_t m_version = 1, m_shown_version = 0;
+    FrameStage m_shown = FrameStage::none;
+    bool m_is_moving = false;
+    Time m_touched{};
+    std::uint32_t m_divisor = 4;
+};
+
+} // namespace elvis

@@ -1,0 +1,156 @@
+// Which picture comes next, with a clock and a device that are made up.
+#include <core/render/frame_schedule.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace elvis;
+
+namespace {
+
+using Stage = FrameStage;
+
+FrameRequest request_of(bool has_lines) {
+    FrameRequest request;
+    request.width = 1280;
+    request.height = 720;
+    Surface surface;
+    surface.geometry = BoundaryFaces{};
+    if (has_lines) {
+        surface.mesh_lines = MeshLines{};
+    }
+    request.surfaces = {surface};
+    return request;
+}
+
+/** Takes `fixed` milliseconds and so many for all pixels of a picture of full size. */
+struct MadeUp {
+    double fixed = 2, all = 1000;
+    FrameSchedule::Time now{};
+    FrameSchedule schedule{10};
+
+    void wait(double milliseconds) {
+        now += std::chrono::duration_cast<FrameSchedule::Clock::duration>(std::chrono::duration<double, std::milli>(milliseconds));
+    }
+    /** Draws what is wanted; returns how long that took, nothing if nothing is wanted. */
+    std::optional<double> draw(const FrameRequest& request) {
+        const auto step = schedule.next(now, request);
+        if (!step) {
+            return {};
+        }
+        const FrameRequest drawn = request_for(request, step->stage, step->divisor);
+        const double share = double(drawn.width) * drawn.height / (double(request.width) * request.height);
+        const double milliseconds = fixed + share * all * (step->stage == Stage::exact && has_refinement(request) ? 3 : 1);
+        wait(milliseconds);
+        schedule.drawn(*step, request, milliseconds);
+        return milliseconds;
+    }
+};
+
+} // namespace
+
+TEST_CASE("while things move ten frames a second are drawn, as large as that allows") {
+    for (const double all : {5.0, 60.0, 300.0, 1000.0, 20000.0}) {
+        MadeUp made;
+        made.all = all;
+        const FrameRequest request = request_of(true);
+        double last = 0;
+        for (int frame = 0; frame < 12; ++frame) {
+            made.schedule.touch(made.now);
+            last = made.draw(request).value();
+        }
+        CAPTURE(all, made.schedule.moving_divisor(), last);
+        CHECK(last <= 100);
+        // One size more would be too slow, or near to it.
+        CHECK((made.schedule.moving_divisor() == 1 || last > 15));
+        CHECK(made.schedule.shown() == (made.schedule.moving_divisor() == 1 ? Stage::full : Stage::moving));
+        // And it stays at that size.
+        const std::uint32_t divisor = made.schedule.moving_divisor();
+        for (int frame = 0; frame < 20; ++frame) {
+            made.schedule.touch(made.now);
+            made.draw(request);
+            CHECK(made.schedule.moving_divisor() == divisor);
+        }
+    }
+}
+
+TEST_CASE("when the hand rests all pixels come, then exact ones, then nothing") {
+    MadeUp made;
+    const FrameRequest request = request_of(true);
+    made.schedule.touch(made.now);
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::moving);
+    // The hand is still there, and has not moved.
+    CHECK_FALSE(made.draw(request));
+    made.wait(250);
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::full);
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::exact);
+    CHECK_FALSE(made.draw(request));
+    // Let go: no need to wait.
+    made.schedule.touch(made.now);
+    CHECK(made.schedule.shown() == Stage::none);
+    made.draw(request);
+    made.schedule.release();
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::full);
+    // Something typed in.
+    made.schedule.change();
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::full);
+}
+
+TEST_CASE("surfaces without lines are exact when all pixels are drawn") {
+    MadeUp made;
+    const FrameRequest request = request_of(false);
+    CHECK_FALSE(has_refinement(request));
+    made.schedule.touch(made.now);
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::moving);
+    made.schedule.release();
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::exact);
+    CHECK_FALSE(made.draw(request));
+}
+
+TEST_CASE("a large picture is outdated by the next movement, a small one is not") {
+    MadeUp made;
+    const FrameRequest request = request_of(true);
+    const auto full = made.schedule.next(made.now, request);
+    REQUIRE(full);
+    CHECK(full->stage == Stage::full);
+    CHECK_FALSE(made.schedule.is_outdated(*full, made.now));
+    made.schedule.touch(made.now);
+    CHECK(made.schedule.is_outdated(*full, made.now));
+    const auto moving = made.schedule.next(made.now, request);
+    REQUIRE(moving);
+    CHECK(moving->stage == Stage::moving);
+    made.schedule.touch(made.now);
+    CHECK_FALSE(made.schedule.is_outdated(*moving, made.now));
+    made.schedule.release();
+    CHECK(made.schedule.is_outdated(*moving, made.now));
+}
+
+TEST_CASE("stages ask for less than the request, and the exact one for the request itself") {
+    FrameRequest request = request_of(true);
+    request.camera.image_shift = {6, -3};
+    request.volume.emplace();
+    const FrameRequest moving = request_for(request, Stage::moving, 3);
+    CHECK(moving.width == 427);
+    CHECK(moving.height == 240);
+    CHECK(moving.camera.image_shift == std::array<double, 2>{2, -1});
+    CHECK(moving.surfaces[0].subdivisions < request.surfaces[0].subdivisions);
+    CHECK(moving.volume->tolerance > request.volume->tolerance);
+    const FrameRequest full = request_for(request, Stage::full, 1);
+    CHECK(full.width == request.width);
+    CHECK(full.volume->tolerance == moving.volume->tolerance);
+    const FrameRequest exact = request_for(request, Stage::exact, 1);
+    CHECK(exact.volume->tolerance == request.volume->tolerance);
+    CHECK(exact.surfaces[0].subdivisions == request.surfaces[0].subdivisions);
+    // Coarser wishes stay as they are.
+    request.volume->tolerance = 0.1;
+    request.surfaces[0].subdivisions = 1;
+    CHECK_FALSE(has_refinement(request));
+    CHECK(request_for(request, Stage::full, 1).volume->tolerance == 0.1);
+    CHECK(request_for(request, Stage::full, 1).surfaces[0].subdivisions == 1);
+}
