@@ -57,14 +57,39 @@ std::vector<std::string> arguments_of(const Check& check, const Subject& subject
     return arguments;
 }
 
+/**
+ * This process's variables, with a temporary folder that the parent removes, and without the allocator's caches of free memory:
+ * they would hide what leaks.
+ */
+std::vector<std::string> environment_of(const std::string& temporary_folder) {
+    std::vector<std::string> variables{"TMPDIR=" + temporary_folder, "GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.mxfast=0"};
+    for (char** variable = environ; *variable; ++variable) {
+        const std::string text = *variable;
+        if (text.rfind("TMPDIR=", 0) != 0 && text.rfind("GLIBC_TUNABLES=", 0) != 0) {
+            variables.push_back(text);
+        }
+    }
+    return variables;
+}
+
+/** As exec wants it; the strings must live on. */
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    for (std::string& text : texts) {
+        pointers.push_back(text.data());
+    }
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
 /** After fork: only what is safe there. `output`: where stdout and stderr go. */
-[[noreturn]] void become(std::vector<char*>& arguments, int output) {
+[[noreturn]] void become(const std::vector<char*>& arguments, const std::vector<char*>& environment, int output) {
     ::setpgid(0, 0); // of its own, so that what the plugin starts ends with it
     const rlimit none{0, 0};
     ::setrlimit(RLIMIT_CORE, &none);
     ::dup2(output, STDOUT_FILENO);
     ::dup2(output, STDERR_FILENO);
-    ::execv("/proc/self/exe", arguments.data());
+    ::execve("/proc/self/exe", arguments.data(), environment.data());
     ::_exit(127);
 }
 
@@ -164,19 +189,13 @@ CheckResult run_in_process(const Check& check, const Subject& subject, double ti
     }
     ::fcntl(ends[0], F_SETFD, FD_CLOEXEC);
     std::vector<std::string> arguments = arguments_of(check, subject, ends[1]);
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) {
-        pointers.push_back(argument.data());
-    }
-    pointers.push_back(nullptr);
-    const char* old_folder = std::getenv("TMPDIR");
-    const std::string old = old_folder ? old_folder : "";
-    ::setenv("TMPDIR", scratch.path("").c_str(), 1);
+    std::vector<std::string> environment = environment_of(scratch.path(""));
+    const std::vector<char*> argument_pointers = pointers_to(arguments);
+    const std::vector<char*> environment_pointers = pointers_to(environment);
     const pid_t process = ::fork();
     if (process == 0) {
-        become(pointers, output);
+        become(argument_pointers, environment_pointers, output);
     }
-    old_folder ? ::setenv("TMPDIR", old.c_str(), 1) : ::unsetenv("TMPDIR");
     ::close(ends[1]);
     bool is_done = false;
     const auto deadline = begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_seconds));
