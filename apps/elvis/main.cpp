@@ -45,10 +45,13 @@ int run(int argc, char** argv) {
     });
 
     elvis::commands::add_bench(app);
+    elvis::commands::add_check_plugin(app);
+    elvis::commands::add_compile_snippet(app);
     elvis::commands::add_convert(app);
     elvis::commands::add_devices(app);
     elvis::commands::add_export(app);
     elvis::commands::add_info(app);
+    elvis::commands::add_new_plugin(app);
     elvis::commands::add_plugins(app);
     elvis::commands::add_probe(app);
     elvis::commands::add_render(app);

@@ -91,7 +91,7 @@ void HostServices::check(elvis_result result, const char* function, const std::s
 }
 
 void HostServices::refuse(const char* function, const std::string& place, const std::string& what) const {
-    throw Error(place, "plugin " + m_plugin_id + " is at fault: " + function + " returned " + what);
+    throw PluginFault(place, "plugin " + m_plugin_id + " is at fault: " + function + " returned " + what);
 }
 
 } // namespace elvis

@@ -5,11 +5,18 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/base/error.hpp>
 #include <elvis/host.h>
 
 #include <string>
 
 namespace elvis {
+
+/** Something that a plugin returned and that cannot be: its mistake, not the file's or the user's. */
+class PluginFault : public Error {
+public:
+    using Error::Error;
+};
 
 /**
  * One table for one opened volume (or one probe). The plugin keeps the address of `table()`: the object must not move and must
@@ -33,7 +40,7 @@ public:
      */
     void check(elvis_result result, const char* function, const std::string& place) const;
 
-    /** Throws an Error about something the plugin returned that cannot be. */
+    /** Throws a PluginFault about something the plugin returned that cannot be. */
     [[noreturn]] void refuse(const char* function, const std::string& place, const std::string& what) const;
 
 private:

@@ -3,6 +3,7 @@
 #include <core/base/cache.hpp>
 #include <core/base/error.hpp>
 #include <core/shader/includes.hpp>
+#include <core/shader/snippet_check.hpp>
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -67,7 +68,7 @@ std::vector<std::uint32_t> run_compiler(const std::string& text, const std::stri
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
     if (!shader.parse(GetDefaultResources(), 460, false, messages)) {
-        throw Error("kernel '" + name + "'", "it does not compile\n" + readable_log(shader.getInfoLog()));
+        throw Error("kernel '" + name + "'", "it does not compile\n" + explain_errors(readable_log(shader.getInfoLog())));
     }
     glslang::TProgram program;
     program.addShader(&shader);

@@ -5,6 +5,7 @@
 #include <core/shader/fetch.hpp>
 #include <core/shader/glsl_scan.hpp>
 #include <core/shader/includes.hpp>
+#include <core/shader/poison.hpp>
 #include <core/shader/snippet_check.hpp>
 
 #include <algorithm>
@@ -138,6 +139,9 @@ public:
         check_snippet(snippet);
         m_snippet_text = expand_includes(snippet.sources.front().text, snippet.sources.front().name, resolver(snippet));
         m_snippet_names = scan_glsl(m_snippet_text);
+        if (request.poisons_outputs) {
+            m_snippet_text = poison_outputs(m_snippet_text, m_snippet_names);
+        }
         std::string defaults = "#include \"library/reference_shape.glsl\"\n";
         constexpr std::uint32_t second_derivatives = ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN;
         const std::uint32_t unwanted = request.with_second_derivatives ? 0 : second_derivatives;
@@ -305,7 +309,8 @@ std::string instances_text(const KernelRequest& request, const Records& records)
     return text;
 }
 
-std::string compose(const Device& device, const KernelRequest& request, const Records& records) {
+std::string compose(const Device* device, const KernelRequest& request, const Records& records) {
+    assert(device || records.all().empty());
     std::string text = header(request);
     for (const std::string_view file : common_files) {
         text += expand_includes(shader_source(file), std::string(file), shader_source);
@@ -318,11 +323,14 @@ std::string compose(const Device& device, const KernelRequest& request, const Re
     }
     auto binding = static_cast<std::uint32_t>(request.bindings.size());
     for (std::uint32_t number = 0; number < records.all().size(); ++number) {
-        text += fetch_functions(device, *records.all()[number], number, binding);
+        text += fetch_functions(*device, *records.all()[number], number, binding);
         binding += records.all()[number]->n_parts();
     }
     for (const FetchBuffer& buffer : request.buffers) {
         text += fetch_macros(buffer.name, *buffer.records, records.number(buffer.records));
+    }
+    if (request.poisons_outputs) {
+        text += poison_declarations;
     }
     text += instances_text(request, records);
     text += expand_includes(request.text, "(" + request.name + ")", shader_source);
@@ -352,7 +360,7 @@ Kernel make_kernel(const Device& device, const KernelRequest& request) {
         layout.push_back(
             {bound.binding, device.uses_texel_buffers() ? BindingType::texel_buffer : BindingType::storage_buffer});
     }
-    const auto spirv = compile_shader(compose(device, request, records), request.name);
+    const auto spirv = compile_shader(compose(&device, request, records), request.name);
     return Kernel(device, spirv, std::move(layout), request.push_constant_bytes, request.name);
 }
 
@@ -373,7 +381,9 @@ void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span
 }
 
 std::string compose_text(const Device& device, const KernelRequest& request) {
-    return compose(device, request, Records(request));
+    return compose(&device, request, Records(request));
 }
+
+std::string compose_text(const KernelRequest& request) { return compose(nullptr, request, Records(request)); }
 
 } // namespace elvis

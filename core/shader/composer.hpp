@@ -75,6 +75,8 @@ struct KernelRequest {
     std::string text;
     /** Whether elvis_field_hessian and elvis_mapping_hessian are called; without it they need not exist. */
     bool with_second_derivatives = false;
+    /** Outputs of the snippets' interface functions begin as 2^100 (core/shader/poison.hpp), to find those never written. */
+    bool poisons_outputs = false;
     Precision precision = Precision::float32;
     std::vector<SnippetInstance> instances;
     /** Record buffers of the host, visible to library and kernel. */
@@ -106,5 +108,8 @@ private:
 
 /** The complete GLSL text of a request, for messages and tests. */
 std::string compose_text(const Device& device, const KernelRequest& request);
+
+/** The same without a device, for a request without any record buffer. */
+std::string compose_text(const KernelRequest& request);
 
 } // namespace elvis

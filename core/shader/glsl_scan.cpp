@@ -131,7 +131,7 @@ private:
     }
 
     void define(const Token& token, GlslDefinition::Kind kind) {
-        m_names.definitions.push_back({std::string(token.text), kind, token.line});
+        m_names.definitions.push_back({std::string(token.text), kind, token.line, {}, {}});
     }
 
     /** One token outside directives. `m_depth` counts open braces, brackets and parentheses alike. */
@@ -146,10 +146,13 @@ private:
         } else if (token.text == "}" || token.text == ")" || token.text == "]") {
             --m_depth;
             if (m_depth == 0 && token.text == ")" && m_function_open) {
+                end_parameter();
                 m_function_open = false;
                 m_names.definitions[m_function].kind =
                     m_token.text == "{" ? GlslDefinition::Kind::function : GlslDefinition::Kind::prototype;
             }
+        } else if (m_depth == 1 && m_function_open) {
+            scan_parameter(token);
         } else if (m_depth == 0 && (token.text == ";" || token.text == ",")) {
             m_in_initializer = false;
         } else if (m_depth == 0 && token.text == "=") {
@@ -157,6 +160,7 @@ private:
         } else if (m_depth == 0 && token.is_identifier() && !m_in_initializer) {
             scan_outer_identifier(token);
         }
+        m_previous = token.text;
         m_after_struct = token.text == "struct";
         // A comma at depth 0 leads to the next name of a declaration, as its type does to the first.
         m_after_identifier = token.is_identifier() || token.text == "]" || token.text == ",";
@@ -171,14 +175,39 @@ private:
             m_function = m_names.definitions.size();
             m_function_open = true;
             define(token, GlslDefinition::Kind::prototype);
+            m_names.definitions.back().type = m_previous;
         } else if (m_after_identifier && (following == "=" || following == "[" || following == ";" || following == ",")) {
             define(token, GlslDefinition::Kind::constant);
         }
     }
 
+    /** A token within the parentheses of a function's parameters. */
+    void scan_parameter(const Token& token) {
+        if (token.text == ",") {
+            end_parameter();
+        } else if (token.text == "out" || token.text == "inout") {
+            m_parameter = std::string(token.text) + " " + m_parameter;
+        } else if (token.is_identifier() && token.text != "in" && token.text != "const" && token.text != "precise" &&
+                   token.text != "highp" && token.text != "void" && !m_parameter_has_type) {
+            m_parameter += token.text;
+            m_parameter_has_type = true;
+        }
+    }
+
+    void end_parameter() {
+        if (m_parameter_has_type) {
+            m_names.definitions[m_function].parameters.push_back(m_parameter);
+        }
+        m_parameter.clear();
+        m_parameter_has_type = false;
+    }
+
     Tokenizer m_tokenizer;
     Token m_token;
     GlslNames m_names;
+    std::string_view m_previous;
+    std::string m_parameter;
+    bool m_parameter_has_type = false;
     int m_depth = 0;
     std::vector<int> m_depths; ///< at each open #if
     bool m_in_initializer = false;

@@ -17,6 +17,9 @@ struct GlslDefinition {
     std::string name;
     Kind kind = Kind::function;
     int line = 0;
+    /** Of functions and prototypes: the result's type, and those of the parameters, with "out " or "inout " before them. */
+    std::string type;
+    std::vector<std::string> parameters;
 };
 
 struct GlslNames {

@@ -1,6 +1,7 @@
 #include <core/shader/snippet_check.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/nearest_word.hpp>
 #include <core/shader/glsl_scan.hpp>
 
 #include <algorithm>
@@ -20,7 +21,87 @@ const SnippetFunction* find_function(const std::string& name) {
     return found == functions.end() ? nullptr : &*found;
 }
 
+/** Types that mean what they say: others may be macros. */
+bool is_plain_type(std::string type) {
+    if (const std::size_t blank = type.find(' '); blank != std::string::npos) {
+        type.erase(0, blank + 1);
+    }
+    static const std::set<std::string> types{"elvis_real", "elvis_vec2", "elvis_vec3", "elvis_vec4", "elvis_mat3", "uint", "int",
+                                             "bool", "float", "double", "vec2", "vec3", "vec4", "mat3", "dvec3", "dmat3", "void"};
+    return types.count(type) != 0;
+}
+
+/** Whether a definition has another signature than the interface wants, as far as that can be told without a compiler. */
+bool differs(const GlslDefinition& definition, const SnippetFunction& function) {
+    const GlslNames wanted = scan_glsl(std::string(function.signature) + ";");
+    const GlslDefinition& expected = wanted.definitions.front();
+    if (definition.kind == GlslDefinition::Kind::macro || !is_plain_type(definition.type) ||
+        !std::all_of(definition.parameters.begin(), definition.parameters.end(), is_plain_type)) {
+        return false;
+    }
+    return definition.type != expected.type || definition.parameters != expected.parameters;
+}
+
+/** What snippets may name besides the functions that they define. */
+const std::vector<std::string>& interface_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all{"elvis_real", "elvis_vec2", "elvis_vec3", "elvis_vec4", "elvis_mat3", "elvis_sin",  "elvis_cos",
+                                     "elvis_exp",  "elvis_log",  "elvis_pow",  "elvis_atan", "elvis_acos", "elvis_asin", "elvis_origin"};
+        for (const SnippetFunction& function : snippet_functions()) {
+            all.emplace_back(function.name);
+        }
+        return all;
+    }();
+    return names;
+}
+
+/** The name in quotation marks that a message is about; empty if there is none. */
+std::string quoted_name(const std::string& message) {
+    const std::size_t begin = message.find('\'');
+    const std::size_t end = begin == std::string::npos ? begin : message.find('\'', begin + 1);
+    return end == std::string::npos ? std::string() : message.substr(begin + 1, end - begin - 1);
+}
+
+std::string hint(const std::string& message) {
+    const std::string name = quoted_name(message);
+    const bool is_unknown = message.find("undeclared identifier") != std::string::npos ||
+                            message.find("no matching overloaded function") != std::string::npos;
+    if (const SnippetFunction* function = find_function(name)) {
+        return std::string("; the interface has: ") + function->signature;
+    }
+    if (!is_unknown) {
+        return {};
+    }
+    if (begins_with(name, "elvis_fetch")) {
+        return "; no buffer of this class and field has that name (get_buffer)";
+    }
+    const auto& known = interface_names();
+    if (std::find(known.begin(), known.end(), name) != known.end()) {
+        return "; it takes other arguments (glsl_interface.md)";
+    }
+    if (begins_with(name, "elvis_")) {
+        return "; the interface has no such name, the nearest is " + nearest_word(name, known);
+    }
+    if (name == "sin" || name == "cos" || name == "exp" || name == "log" || name == "pow" || name == "atan" || name == "acos" ||
+        name == "asin") {
+        return "; GLSL has it in single precision only, take elvis_" + name;
+    }
+    return {};
+}
+
 } // namespace
+
+std::string explain_errors(const std::string& messages) {
+    std::string text;
+    std::size_t begin = 0;
+    while (begin <= messages.size()) {
+        const std::size_t end = std::min(messages.find('\n', begin), messages.size());
+        const std::string line = messages.substr(begin, end - begin);
+        text += (begin == 0 ? "" : "\n") + line + hint(line);
+        begin = end + 1;
+    }
+    return text;
+}
 
 const std::vector<SnippetFunction>& snippet_functions() {
     static const std::vector<SnippetFunction> functions{
@@ -77,6 +158,9 @@ void check_snippet(const Snippet& snippet) {
                 if (function->capability != 0 && (snippet.capabilities & function->capability) == 0) {
                     throw Error(place,
                                 "the snippet defines " + definition.name + " but does not announce it in its capabilities");
+                }
+                if (differs(definition, *function)) {
+                    throw Error(place, "this is not the signature that the interface has: " + std::string(function->signature));
                 }
                 if (definition.kind == GlslDefinition::Kind::function) {
                     functions.insert(definition.name);

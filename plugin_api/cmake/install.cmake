@@ -5,7 +5,8 @@ include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/ElVis")
 
 install(DIRECTORY include/elvis DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT plugin_api)
-install(FILES README.md glsl_interface.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT plugin_api)
+install(FILES README.md glsl_interface.md reference.md stability.md tutorial.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT plugin_api)
+install(DIRECTORY tutorial DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT plugin_api)
 install(TARGETS elvis_plugin_api EXPORT ElVisPluginApi COMPONENT plugin_api)
 install(EXPORT ElVisPluginApi NAMESPACE ElVis:: DESTINATION "${package_folder}" COMPONENT plugin_api)
 
@@ -14,7 +15,7 @@ install(TARGETS elvis_native EXPORT ElVisNative ARCHIVE DESTINATION "${CMAKE_INS
 install(EXPORT ElVisNative NAMESPACE ElVis:: DESTINATION "${package_folder}" COMPONENT native)
 
 configure_package_config_file(cmake/ElVisConfig.cmake.in "${CMAKE_CURRENT_BINARY_DIR}/ElVisConfig.cmake"
-                              INSTALL_DESTINATION "${package_folder}")
+                              INSTALL_DESTINATION "${package_folder}" PATH_VARS CMAKE_INSTALL_BINDIR)
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/ElVisConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/ElVisConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/ElVisConfigVersion.cmake"
               cmake/ElVisPlugin.cmake cmake/embed_text.cmake cmake/plugin.map

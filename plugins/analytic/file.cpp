@@ -110,6 +110,11 @@ File read_file(const std::string& path) {
         if (keyword == "field") {
             Field field;
             field.name = lines.read<std::string>("the field's name");
+            for (const Field& other : file.fields) {
+                if (other.name == field.name) {
+                    lines.fail("there is a field '" + field.name + "' already");
+                }
+            }
             const auto n_components = lines.read<std::int64_t>("the number of components");
             if (n_components < 1 || n_components > 16) {
                 lines.fail("a field has 1 to 16 components");

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 namespace elvis_dat {
@@ -21,7 +22,8 @@ class Bytes {
 public:
     explicit Bytes(const std::string& path) : m_path(path) {
         std::ifstream file(path, std::ios::binary | std::ios::ate);
-        if (!file) {
+        // A folder can be opened, and claims to be of enormous size.
+        if (!file || std::filesystem::is_directory(path)) {
             throw elvis::api::Error(ELVIS_ERROR_FILE, path, "cannot be opened");
         }
         m_data.resize(static_cast<std::size_t>(file.tellg()));

@@ -249,6 +249,8 @@ json parse(const std::string& path) {
         return json::parse(file);
     } catch (const json::exception& error) {
         throw elvis::api::Error(ELVIS_ERROR_FORMAT, path, std::string("is not valid JSON: ") + error.what());
+    } catch (const std::ios_base::failure&) {
+        throw elvis::api::Error(ELVIS_ERROR_FILE, path, "cannot be read; is it a folder?");
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 namespace elvis_mfem {
@@ -33,7 +34,8 @@ int significant_digits(std::string_view number) {
 Text::Text(const std::string& path) : m_path(path) {
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-    if (size < 0) {
+    // A folder can be opened, and claims to be of enormous size.
+    if (size < 0 || std::filesystem::is_directory(path)) {
         throw elvis::api::Error(ELVIS_ERROR_FILE, path, "the file cannot be opened");
     }
     m_content.resize(static_cast<std::size_t>(size));

@@ -1,0 +1,363 @@
+/**
+ * @file geometry_checks.cpp
+ * Checks that bounds and ranges hold what the plugin evaluates: by its functions for the CPU and, where it has none, on the device.
+ */
+#include <core/base/error.hpp>
+#include <core/conformance/check.hpp>
+#include <core/conformance/device_sampler.hpp>
+#include <core/conformance/differences.hpp>
+#include <core/conformance/reference_points.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace elvis::conformance {
+
+namespace {
+
+constexpr std::size_t n_elements_a_class = 24;
+constexpr std::size_t n_points = 80;
+
+RuntimeVolume open_volume(Context& context) {
+    context.need_runtime_volume();
+    context.progress("open");
+    return RuntimeVolume(context.plugin(), context.subject().files.front(), context.subject().options);
+}
+
+/** Position and field at points of one element, from the CPU functions or from the device in double precision. */
+class Evaluator {
+public:
+    Evaluator(Context& context, const RuntimeVolume& volume) : m_volume(volume) {
+        if (!volume.has_evaluation()) {
+            context.progress("setting up the device");
+            m_device = std::make_unique<DeviceSampler>(volume, context.subject().device, Precision::float64);
+            m_device->select(0, 0);
+        }
+    }
+
+    const char* name() const { return m_device ? "the snippet in double precision" : "the plugin's own evaluation"; }
+
+    std::vector<Point> positions(std::uint64_t element, const std::vector<Point>& xi) const {
+        std::vector<Point> found(xi.size());
+        if (!m_device) {
+            const std::vector<double> points = flat(xi);
+            std::vector<double> numbers(points.size());
+            m_volume.evaluate_mapping(element, points, numbers, {});
+            for (std::size_t i = 0; i < xi.size(); ++i) {
+                found[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+            }
+            return found;
+        }
+        const auto samples = m_device->sample(points_of(element, xi, 0));
+        const Point origin = m_device->origin(element);
+        for (std::size_t i = 0; i < xi.size(); ++i) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                found[i][axis] = samples[i].position[axis] + origin[axis];
+            }
+        }
+        return found;
+    }
+
+    /** Before values(). */
+    void select(std::uint32_t field) {
+        m_field = field;
+        if (m_device) {
+            m_device->select(field, 0);
+        }
+    }
+
+    /** Value and gradient of a component of the selected field. */
+    std::vector<std::pair<double, Point>> values(std::uint64_t element, const std::vector<Point>& xi, std::uint32_t component) const {
+        std::vector<std::pair<double, Point>> found(xi.size());
+        if (!m_device) {
+            const std::uint32_t n = m_volume.fields()[m_field].n_components;
+            const std::vector<double> points = flat(xi);
+            std::vector<double> values(n * xi.size());
+            std::vector<double> gradients(3 * n * xi.size());
+            m_volume.evaluate_field(m_field, 0, element, points, values, gradients);
+            for (std::size_t i = 0; i < xi.size(); ++i) {
+                const double* g = &gradients[3 * (n * i + component)];
+                found[i] = {values[n * i + component], {g[0], g[1], g[2]}};
+            }
+            return found;
+        }
+        const auto samples = m_device->sample(points_of(element, xi, component));
+        for (std::size_t i = 0; i < xi.size(); ++i) {
+            found[i] = {samples[i].value, samples[i].gradient};
+        }
+        return found;
+    }
+
+private:
+    static std::vector<SamplePoint> points_of(std::uint64_t element, const std::vector<Point>& xi, std::uint32_t component) {
+        std::vector<SamplePoint> points;
+        for (const Point& point : xi) {
+            points.push_back({element, point, component});
+        }
+        return points;
+    }
+
+    const RuntimeVolume& m_volume;
+    std::unique_ptr<DeviceSampler> m_device;
+    std::uint32_t m_field = 0;
+};
+
+std::string at_text(std::uint64_t element, const Point& xi) {
+    return "element " + std::to_string(element) + " at xi " + text_of(xi);
+}
+
+void check_bounds(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    const Evaluator evaluator(context, volume);
+    double tightest = 0;
+    int n_complaints = 0;
+    for (const std::uint64_t element : some_elements(volume, n_elements_a_class, context.subject().seed)) {
+        const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
+        std::array<double, 6> box{};
+        context.progress("element " + std::to_string(element));
+        volume.bounds(element, 1, box);
+        const std::vector<Point> xi = points_in(shape, n_points, context.subject().seed + element);
+        const std::vector<Point> positions = evaluator.positions(element, xi);
+        Point low;
+        Point high;
+        low.fill(std::numeric_limits<double>::infinity());
+        high.fill(-std::numeric_limits<double>::infinity());
+        for (std::size_t i = 0; i < xi.size(); ++i) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double x = positions[i][axis];
+                low[axis] = std::min(low[axis], x);
+                high[axis] = std::max(high[axis], x);
+                if (!(x >= box[axis] && x <= box[3 + axis]) && n_complaints < 5) {
+                    ++n_complaints;
+                    context.fail("get_bounds: " + at_text(element, xi[i]) + ": coordinate " + std::to_string(axis) + " is " + text_of(x) +
+                                 " by " + evaluator.name() + ", the bounds are [" + text_of(box[axis]) + ", " + text_of(box[3 + axis]) +
+                                 "]; elements vanish from pictures where bounds are too small");
+                }
+            }
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (high[axis] > low[axis]) {
+                tightest = std::max(tightest, (box[3 + axis] - box[axis]) / (high[axis] - low[axis]));
+            }
+        }
+    }
+    context.note("bounds are up to " + short_text(tightest) + " times as wide as what was seen");
+}
+
+void check_ranges(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    if (!volume.has_field_ranges()) {
+        throw Skipped("the plugin does not give get_field_ranges");
+    }
+    Evaluator evaluator(context, volume);
+    int n_complaints = 0;
+    for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
+        evaluator.select(field);
+        const std::uint32_t n_components = volume.fields()[field].n_components;
+        for (const std::uint64_t element : some_elements(volume, n_elements_a_class, context.subject().seed)) {
+            std::vector<FieldRange> ranges(n_components);
+            context.progress("element " + std::to_string(element));
+            volume.field_ranges(field, 0, element, 1, ranges);
+            const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
+            const std::vector<Point> xi = points_in(shape, n_points, context.subject().seed + element);
+            for (std::uint32_t component = 0; component < n_components; ++component) {
+                const auto values = evaluator.values(element, xi, component);
+                for (std::size_t i = 0; i < xi.size(); ++i) {
+                    const double value = values[i].first;
+                    if ((value < ranges[component].lower || value > ranges[component].upper) && n_complaints < 5) {
+                        ++n_complaints;
+                        context.fail("get_field_ranges: field " + volume.fields()[field].name + ", " + at_text(element, xi[i]) +
+                                     ": " + text_of(value) + " by " + evaluator.name() + ", the range is [" +
+                                     text_of(ranges[component].lower) + ", " + text_of(ranges[component].upper) + "]");
+                    }
+                }
+            }
+        }
+    }
+}
+
+void check_derivative_bounds(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    if (!volume.has_derivative_bounds()) {
+        throw Skipped("the plugin does not give get_field_derivative_bounds");
+    }
+    Evaluator evaluator(context, volume);
+    int n_complaints = 0;
+    for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
+        evaluator.select(field);
+        const std::uint32_t n_components = volume.fields()[field].n_components;
+        for (const std::uint64_t element : some_elements(volume, n_elements_a_class / 2, context.subject().seed)) {
+            std::vector<DerivativeBounds> bounds(n_components);
+            context.progress("element " + std::to_string(element));
+            volume.derivative_bounds(field, 0, element, 1, bounds);
+            const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
+            const std::vector<Point> xi = interior_points(shape, n_points / 4, context.subject().seed + element);
+            for (std::uint32_t component = 0; component < n_components; ++component) {
+                const auto centre = evaluator.values(element, xi, component);
+                std::vector<double> bend(xi.size(), 0.0);
+                for (std::size_t j = 0; j < volume.dimension(); ++j) {
+                    const auto derivative = differences(xi, j, [&](const std::vector<Point>& points) {
+                        std::vector<std::vector<double>> gradients;
+                        for (const auto& [value, gradient] : evaluator.values(element, points, component)) {
+                            gradients.push_back({gradient[0], gradient[1], gradient[2]});
+                        }
+                        return gradients;
+                    });
+                    for (std::size_t i = 0; i < xi.size(); ++i) {
+                        for (std::size_t l = 0; l < volume.dimension(); ++l) {
+                            bend[i] += std::abs(derivative[i][l]);
+                        }
+                    }
+                }
+                for (std::size_t i = 0; i < xi.size(); ++i) {
+                    double slope = 0;
+                    for (std::size_t l = 0; l < volume.dimension(); ++l) {
+                        slope += std::abs(centre[i].second[l]);
+                    }
+                    const std::string where =
+                        "get_field_derivative_bounds: field " + volume.fields()[field].name + ", " + at_text(element, xi[i]);
+                    if (slope > bounds[component].first * (1 + 1e-12) && n_complaints < 5) {
+                        ++n_complaints;
+                        context.fail(where + ": first derivatives sum to " + text_of(slope) + ", L is " + text_of(bounds[component].first));
+                    }
+                    // Differences of gradients are good to about 1e-8 of the gradients.
+                    if (bend[i] > bounds[component].second + 1e-7 * (slope + bounds[component].second) && n_complaints < 5) {
+                        ++n_complaints;
+                        context.fail(where + ": second derivatives sum to " + text_of(bend[i]) + ", H is " + text_of(bounds[component].second));
+                    }
+                }
+            }
+        }
+    }
+}
+
+double determinant(const double* j) {
+    return j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) + j[2] * (j[3] * j[7] - j[4] * j[6]);
+}
+
+void check_jacobian_signs(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    if (!volume.has_jacobian_checks() || volume.dimension() != 3) {
+        throw Skipped("the plugin does not give check_jacobians");
+    }
+    if (!volume.has_evaluation()) {
+        throw Skipped("needs evaluate_mapping");
+    }
+    int n_complaints = 0;
+    for (const std::uint64_t element : some_elements(volume, n_elements_a_class, context.subject().seed)) {
+        std::array<JacobianCheck, 1> answer{};
+        context.progress("element " + std::to_string(element));
+        volume.check_jacobians(element, 1e-6, answer);
+        const JacobianCheck& check = answer[0];
+        const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
+        std::vector<Point> xi = interior_points(shape, n_points, context.subject().seed + element);
+        xi.push_back(check.xi);
+        std::vector<double> jacobians(9 * xi.size());
+        volume.evaluate_mapping(element, flat(xi), {}, jacobians);
+        double largest = 0;
+        for (std::size_t i = 0; i + 1 < xi.size(); ++i) {
+            largest = std::max(largest, std::abs(determinant(&jacobians[9 * i])));
+        }
+        const double rounding = 1e-12 * largest;
+        for (std::size_t i = 0; i + 1 < xi.size() && n_complaints < 5; ++i) {
+            const double found = determinant(&jacobians[9 * i]);
+            if (check.sign == ELVIS_JACOBIAN_POSITIVE && !(found > 0 && found >= check.lower - rounding)) {
+                ++n_complaints;
+                context.fail("check_jacobians: " + at_text(element, xi[i]) + ": the determinant is " + text_of(found) +
+                             ", said to be positive and not below " + text_of(check.lower));
+                break;
+            }
+        }
+        if (check.sign == ELVIS_JACOBIAN_NEGATIVE && n_complaints < 5) {
+            const double found = determinant(&jacobians[9 * (xi.size() - 1)]);
+            if (!(found < 0) || std::abs(found - check.determinant) > 1e-9 * largest) {
+                ++n_complaints;
+                context.fail("check_jacobians: " + at_text(element, check.xi) + ": the determinant is " + text_of(found) + ", said to be " +
+                             text_of(check.determinant));
+            }
+        }
+    }
+}
+
+void check_cpu_derivatives(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    if (!volume.has_evaluation()) {
+        throw Skipped("the plugin does not evaluate on the CPU");
+    }
+    int n_complaints = 0;
+    double worst = 0;
+    const auto compare = [&](const std::string& what, const Point& xi, double given, double expected, double scale) {
+        const double error = std::abs(given - expected);
+        worst = std::max(worst, scale > 0 ? error / scale : 0.0);
+        if (!(error <= 1e-7 * scale) && n_complaints < 5) {
+            ++n_complaints;
+            context.fail(what + " at xi " + text_of(xi) + ": " + text_of(given) + " is given, differences say " + text_of(expected));
+        }
+    };
+    for (const std::uint64_t element : some_elements(volume, n_elements_a_class / 2, context.subject().seed)) {
+        const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
+        const std::vector<Point> xi = interior_points(shape, n_points / 4, context.subject().seed + element);
+        const std::string which = "of element " + std::to_string(element);
+        context.progress("derivatives " + which);
+        const std::vector<double> points = flat(xi);
+        std::vector<double> jacobians(9 * xi.size());
+        volume.evaluate_mapping(element, points, {}, jacobians);
+        double scale = 0;
+        for (const double entry : jacobians) {
+            scale = std::max(scale, std::abs(entry));
+        }
+        for (std::size_t j = 0; j < volume.dimension(); ++j) {
+            const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
+                std::vector<double> positions(3 * at.size());
+                volume.evaluate_mapping(element, flat(at), positions, {});
+                return rows(positions, 3);
+            });
+            for (std::size_t i = 0; i < xi.size(); ++i) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    compare("evaluate_mapping: dx_" + std::to_string(k) + "/dxi_" + std::to_string(j) + " " + which, xi[i],
+                            jacobians[9 * i + 3 * k + j], expected[i][k], scale);
+                }
+            }
+        }
+        for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
+            const std::uint32_t n = volume.fields()[field].n_components;
+            std::vector<double> values(n * xi.size());
+            std::vector<double> gradients(3 * n * xi.size());
+            volume.evaluate_field(field, 0, element, points, values, gradients);
+            double size = 0;
+            for (std::size_t i = 0; i < gradients.size(); ++i) {
+                size = std::max({size, std::abs(gradients[i]), 1e-3 * std::abs(values[i / 3])});
+            }
+            for (std::size_t j = 0; j < volume.dimension(); ++j) {
+                const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
+                    std::vector<double> there(n * at.size());
+                    volume.evaluate_field(field, 0, element, flat(at), there, {});
+                    return rows(there, n);
+                });
+                for (std::size_t i = 0; i < xi.size(); ++i) {
+                    for (std::uint32_t component = 0; component < n; ++component) {
+                        compare("evaluate_field: derivative by xi_" + std::to_string(j) + " of " + volume.fields()[field].name + " " + which,
+                                xi[i], gradients[3 * (n * i + component) + j], expected[i][component], size);
+                    }
+                }
+            }
+        }
+    }
+    context.note("largest difference " + short_text(worst) + " of the largest derivative");
+}
+
+} // namespace
+
+std::vector<Check> geometry_checks() {
+    return {
+        {"bounds", "every element lies inside its bounds", check_bounds},
+        {"field-ranges", "the field in every element lies within its range", check_ranges},
+        {"derivative-bounds", "first and second derivatives of the field are no larger than their bounds", check_derivative_bounds},
+        {"jacobian-signs", "signs and lower bounds of Jacobian determinants hold, and witnesses are negative", check_jacobian_signs},
+        {"cpu-derivatives", "Jacobians and gradients of the evaluation on the CPU are the derivatives of its positions and values",
+         check_cpu_derivatives},
+    };
+}
+
+} // namespace elvis::conformance

@@ -1,0 +1,85 @@
+// Everything that a snippet gives, at chosen reference points: what `elvis check-plugin` looks at. Needs a device with float64.
+
+layout(local_size_x = 8) in;
+
+struct core_point {
+    double x, y, z;
+    uint element;
+    uint component;
+};
+
+// Numbers a point; the order is that of core/conformance/device_sampler.hpp.
+#define CORE_N_NUMBERS 86u
+
+layout(set = 0, binding = 0, std430) readonly buffer core_points_block { core_point core_points[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer core_results_block { double core_results[]; };
+layout(push_constant) uniform core_parameters { uint core_n_points; };
+
+void core_write_vector(uint first, elvis_vec3 v) {
+    core_results[first] = double(v.x);
+    core_results[first + 1u] = double(v.y);
+    core_results[first + 2u] = double(v.z);
+}
+
+void core_write_matrix(uint first, elvis_mat3 m) {
+    core_write_vector(first, m[0]);
+    core_write_vector(first + 3u, m[1]);
+    core_write_vector(first + 6u, m[2]);
+}
+
+void main() {
+    const uint index = gl_GlobalInvocationID.x;
+    if (index >= core_n_points) {
+        return;
+    }
+    const uint element = core_points[index].element;
+    const uint component = core_points[index].component;
+    const elvis_vec3 xi = elvis_vec3(core_points[index].x, core_points[index].y, core_points[index].z);
+    const uint first = CORE_N_NUMBERS * index;
+
+    core_results[first] = double(elvis_field_value(element, xi, component));
+    elvis_real value;
+    elvis_vec3 gradient;
+    elvis_field_gradient(element, xi, component, value, gradient);
+    core_results[first + 1u] = double(value);
+    core_write_vector(first + 2u, gradient);
+
+    const elvis_vec3 position = elvis_mapping(element, xi);
+    core_write_vector(first + 5u, position);
+    core_write_matrix(first + 8u, elvis_jacobian(element, xi));
+    elvis_vec3 x;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, xi, x, jacobian);
+    core_write_vector(first + 17u, x);
+    core_write_matrix(first + 20u, jacobian);
+
+    elvis_vec3 inverse = elvis_vec3(0);
+    bool is_found = false;
+#if ELVIS_HAS_INVERSE_MAPPING
+    is_found = elvis_inverse_mapping(element, position, inverse);
+#endif
+    core_results[first + 29u] = is_found ? 1.0LF : 0.0LF;
+    core_write_vector(first + 30u, inverse);
+
+    elvis_mat3 hessian = elvis_mat3(0);
+    elvis_mat3 hessian_x = elvis_mat3(0);
+    elvis_mat3 hessian_y = elvis_mat3(0);
+    elvis_mat3 hessian_z = elvis_mat3(0);
+#if ELVIS_WANTS_HESSIANS
+    elvis_field_hessian(element, xi, component, value, gradient, hessian);
+    elvis_mapping_hessian(element, xi, x, jacobian, hessian_x, hessian_y, hessian_z);
+#endif
+    core_results[first + 33u] = double(value);
+    core_write_vector(first + 34u, gradient);
+    core_write_matrix(first + 37u, hessian);
+    core_write_vector(first + 46u, x);
+    core_write_matrix(first + 49u, jacobian);
+    core_write_matrix(first + 58u, hessian_x);
+    core_write_matrix(first + 67u, hessian_y);
+    core_write_matrix(first + 76u, hessian_z);
+#ifdef CORE_DEBUG_BUILD
+    core_results[first + 85u] = core_is_endless ? 1.0LF : 0.0LF;
+#else
+    core_results[first + 85u] = 0.0LF;
+#endif
+}

@@ -1,0 +1,173 @@
+// `elvis check-plugin` finds every defect planted in a plugin, and nothing in the plugin without one.
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Planted {
+    const char* check;
+    const char* defect;
+    const char* outcome = "failed";
+};
+
+/** At least one for every check. */
+constexpr Planted all_planted[] = {
+    {"descriptor", "crash-on-load", "crashed"},
+    {"descriptor", "fresh-descriptor"},
+    {"descriptor", "every-interface"},
+    {"descriptor", "nameless"},
+    {"tables", "table-size"},
+    {"probe-foreign", "probe-all"},
+    {"probe-foreign", "probe-slow"},
+    {"probe-foreign", "probe-crash", "crashed"},
+    {"probe-own", "probe-none"},
+    {"open-bad-files", "open-silent"},
+    {"open-bad-files", "open-wrong-code"},
+    {"open-bad-files", "open-anything"},
+    {"open-damaged", "damage-crash", "crashed"},
+    {"open-damaged", "damage-nonsense"},
+    {"open-options", "options-crash", "crashed"},
+    {"open-repeated", "leak"},
+    {"open-repeated", "leak-file"},
+    {"open-repeated", "changing"},
+    {"open-parallel", "open-race"},
+    {"open-cancel", "cancel-ignored"},
+    {"open-cancel", "cancel-code"},
+    {"open-cancel", "cancel-uncalled"},
+    {"struct-sizes", "overwrite-size"},
+    {"struct-sizes", "stride"},
+    {"source-struct-sizes", "source-stride"},
+    {"volume-description", "nonsense-count"},
+    {"volume-description", "crash", "crashed"},
+    {"volume-description", "hang", "timed-out"},
+    {"volume-description", "twice-constant"},
+    {"volume-description", "time-backwards"},
+    {"volume-description", "same-number"},
+    {"volume-buffers", "buffer-name"},
+    {"volume-buffers", "buffer-overrun"},
+    {"volume-buffers", "buffer-changes"},
+    {"volume-buffers", "buffer-time"},
+    {"volume-pieces", "piece-first"},
+    {"volume-threads", "threads"},
+    {"volume-faces", "face-twice"},
+    {"volume-faces", "face-neighbour"},
+    {"volume-faces", "face-missing"},
+    {"bounds", "small-bounds"},
+    {"field-ranges", "small-range"},
+    {"derivative-bounds", "small-slope"},
+    {"derivative-bounds", "small-bend"},
+    {"jacobian-signs", "jacobian-negative"},
+    {"jacobian-signs", "jacobian-lower"},
+    {"cpu-derivatives", "cpu-jacobian"},
+    {"cpu-derivatives", "cpu-gradient"},
+    {"snippet-compiles", "glsl-syntax"},
+    {"snippet-compiles", "glsl-name"},
+    {"snippet-compiles", "glsl-float-only"},
+    {"snippet-values", "glsl-single"},
+    {"snippet-values", "glsl-shift"},
+    {"snippet-jacobian", "glsl-transposed"},
+    {"snippet-jacobian", "glsl-pair"},
+    {"snippet-gradient", "glsl-gradient"},
+    {"snippet-hessians", "glsl-hessian"},
+    {"snippet-hessians", "glsl-mapping-hessian"},
+    {"snippet-inverse", "glsl-inverse"},
+    {"snippet-inverse", "glsl-inverse-false"},
+    {"snippet-inside", "glsl-newton"},
+    {"snippet-precision", "glsl-cancellation"},
+    {"snippet-outside", "glsl-nan-outside"},
+    {"snippet-outside", "glsl-jump-outside"},
+    {"snippet-hostile", "glsl-endless"},
+    {"snippet-outputs", "glsl-unset"},
+    {"snippet-offset", "glsl-no-offset"},
+    {"source-description", "source-bits"},
+    {"source-pieces", "source-piece"},
+    {"source-threads", "source-threads"},
+    {"source-corners", "source-corner"},
+    {"source-sampling", "source-unwritten"},
+    {"source-sampling", "source-batch"},
+    {"source-exactness", "source-claims"},
+    {"source-exactness", "source-geometry"},
+    {"source-conversion", "source-changing"},
+};
+
+class Workplace {
+public:
+    Workplace() : m_folder(fs::temp_directory_path() / ("elvis-defects-" + std::to_string(::getpid()))) {
+        fs::create_directories(m_folder);
+        std::ofstream(m_folder / "volume.defective") << "defective 1\n0.75\n";
+    }
+    ~Workplace() {
+        std::error_code ignored;
+        fs::remove_all(m_folder, ignored);
+    }
+
+    /** The JSON answer of a run with a defect; exit status in `status`. */
+    nlohmann::json check(const std::string& defect, const std::string& arguments, int& status) const {
+        const std::string command = "cd '" + m_folder.string() + "' && ELVIS_DEFECT='" + defect + "' '" ELVIS_PROGRAM "' check-plugin '" DEFECTIVE_PLUGIN
+                                    "' --volume volume.defective --json " + arguments + " >out.json 2>err.txt";
+        const int result = std::system(command.c_str());
+        status = WIFEXITED(result) ? WEXITSTATUS(result) : -1;
+        std::stringstream text;
+        text << std::ifstream(m_folder / "out.json").rdbuf();
+        return nlohmann::json::parse(text.str());
+    }
+
+private:
+    fs::path m_folder;
+};
+
+} // namespace
+
+TEST_CASE("A plugin without a defect passes every check") {
+    const Workplace place;
+    int status = -1;
+    const auto answer = place.check("", "", status);
+    INFO(answer.dump(2));
+    CHECK(status == 0);
+    CHECK(answer["failed"] == 0);
+    CHECK(answer["skipped"] == 0); // It has everything optional, so that nothing is left out.
+}
+
+TEST_CASE("Every planted defect is caught by the check that is made for it") {
+    const Workplace place;
+    std::size_t n_caught = 0;
+    for (const Planted& planted : all_planted) {
+        int status = -1;
+        const std::string timeout = std::string(planted.outcome) == "timed-out" ? " --timeout 3" : "";
+        const auto answer = place.check(planted.defect, std::string("--check ") + planted.check + timeout, status);
+        INFO(planted.check << " with defect " << planted.defect << ": " << answer.dump(2));
+        const bool is_caught = status == 1 && answer["checks"][0]["outcome"] == planted.outcome && !answer["checks"][0]["findings"].empty();
+        n_caught += is_caught ? 1 : 0;
+        CHECK(is_caught);
+    }
+    std::printf("defects caught: %zu of %zu planted\n", n_caught, std::size(all_planted));
+}
+
+TEST_CASE("Every check has a planted defect") {
+    const Workplace place;
+    const std::string list = (fs::temp_directory_path() / ("elvis-checks-" + std::to_string(::getpid()))).string();
+    REQUIRE(std::system(("'" ELVIS_PROGRAM "' check-plugin --list --json >'" + list + "'").c_str()) == 0);
+    std::stringstream text;
+    text << std::ifstream(list).rdbuf();
+    fs::remove(list);
+    for (const auto& check : nlohmann::json::parse(text.str())) {
+        const std::string name = check["name"];
+        INFO(name);
+        CHECK(std::any_of(std::begin(all_planted), std::end(all_planted), [&](const Planted& planted) { return name == planted.check; }));
+    }
+}
