@@ -17,5 +17,6 @@ void add_info(CLI::App& app);
 void add_plugins(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_render(CLI::App& app);
+void add_view(CLI::App& app);
 
 } // namespace elvis::commands
