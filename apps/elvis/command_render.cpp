@@ -39,7 +39,7 @@ void render_picture(const RenderArguments& arguments, const Scene& scene, const 
                     Renderer& renderer, const Times& times) {
     const bool is_double = scene.precision.value_or("float32") == "float64";
     FrameRequest request = make_frame_request(scene, volume, renderer);
-    if (scene.volume_rendering && scene.volume_rendering->has_default_density()) {
+    if (request.volume && scene.volume_rendering->has_default_density()) {
         const auto& density = request.volume->transfer.density;
         spdlog::info("volume: density rises from {:.6g} at {:.6g} to {:.6g} at {:.6g}", density.front().density,
                      density.front().value, density.back().density, density.back().value);

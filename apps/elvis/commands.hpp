@@ -20,5 +20,6 @@ void add_new_plugin(CLI::App& app);
 void add_plugins(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_render(CLI::App& app);
+void add_view(CLI::App& app);
 
 } // namespace elvis::commands

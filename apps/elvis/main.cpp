@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
     elvis::commands::add_plugins(app);
     elvis::commands::add_probe(app);
     elvis::commands::add_render(app);
+    elvis::commands::add_view(app);
 
     try {
         check_command(app, argc, argv);

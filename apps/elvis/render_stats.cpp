@@ -1,5 +1,7 @@
 #include "render_stats.hpp"
 
+#include "frame_remarks.hpp"
+
 #include <spdlog/spdlog.h>
 
 namespace elvis::commands {
@@ -61,36 +63,8 @@ nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Fr
 }
 
 void warn_about(const FrameCounts& counts) {
-    if (counts.hit_pixels == 0 && counts.volume_pixels == 0) {
-        spdlog::warn("nothing is hit: the picture shows background only");
-    }
-    if (counts.newton_failures > 0) {
-        spdlog::warn("{} inversions of the mapping failed; their pixels carry flag 8, of isosurfaces flag 64 if that leaves them open", counts.newton_failures);
-    }
-    if (counts.nan_pixels > 0) {
-        spdlog::warn("{} pixels show values that are not finite", counts.nan_pixels);
-    }
-    if (counts.work_limit_pixels > 0) {
-        spdlog::warn("{} pixels reached the work limit and may be wrong; they carry flag 1024", counts.work_limit_pixels);
-    }
-    if (counts.inexact_volume_pixels > 0) {
-        spdlog::info("in {} pixels volume rendering did not reach its tolerance; they carry flag 128",
-                     counts.inexact_volume_pixels);
-    }
-    if (counts.undecided_pixels > 0) {
-        spdlog::info("{} pixels are undecided within rounding", counts.undecided_pixels);
-    }
-    if (counts.undecided_isosurface_pixels > 0) {
-        spdlog::info("for {} pixels it is undecided whether they meet an isosurface, or one before that shown; they carry flag 64",
-                     counts.undecided_isosurface_pixels);
-    }
-    if (counts.undecided_contour_pixels > 0) {
-        spdlog::info("for {} pixels it is undecided whether they meet a contour; they carry flag 2",
-                     counts.undecided_contour_pixels);
-    }
-    if (counts.undecided_mesh_line_pixels > 0) {
-        spdlog::info("for {} pixels it is undecided whether they meet a mesh line; they carry flag 512",
-                     counts.undecided_mesh_line_pixels);
+    for (const FrameRemark& remark : remarks_on(counts)) {
+        spdlog::log(remark.is_warning ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
     }
 }
 

@@ -75,6 +75,14 @@ void refine(const ColorMap& map, const SceneColorMap::Point& from, const SceneCo
 
 } // namespace
 
+SceneColorMap uniform_color_map(const Rgb& color) {
+    SceneColorMap map;
+    map.points = {{0, color}};
+    map.below = map.above = map.nan = color;
+    map.range = {0.0, 1.0};
+    return map;
+}
+
 std::vector<std::string> color_map_names() {
     std::vector<std::string> names;
     for (const BuiltIn& map : built_ins()) {

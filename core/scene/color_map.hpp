@@ -19,6 +19,9 @@ struct ColorMap {
     std::optional<Rgb> nan;
 };
 
+/** One colour, whatever the value. */
+SceneColorMap uniform_color_map(const Rgb& color);
+
 /** Names of the built-in maps. */
 std::vector<std::string> color_map_names();
 

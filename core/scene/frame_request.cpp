@@ -14,12 +14,15 @@ namespace elvis {
 
 namespace {
 
+/** Those that are drawn. */
 std::vector<SceneSurface> surfaces_of(const Scene& scene, const RuntimeVolume& volume, const Renderer& renderer) {
     if (volume.dimension() == 2 && scene.surfaces.empty()) {
         return {SceneSurface{FlatElements{}}};
     }
     if (!scene.surfaces.empty() || scene.volume_rendering) {
-        return scene.surfaces;
+        std::vector<SceneSurface> shown = scene.surfaces;
+        std::erase_if(shown, [](const SceneSurface& surface) { return !surface.is_shown; });
+        return shown;
     }
     if (volume.n_faces() > 0) {
         return {SceneSurface{BoundaryFaces{}}};
@@ -201,7 +204,7 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
     for (const SceneSurface& surface : surfaces) {
         request.surfaces.push_back(make_surface(surface, scene, volume, renderer));
     }
-    if (scene.volume_rendering) {
+    if (scene.volume_rendering && scene.volume_rendering->is_shown) {
         request.volume = make_volume_rendering(*scene.volume_rendering, scene, volume, renderer);
     }
     return request;

@@ -28,7 +28,7 @@ Light read_light(const JsonObject& object) {
 
 } // namespace
 
-std::optional<Lighting> read_lighting(const JsonObject& root) {
+std::optional<Lighting> read_lighting(const JsonObject& root, std::vector<Light>& hidden) {
     if (root.raw("lighting").is_string()) {
         return root.word("lighting") == "default" ? std::optional(Lighting{}) : std::nullopt;
     }
@@ -42,7 +42,8 @@ std::optional<Lighting> read_lighting(const JsonObject& root) {
     }
     if (object.has("lights")) {
         for (const JsonObject& light : object.objects("lights")) {
-            lighting.lights.push_back(read_light(light));
+            const bool is_shown = !light.has("visible") || light.flag("visible");
+            (is_shown ? lighting.lights : hidden).push_back(read_light(light));
         }
     }
     if (object.has("specular")) {

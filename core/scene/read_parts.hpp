@@ -28,8 +28,8 @@ SceneAnimation read_animation(const JsonObject& object);
 /** Of the key "annotation"; nothing for "none". */
 std::optional<SceneAnnotation> read_annotation(const JsonObject& image, const std::string& scene);
 SceneColorMap read_color_map(const JsonObject& object, const std::string& scene);
-/** Of the key "lighting"; nothing for "none". */
-std::optional<Lighting> read_lighting(const JsonObject& root);
+/** Of the key "lighting"; nothing for "none". Lights that are switched off go to `hidden`. */
+std::optional<Lighting> read_lighting(const JsonObject& root, std::vector<Light>& hidden);
 SceneLineStyle read_line_style(const JsonObject& object);
 SceneContours read_contours(const JsonObject& object);
 /** Refuses keys that say where surfaces of other types lie. */

@@ -1,3 +1,4 @@
+#include <core/scene/color_map.hpp>
 #include <core/scene/read_parts.hpp>
 #include <core/segment/tables.hpp>
 
@@ -28,15 +29,6 @@ CutPlane read_plane(const JsonObject& object) {
         object.fail("plane", "has a normal of length zero");
     }
     return plane;
-}
-
-/** One colour, whatever the value. */
-SceneColorMap uniform_map(const Rgb& color) {
-    SceneColorMap map;
-    map.points = {{0, color}};
-    map.below = map.above = map.nan = color;
-    map.range = {0.0, 1.0};
-    return map;
 }
 
 IsosurfaceMethod read_method(const JsonObject& object) {
@@ -135,12 +127,12 @@ SceneSurface read_surface(const JsonObject& object, const std::string& type, con
     } else if (type == "wireframe") {
         surface.geometry = read_wireframe(object);
         const Rgb color = object.has("color") ? fixed<3>(object.numbers("color")) : Rgb{0, 0, 0};
-        surface.color_map = uniform_map(color);
+        surface.color_map = uniform_color_map(color);
         surface.is_lit = false;
     } else if (type == "isosurface") {
         surface.geometry = read_isosurfaces(object);
         if (object.has("color")) {
-            surface.color_map = uniform_map(fixed<3>(object.numbers("color")));
+            surface.color_map = uniform_color_map(fixed<3>(object.numbers("color")));
         }
         if (object.has("color_field")) {
             surface.color_field = object.text("color_field");
@@ -176,6 +168,9 @@ SceneSurface read_surface(const JsonObject& object, const std::string& type, con
     }
     if (object.has("lighting")) {
         surface.is_lit = object.flag("lighting");
+    }
+    if (object.has("visible")) {
+        surface.is_shown = object.flag("visible");
     }
     return surface;
 }

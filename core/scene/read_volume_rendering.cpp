@@ -140,6 +140,9 @@ SceneVolumeRendering read_volume_rendering(const JsonObject& object, const std::
             rendering.peaks.push_back(read_peak(peak));
         }
     }
+    if (object.has("visible")) {
+        rendering.is_shown = object.flag("visible");
+    }
     read_integrator(object, rendering);
     return rendering;
 }

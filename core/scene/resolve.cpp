@@ -31,7 +31,8 @@ Vector3 default_direction(std::span<const CutPlane> planes) {
     return *largest < 0 ? scaled(normal, -1) : normal;
 }
 
-/** Distance from which every corner of the bounds is in the picture. */
+} // namespace
+
 double fitting_distance(const std::array<double, 6>& bounds, const Vector3& look_at, const Vector3& to_eye, const Vector3& up,
                         double field_of_view, double aspect) {
     const Vector3 right_raw = cross(scaled(to_eye, -1), up);
@@ -48,8 +49,6 @@ double fitting_distance(const std::array<double, 6>& bounds, const Vector3& look
     constexpr double margin = 1.05;
     return margin * distance;
 }
-
-} // namespace
 
 Camera resolve_camera(const SceneCamera& scene, const std::array<double, 6>& bounds, std::span<const CutPlane> planes,
                       double aspect) {

@@ -21,6 +21,12 @@ namespace elvis {
 Camera resolve_camera(const SceneCamera& camera, const std::array<double, 6>& bounds, std::span<const CutPlane> planes,
                       double aspect);
 
+/**
+ * Distance from `look_at`, in the unit direction `to_eye`, at which every corner of the bounds is in the picture, with a margin.
+ */
+double fitting_distance(const std::array<double, 6>& bounds, const Vector3& look_at, const Vector3& to_eye, const Vector3& up,
+                        double field_of_view, double aspect);
+
 /** The plane through the centre of the bounds across their shortest extent. */
 CutPlane central_plane(const std::array<double, 6>& bounds);
 

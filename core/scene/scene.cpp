@@ -86,6 +86,11 @@ Scene read_scene(const std::string& path) {
     if (root.has("camera")) {
         scene.camera = read_camera(root.object("camera"));
     }
+    if (root.has("views")) {
+        for (const JsonObject& view : root.objects("views")) {
+            scene.views.push_back({view.text("name"), read_camera(view.object("camera"))});
+        }
+    }
     if (root.has("image")) {
         const JsonObject image = root.object("image");
         if (image.has("size")) {
@@ -113,7 +118,7 @@ Scene read_scene(const std::string& path) {
         scene.subdivisions = root.integer("subdivisions");
     }
     if (root.has("lighting")) {
-        scene.lighting = read_lighting(root);
+        scene.lighting = read_lighting(root, scene.hidden_lights);
     }
     if (root.has("surfaces")) {
         for (const JsonObject& surface : root.objects("surfaces")) {

@@ -49,6 +49,12 @@ struct SceneLineStyle {
     std::optional<Rgb> color, undecided_color;
 };
 
+/** A camera with a name. */
+struct SceneView {
+    std::string name;
+    SceneCamera camera;
+};
+
 /** The values, or how many of them divide a range evenly. */
 struct SceneContours {
     std::vector<double> values;
@@ -73,6 +79,8 @@ struct SceneSurface {
     double opacity = 1;
     std::optional<Rgb> outside{};
     bool is_lit = true;
+    /** Surfaces that are not drawn are there for expressions, and to be shown again. */
+    bool is_shown = true;
 };
 
 /** A triangle of density around a value, such as makes a semi-transparent isosurface. */
@@ -103,6 +111,7 @@ struct SceneVolumeRendering {
     std::optional<double> step;
     double tolerance = VolumeRendering{}.tolerance;
     bool skips_by_range = true;
+    bool is_shown = true;
 
     /** Whether colours come from the colour map, not with the transfer function. */
     bool is_colored_by_map() const { return transfer_file.empty() && !transfer; }
@@ -138,6 +147,10 @@ struct Scene {
     std::optional<SceneAnimation> animation;
     /** Steps whose values colour maps span where no range is given; the one that is drawn if empty. */
     std::vector<std::uint32_t> range_steps;
+    /** Lights that are switched off. */
+    std::vector<Light> hidden_lights;
+    /** Cameras that people come back to. */
+    std::vector<SceneView> views;
 };
 
 /** Reads a scene file; paths in it become relative to the working directory. Throws Error naming file, key and cause. */

@@ -134,7 +134,7 @@ std::uint32_t compute_queue_family(VkPhysicalDevice device) {
     return found;
 }
 
-Instance::Instance(bool validation) {
+Instance::Instance(bool validation, std::span<const char* const> extensions) {
     if (validation && !has_validation_layer()) {
         throw Error("Vulkan",
                     "the layer VK_LAYER_KHRONOS_validation is not installed (Debian package vulkan-validationlayers)");
@@ -160,7 +160,7 @@ Instance::Instance(bool validation) {
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &enabled;
 
-    const std::array<const char*, 2> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+    std::vector<const char*> enabled_extensions(extensions.begin(), extensions.end());
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
@@ -168,9 +168,11 @@ Instance::Instance(bool validation) {
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &validation_layer;
-        info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
-        info.ppEnabledExtensionNames = extensions.data();
+        enabled_extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        enabled_extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(enabled_extensions.size());
+    info.ppEnabledExtensionNames = enabled_extensions.data();
     const VkResult created = vkCreateInstance(&info, nullptr, &m_instance);
     if (created == VK_ERROR_INCOMPATIBLE_DRIVER) {
         m_instance = VK_NULL_HANDLE; // No driver at all: an instance without devices.

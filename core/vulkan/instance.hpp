@@ -7,6 +7,7 @@
 #include <core/vulkan/device.hpp>
 
 #include <mutex>
+#include <span>
 
 namespace elvis {
 
@@ -18,7 +19,8 @@ struct ValidationLog {
 
 class Instance {
 public:
-    explicit Instance(bool validation);
+    /** `extensions`: names of instance extensions that are wanted besides, such as a window's. */
+    explicit Instance(bool validation, std::span<const char* const> extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;

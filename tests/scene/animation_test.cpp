@@ -26,8 +26,8 @@ Camera some_camera() {
 double distance(const Vector3& a, const Vector3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 Scene scene_of(const std::string& animation) {
-    const Folder folder;
-    return read_scene(folder.file("scene.json", R"({"version": 1, "animation": )" + animation + "}"));
+    const TemporaryFolder folder;
+    return read_scene(folder.write("scene.json", R"({"version": 1, "animation": )" + animation + "}"));
 }
 
 } // namespace

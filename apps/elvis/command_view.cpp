@@ -1,0 +1,47 @@
+#include "commands.hpp"
+#include "view/application.hpp"
+
+#include <core/base/error.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace elvis::commands {
+
+namespace {
+
+struct Arguments {
+    view::Options options;
+    std::string size;
+};
+
+void run(Arguments arguments) {
+    if (!arguments.size.empty()) {
+        int width = 0, height = 0, used = 0;
+        if (std::sscanf(arguments.size.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
+            static_cast<std::size_t>(used) != arguments.size.size() || width < 400 || height < 300 || width > 16384 ||
+            height > 16384) {
+            throw UsageError("--size", "'" + arguments.size + "' is not WIDTHxHEIGHT from 400x300 to 16384x16384");
+        }
+        arguments.options.size = {width, height};
+    }
+    view::run(arguments.options);
+}
+
+} // namespace
+
+void add_view(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("view", "Look at a volume in a window");
+    auto a = std::make_shared<Arguments>();
+    command->add_option("input", a->options.file, "Volume, scene, or foreign file that is then converted");
+    command->add_option("--device", a->options.device, "Name (or part of it) or index of the Vulkan device that draws");
+    command->add_option("--size", a->size, "WIDTHxHEIGHT of the window");
+    command->add_option("--text-scale", a->options.text_scale, "Size of texts and controls, times what the screen asks for")
+        ->check(CLI::Range(0.5, 4.0));
+    command->add_flag("--validation", a->options.validation, "Run with the Vulkan validation layer; any message is an error");
+    command->add_option("--describe", a->options.description,
+                        "For tests: a file that tells, as JSON, what is on the screen and where");
+    command->callback([a] { run(*a); });
+}
+
+} // namespace elvis::commands

@@ -1,0 +1,158 @@
+#include "camera_motion.hpp"
+
+#include <core/scene/resolve.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace elvis::view {
+
+namespace {
+
+double slope(const Camera& camera) { return std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180); }
+
+double distance_of(const Camera& camera) { return length(minus(camera.look_at, camera.eye)); }
+
+/** World height of the picture where the camera looks at. */
+double focal_height(const Camera& camera) {
+    return camera.orthographic ? camera.height : 2 * slope(camera) * distance_of(camera);
+}
+
+/** s and v of the formulas. */
+std::array<double, 2> picture_coordinates(const Camera& camera, const PictureSize& size, const PicturePoint& place) {
+    return {(2 * (place[0] + camera.image_shift[0]) / size.width - 1) * size.aspect(),
+            1 - 2 * (place[1] + camera.image_shift[1]) / size.height};
+}
+
+Camera moved(const Camera& camera, const Vector& by) {
+    Camera result = camera;
+    result.eye = plus(camera.eye, by);
+    result.look_at = plus(camera.look_at, by);
+    return result;
+}
+
+} // namespace
+
+ViewAxes axes_of(const Camera& camera) {
+    ViewAxes axes{};
+    axes.forward = unit(minus(camera.look_at, camera.eye));
+    axes.right = unit(cross(axes.forward, camera.up));
+    axes.top = cross(axes.right, axes.forward);
+    return axes;
+}
+
+Ray ray_through(const Camera& camera, const PictureSize& size, const PicturePoint& place) {
+    const auto [s, v] = picture_coordinates(camera, size, place);
+    const ViewAxes axes = axes_of(camera);
+    const Vector across = plus(scaled(axes.right, s), scaled(axes.top, v));
+    if (camera.orthographic) {
+        return {plus(camera.eye, scaled(across, 0.5 * camera.height)), axes.forward};
+    }
+    return {camera.eye, unit(plus(axes.forward, scaled(across, slope(camera))))};
+}
+
+std::optional<PicturePoint> project(const Camera& camera, const PictureSize& size, const Vector& point) {
+    const ViewAxes axes = axes_of(camera);
+    const Vector relative = minus(point, camera.eye);
+    const double along = dot(relative, axes.forward);
+    if (!camera.orthographic && along <= 1e-9 * distance_of(camera)) {
+        return std::nullopt;
+    }
+    const double half = camera.orthographic ? 0.5 * camera.height : along * slope(camera);
+    const double s = dot(relative, axes.right) / half;
+    const double v = dot(relative, axes.top) / half;
+    return PicturePoint{0.5 * size.width * (s / size.aspect() + 1) - camera.image_shift[0],
+                        0.5 * size.height * (1 - v) - camera.image_shift[1]};
+}
+
+double pixel_length(const Camera& camera, const PictureSize& size, const Vector& point) {
+    const double along = dot(minus(point, camera.eye), axes_of(camera).forward);
+    const double height = camera.orthographic ? camera.height : 2 * slope(camera) * std::abs(along);
+    return height / size.height;
+}
+
+Camera orbited(const Camera& camera, const PictureSize& size, const PicturePoint& drag) {
+    const ViewAxes axes = axes_of(camera);
+    const double about_top = -std::numbers::pi * drag[0] / size.height;
+    const double about_right = -std::numbers::pi * drag[1] / size.height;
+    const auto turn = [&](const Vector& a) { return turned(turned(a, axes.right, about_right), axes.top, about_top); };
+    Camera result = camera;
+    result.eye = plus(camera.look_at, turn(minus(camera.eye, camera.look_at)));
+    result.up = unit(turn(axes.top));
+    return result;
+}
+
+Camera rolled(const Camera& camera, double degrees) {
+    const ViewAxes axes = axes_of(camera);
+    Camera result = camera;
+    result.up = turned(axes.top, axes.forward, degrees * std::numbers::pi / 180);
+    return result;
+}
+
+Camera panned(const Camera& camera, const PictureSize& size, const PicturePoint& drag) {
+    const ViewAxes axes = axes_of(camera);
+    const double pixel = focal_height(camera) / size.height;
+    return moved(camera, plus(scaled(axes.right, -drag[0] * pixel), scaled(axes.top, drag[1] * pixel)));
+}
+
+Camera zoomed(const Camera& camera, const PictureSize& size, const PicturePoint& place, double factor) {
+    const auto [s, v] = picture_coordinates(camera, size, place);
+    const ViewAxes axes = axes_of(camera);
+    // Everything is scaled about the point under the cursor at the distance of what is looked at.
+    const double half = 0.5 * focal_height(camera);
+    const Vector fixed = plus(camera.look_at, plus(scaled(axes.right, s * half), scaled(axes.top, v * half)));
+    Camera result = camera;
+    result.look_at = plus(fixed, scaled(minus(camera.look_at, fixed), factor));
+    if (camera.orthographic) {
+        result.eye = plus(camera.eye, minus(result.look_at, camera.look_at));
+        result.height = camera.height * factor;
+    } else {
+        result.eye = plus(fixed, scaled(minus(camera.eye, fixed), factor));
+        result.height = 2 * slope(result) * distance_of(result);
+    }
+    return result;
+}
+
+Camera with_projection(const Camera& camera, bool orthographic) {
+    if (camera.orthographic == orthographic) {
+        return camera;
+    }
+    Camera result = camera;
+    result.orthographic = orthographic;
+    if (orthographic) {
+        result.height = focal_height(camera);
+    } else {
+        const Vector to_eye = scaled(axes_of(camera).forward, -1);
+        result.eye = plus(camera.look_at, scaled(to_eye, 0.5 * camera.height / slope(camera)));
+    }
+    return result;
+}
+
+const std::vector<StandardView>& standard_views() {
+    static const std::vector<StandardView> views = {
+        {"+x", {1, 0, 0}, {0, 0, 1}},  {"-x", {-1, 0, 0}, {0, 0, 1}},
+        {"+y", {0, 1, 0}, {0, 0, 1}},  {"-y", {0, -1, 0}, {0, 0, 1}},
+        {"+z", {0, 0, 1}, {0, 1, 0}},  {"-z", {0, 0, -1}, {0, 1, 0}},
+        {"corner", unit({0.55, 0.45, 0.7}), {0, 1, 0}}};
+    return views;
+}
+
+Camera from_standard_view(const Camera& camera, const StandardView& view, const std::array<double, 6>& bounds, double aspect) {
+    Camera result = camera;
+    result.look_at = {0.5 * (bounds[0] + bounds[3]), 0.5 * (bounds[1] + bounds[4]), 0.5 * (bounds[2] + bounds[5])};
+    result.eye = plus(result.look_at, view.to_eye);
+    result.up = view.up;
+    return fitted(result, bounds, aspect);
+}
+
+Camera fitted(const Camera& camera, const std::array<double, 6>& bounds, double aspect) {
+    Camera result = camera;
+    const Vector to_eye = scaled(axes_of(camera).forward, -1);
+    result.look_at = {0.5 * (bounds[0] + bounds[3]), 0.5 * (bounds[1] + bounds[4]), 0.5 * (bounds[2] + bounds[5])};
+    const double distance = fitting_distance(bounds, result.look_at, to_eye, camera.up, camera.field_of_view, aspect);
+    result.eye = plus(result.look_at, scaled(to_eye, distance));
+    result.height = 2 * slope(camera) * distance;
+    return result;
+}
+
+} // namespace elvis::view

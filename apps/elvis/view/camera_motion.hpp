@@ -1,0 +1,72 @@
+/**
+ * @file camera_motion.hpp
+ * What the hand does to the camera, and where points of the volume are on the picture.
+ */
+#pragma once
+
+#include "vectors.hpp"
+
+#include <core/render/frame.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elvis::view {
+
+/** Pixels of the picture. */
+struct PictureSize {
+    double width = 1, height = 1;
+
+    double aspect() const { return width / height; }
+};
+
+/** A place on the picture in pixels from its upper left corner; centres of pixels end in a half. */
+using PicturePoint = std::array<double, 2>;
+
+/** Unit vectors: along the view, to the right, to the top of the picture. */
+struct ViewAxes {
+    Vector forward, right, top;
+};
+
+ViewAxes axes_of(const Camera& camera);
+
+struct Ray {
+    Vector origin, direction; ///< the latter of unit length
+
+    Vector at(double depth) const { return plus(origin, scaled(direction, depth)); }
+};
+
+/** Through a place of the picture, by the formulas of the scene file. */
+Ray ray_through(const Camera& camera, const PictureSize& size, const PicturePoint& place);
+
+/** Where a point is seen; nothing for what lies behind the eye. */
+std::optional<PicturePoint> project(const Camera& camera, const PictureSize& size, const Vector& point);
+
+/** World length of a pixel at a point. */
+double pixel_length(const Camera& camera, const PictureSize& size, const Vector& point);
+
+/** Turns the camera about what it looks at, as if the hand turned the volume: half a turn over the picture's height. */
+Camera orbited(const Camera& camera, const PictureSize& size, const PicturePoint& drag);
+/** Turns the picture about its middle. */
+Camera rolled(const Camera& camera, double degrees);
+/** What is looked at follows the hand. */
+Camera panned(const Camera& camera, const PictureSize& size, const PicturePoint& drag);
+/** Makes what is looked at 1 / `factor` as large; what is seen at `place` stays there. */
+Camera zoomed(const Camera& camera, const PictureSize& size, const PicturePoint& place, double factor);
+/** The same at the distance of what is looked at. */
+Camera with_projection(const Camera& camera, bool orthographic);
+
+/** Directions from which people look at things, by name: +x, -x, .. and corner. */
+struct StandardView {
+    std::string name;
+    Vector to_eye, up;
+};
+const std::vector<StandardView>& standard_views();
+/** The whole of the bounds from there. */
+Camera from_standard_view(const Camera& camera, const StandardView& view, const std::array<double, 6>& bounds, double aspect);
+/** The whole of the bounds in the present direction. */
+Camera fitted(const Camera& camera, const std::array<double, 6>& bounds, double aspect);
+
+} // namespace elvis::view

@@ -1,0 +1,63 @@
+#include "conversion_task.hpp"
+
+#include <core/base/error.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/source_volume.hpp>
+
+#include <utility>
+
+namespace elvis::view {
+
+ConversionTask::~ConversionTask() { cancel(); }
+
+void ConversionTask::start(std::vector<std::string> inputs, std::string output, std::function<void()> wake) {
+    if (m_thread.joinable()) {
+        m_thread.join();
+    }
+    m_control.cancelled = false;
+    m_fraction = -1;
+    m_activity.clear();
+    m_is_running = true;
+    m_control.on_progress = [this, wake](double fraction, std::string_view activity) {
+        const std::lock_guard lock(m_mutex);
+        const bool is_news = activity != m_activity || fraction - m_fraction > 0.01;
+        m_fraction = fraction;
+        m_activity = activity;
+        if (is_news) {
+            wake();
+        }
+    };
+    m_thread = std::jthread([this, inputs = std::move(inputs), output = std::move(output), wake] {
+        ConversionResult result;
+        result.output = output;
+        try {
+            const PluginRegistry registry;
+            const SourceVolume source(registry.converter_for(inputs.front()), inputs, {}, &m_control);
+            ConvertOptions options;
+            options.program_version = ELVIS_VERSION;
+            result.report = elvis::convert(source, output, options, m_control);
+        } catch (const Cancelled&) {
+            result.was_cancelled = true;
+        } catch (const std::exception& error) {
+            result.error = error.what();
+        }
+        {
+            const std::lock_guard lock(m_mutex);
+            m_result = std::move(result);
+        }
+        m_is_running = false;
+        wake();
+    });
+}
+
+std::pair<double, std::string> ConversionTask::progress() const {
+    const std::lock_guard lock(m_mutex);
+    return {m_fraction, m_activity};
+}
+
+std::optional<ConversionResult> ConversionTask::collect() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_result, std::nullopt);
+}
+
+} // namespace elvis::view

@@ -1,0 +1,39 @@
+#include "describe.hpp"
+
+#include <core/scene/write_scene.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace elvis::view {
+
+std::string description(Ui& ui) {
+    Workbench& bench = ui.bench;
+    const Model& model = bench.model();
+    nlohmann::ordered_json json;
+    json["settled"] = bench.is_settled();
+    json["state"] = bench.state() == ShownState::full ? "full" : bench.state() == ShownState::reduced ? "reduced" : "nothing";
+    json["scale"] = bench.shown_scale();
+    json["activity"] = bench.activity();
+    json["milliseconds"] = bench.picture().milliseconds;
+    json["frames_per_second"] = bench.motion().frames_per_second();
+    json["rest_to_full_seconds"] = bench.motion().rest_to_full_seconds.value_or(-1);
+    json["volume"] = model.volume() ? model.volume()->path : std::string();
+    json["scene"] = scene_json(model.scene(), "scene.json");
+    json["undo"] = model.undo_name().value_or("");
+    json["redo"] = model.redo_name().value_or("");
+    json["items"] = nlohmann::ordered_json::array();
+    for (const ItemId& item : items_of(model.scene())) {
+        json["items"].push_back(item_label(model.scene(), item));
+    }
+    json["picked"] = bench.picked() ? text_of(*bench.picked()) : std::string();
+    json["messages"] = nlohmann::ordered_json::array();
+    for (const Message& message : bench.messages()) {
+        json["messages"].push_back(message.text);
+    }
+    json["foreign_file"] = bench.foreign_file.value_or("");
+    json["dialog"] = static_cast<int>(ui.dialog);
+    json["places"] = ui.places;
+    return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+} // namespace elvis::view

@@ -1,0 +1,121 @@
+#include "frame_worker.hpp"
+
+#include <core/base/error.hpp>
+
+namespace elvis::view {
+
+FrameWorker::FrameWorker(std::unique_ptr<Session> session, std::function<void()> wake)
+    : m_session(std::move(session)), m_wake(std::move(wake)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
+
+FrameWorker::~FrameWorker() {
+    m_thread.request_stop();
+    m_session->control().cancelled = true;
+    m_changed.notify_all();
+}
+
+void FrameWorker::post(std::string activity, Job job, std::function<void(const std::string&)> on_error) {
+    const std::lock_guard lock(m_mutex);
+    m_tasks.push_back({std::move(activity), std::move(job), std::move(on_error)});
+    m_changed.notify_all();
+}
+
+void FrameWorker::draw(DrawRequest request) {
+    const std::lock_guard lock(m_mutex);
+    if (m_drawing && m_drawing->second >= 1) {
+        m_session->control().cancelled = true;
+    }
+    m_wanted = std::move(request);
+    m_changed.notify_all();
+}
+
+bool FrameWorker::is_idle() const {
+    const std::lock_guard lock(m_mutex);
+    return m_tasks.empty() && !m_wanted && m_activity.empty();
+}
+
+std::string FrameWorker::activity() const {
+    const std::lock_guard lock(m_mutex);
+    return m_activity;
+}
+
+std::optional<std::pair<std::uint64_t, double>> FrameWorker::drawing() const {
+    const std::lock_guard lock(m_mutex);
+    return m_wanted ? std::pair(m_wanted->revision, m_wanted->scale) : m_drawing;
+}
+
+std::optional<DrawAnswer> FrameWorker::collect() {
+    std::vector<Answer> answers;
+    std::optional<DrawAnswer> drawn;
+    {
+        const std::lock_guard lock(m_mutex);
+        answers.swap(m_answers);
+        drawn.swap(m_drawn);
+    }
+    for (const Answer& answer : answers) {
+        answer();
+    }
+    return drawn;
+}
+
+DrawAnswer FrameWorker::drawn(const DrawRequest& request) {
+    DrawAnswer answer;
+    answer.scale = request.scale;
+    answer.revision = request.revision;
+    try {
+        answer.picture = m_session->draw(request.scene, request.scale);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::exception& error) {
+        answer.error = error.what();
+    }
+    return answer;
+}
+
+void FrameWorker::run(const std::stop_token& stop) {
+    std::unique_lock lock(m_mutex);
+    while (true) {
+        m_changed.wait(lock, stop, [this] { return !m_tasks.empty() || m_wanted; });
+        if (stop.stop_requested()) {
+            return;
+        }
+        m_session->control().cancelled = false;
+        if (!m_tasks.empty()) {
+            const Task task = std::move(m_tasks.front());
+            m_tasks.pop_front();
+            m_activity = task.activity;
+            lock.unlock();
+            Answer answer;
+            try {
+                answer = task.job(*m_session);
+            } catch (const std::exception& error) {
+                answer = [on_error = task.on_error, what = std::string(error.what())] { on_error(what); };
+            }
+            lock.lock();
+            m_activity.clear();
+            if (answer) {
+                m_answers.push_back(std::move(answer));
+            }
+        } else {
+            const DrawRequest request = std::move(*m_wanted);
+            m_wanted.reset();
+            m_drawing = {request.revision, request.scale};
+            m_activity = "drawing";
+            lock.unlock();
+            std::optional<DrawAnswer> answer;
+            try {
+                answer = drawn(request);
+            } catch (const Cancelled&) {
+                // Another picture is wanted.
+            }
+            lock.lock();
+            m_activity.clear();
+            m_drawing.reset();
+            if (answer) {
+                m_drawn = std::move(answer);
+            }
+        }
+        m_wake();
+    }
+}
+
+} // namespace elvis::view

@@ -1,0 +1,94 @@
+/**
+ * @file frame_worker.hpp
+ * The thread that draws, and answers questions about the volume, while the window goes on.
+ */
+#pragma once
+
+#include "session.hpp"
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace elvis::view {
+
+/** A picture that is wanted. */
+struct DrawRequest {
+    Scene scene;
+    /** Of the full size; 1 for the picture itself. */
+    double scale = 1;
+    /** What the window knows it by. */
+    std::uint64_t revision = 0;
+};
+
+/** What came of it. */
+struct DrawAnswer {
+    Picture picture;
+    double scale = 1;
+    std::uint64_t revision = 0;
+    /** If not empty, there is no picture. */
+    std::string error;
+};
+
+/**
+ * Jobs are done in their order, before pictures; of pictures that wait only the last one is drawn. The session belongs to the
+ * thread: nothing else touches it while it runs.
+ */
+class FrameWorker {
+public:
+    /** `wake` is called from the thread whenever there is an answer. */
+    FrameWorker(std::unique_ptr<Session> session, std::function<void()> wake);
+    /** Waits for what is being done. */
+    ~FrameWorker();
+    FrameWorker(const FrameWorker&) = delete;
+    FrameWorker& operator=(const FrameWorker&) = delete;
+
+    /** To be called by the owner when the job is done; may be empty. */
+    using Answer = std::function<void()>;
+    using Job = std::function<Answer(Session&)>;
+    /** A job that throws answers with `on_error`. `activity` says what is being done. */
+    void post(std::string activity, Job job, std::function<void(const std::string&)> on_error);
+
+    /** Takes the place of a picture that waits, and stops one that is being drawn, if the renderer can be stopped. */
+    void draw(DrawRequest request);
+    /** Neither at work nor asked for. */
+    bool is_idle() const;
+    /** What is being done now; empty if nothing. */
+    std::string activity() const;
+    /** A picture is being drawn, or waits: its revision and scale. */
+    std::optional<std::pair<std::uint64_t, double>> drawing() const;
+
+    const std::function<void()>& wake() const { return m_wake; }
+
+    /** Calls the answers that have come, and returns the last picture among them. */
+    std::optional<DrawAnswer> collect();
+
+private:
+    struct Task {
+        std::string activity;
+        Job job;
+        std::function<void(const std::string&)> on_error;
+    };
+    void run(const std::stop_token& stop);
+    DrawAnswer drawn(const DrawRequest& request);
+
+    std::unique_ptr<Session> m_session;
+    std::function<void()> m_wake;
+    mutable std::mutex m_mutex;
+    std::condition_variable_any m_changed;
+    std::deque<Task> m_tasks;
+    std::optional<DrawRequest> m_wanted;
+    std::optional<std::pair<std::uint64_t, double>> m_drawing;
+    std::string m_activity;
+    std::vector<Answer> m_answers;
+    std::optional<DrawAnswer> m_drawn;
+    /** After all else, so that it stops first. */
+    std::jthread m_thread;
+};
+
+} // namespace elvis::view

@@ -1,0 +1,33 @@
+#include "histogram.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace elvis::view {
+
+Histogram::Histogram(std::vector<double> values, double lower, double upper)
+    : m_lower(lower), m_upper(upper), m_sorted(std::move(values)), m_bins(n_bins, 0.0f) {
+    std::sort(m_sorted.begin(), m_sorted.end());
+    std::vector<std::size_t> counts(n_bins, 0);
+    for (const double value : m_sorted) {
+        const double part = upper > lower ? (value - lower) / (upper - lower) : 0.5;
+        const auto bin = static_cast<std::size_t>(std::clamp(part * n_bins, 0.0, n_bins - 1.0));
+        ++counts[bin];
+    }
+    const std::size_t most = std::max<std::size_t>(1, *std::max_element(counts.begin(), counts.end()));
+    for (std::size_t bin = 0; bin < n_bins; ++bin) {
+        m_bins[bin] = static_cast<float>(counts[bin]) / static_cast<float>(most);
+    }
+}
+
+double Histogram::quantile(double part) const {
+    if (m_sorted.empty()) {
+        return m_lower;
+    }
+    const double place = std::clamp(part, 0.0, 1.0) * static_cast<double>(m_sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, m_sorted.size() - 1);
+    return std::lerp(m_sorted[below], m_sorted[above], place - static_cast<double>(below));
+}
+
+} // namespace elvis::view

@@ -1,0 +1,341 @@
+#include "panels.hpp"
+
+#include "../vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace elvis::view {
+
+namespace {
+
+bool edit(Ui& ui, CutPlane& plane) {
+    const double extent = ui.model().volume()->diagonal();
+    bool is_changed = false;
+    Vector normal = {plane.plane[0], plane.plane[1], plane.plane[2]};
+    if (vector(ui, "plane/normal", "Normal", normal, 1, "Direction across the plane, of any length but zero") &&
+        length(normal) > 0) {
+        // The plane turns about its point nearest to the origin.
+        const double before = length({plane.plane[0], plane.plane[1], plane.plane[2]});
+        plane.plane = {normal[0], normal[1], normal[2], plane.plane[3] * length(normal) / before};
+        is_changed = true;
+    }
+    const double size = length({plane.plane[0], plane.plane[1], plane.plane[2]});
+    double offset = -plane.plane[3] / size;
+    if (number(ui, "plane/offset", "Offset", offset, extent, "Distance of the plane from the origin, along its normal")) {
+        plane.plane[3] = -offset * size;
+        is_changed = true;
+    }
+    const auto& b = ui.model().volume()->bounds;
+    const char* labels[] = {"x", "y", "z"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (axis > 0) {
+            ImGui::SameLine();
+        }
+        if (button(ui, std::string("plane/") + labels[axis], labels[axis], "Across this axis, through the middle of the volume")) {
+            plane.plane = {};
+            plane.plane[axis] = 1;
+            plane.plane[3] = -0.5 * (b[axis] + b[axis + 3]);
+            is_changed = true;
+        }
+    }
+    ImGui::SameLine();
+    if (button(ui, "plane/view", "view", "Facing the viewer, through what the camera looks at")) {
+        const Camera camera = ui.model().camera();
+        const Vector to_eye = scaled(axes_of(camera).forward, -1);
+        plane.plane = {to_eye[0], to_eye[1], to_eye[2], -dot(to_eye, camera.look_at)};
+        is_changed = true;
+    }
+    return is_changed;
+}
+
+bool edit(Ui& ui, BoundaryFaces& boundary) {
+    const std::vector<std::string>& groups = ui.model().volume()->boundary_groups;
+    bool is_changed = false;
+    if (groups.empty()) {
+        return false;
+    }
+    ImGui::TextUnformatted(boundary.groups.empty() ? "Groups: all" : "Groups");
+    for (const std::string& group : groups) {
+        const auto found = std::find(boundary.groups.begin(), boundary.groups.end(), group);
+        bool is_chosen = found != boundary.groups.end();
+        if (check(ui, "group/" + group, group.c_str(), is_chosen, "Without any, all of the boundary is drawn")) {
+            if (is_chosen) {
+                boundary.groups.push_back(group);
+            } else {
+                boundary.groups.erase(found);
+            }
+            is_changed = true;
+        }
+    }
+    return is_changed;
+}
+
+bool edit_interval(Ui& ui, const std::string& name, const char* label, std::optional<std::array<double, 2>>& interval,
+                   const std::array<double, 2>& start, const char* help) {
+    bool has = interval.has_value();
+    ImGui::PushID(name.c_str());
+    bool is_changed = check(ui, name, label, has, help);
+    if (is_changed) {
+        interval = has ? std::optional(start) : std::nullopt;
+    }
+    if (interval) {
+        ImGui::Indent();
+        const double extent = std::max(start[1] - start[0], 1e-12);
+        double lower = (*interval)[0], upper = (*interval)[1];
+        if (number(ui, name + "/lower", "from", lower, extent, help) || number(ui, name + "/upper", "to", upper, extent, help)) {
+            interval = {std::min(lower, upper), std::max(lower, upper)};
+            is_changed = true;
+        }
+        ImGui::Unindent();
+    }
+    ImGui::PopID();
+    return is_changed;
+}
+
+bool edit(Ui& ui, ElementSelection& selection) {
+    const VolumeFacts& volume = *ui.model().volume();
+    bool is_changed = false;
+    ImGui::TextWrapped("Elements for which all of this holds:");
+    std::string ids;
+    for (const auto& [first, last] : selection.numbers) {
+        ids += ids.empty() ? "" : " ";
+        ids += std::to_string(first);
+        if (first != last) {
+            ids += '-';
+            ids += std::to_string(last);
+        }
+    }
+    if (text(ui, "elements/ids", "Numbers", ids, "Numbers and ranges, such as 3 7 10-20; all if left empty", "all")) {
+        selection.numbers.clear();
+        const char* at = ids.c_str();
+        while (*at != '\0') {
+            char* end = nullptr;
+            if (*at < '0' || *at > '9') {
+                ++at;
+                continue;
+            }
+            const std::uint64_t first = std::strtoull(at, &end, 10);
+            std::uint64_t last = first;
+            at = end;
+            if (*at == '-' && at[1] >= '0' && at[1] <= '9') {
+                last = std::strtoull(at + 1, &end, 10);
+                at = end;
+            }
+            selection.numbers.push_back({std::min(first, last), std::max(first, last)});
+        }
+        is_changed = true;
+    }
+    for (const std::uint32_t shape : volume.shapes) {
+        const auto found = std::find(selection.shapes.begin(), selection.shapes.end(), shape);
+        bool is_chosen = found != selection.shapes.end();
+        if (check(ui, std::string("elements/") + shape_name(shape), shape_name(shape), is_chosen,
+                  "Elements of the shapes that are marked; without any mark, of all shapes")) {
+            if (is_chosen) {
+                selection.shapes.push_back(shape);
+            } else {
+                selection.shapes.erase(found);
+            }
+            is_changed = true;
+        }
+    }
+    is_changed = check(ui, "elements/negative", "Negative Jacobian", selection.has_negative_jacobian,
+                       "Only elements that are turned inside out somewhere") ||
+                 is_changed;
+    std::optional<std::array<double, 2>> orders;
+    if (selection.orders) {
+        orders = {double((*selection.orders)[0]), double((*selection.orders)[1])};
+    }
+    if (edit_interval(ui, "elements/orders", "Order of the field", orders, {1, 4}, "Elements whose order is in this interval")) {
+        selection.orders.reset();
+        if (orders) {
+            selection.orders = {static_cast<std::int32_t>(std::lround(std::clamp((*orders)[0], -1.0, 1000.0))),
+                                static_cast<std::int32_t>(std::lround(std::clamp((*orders)[1], -1.0, 1000.0)))};
+        }
+        is_changed = true;
+    }
+    const std::optional<FieldRange> range = ui.bench.range(ui.scene().field);
+    is_changed = edit_interval(ui, "elements/values", "Value of the field", selection.value_range,
+                               range ? std::array<double, 2>{0.5 * (range->lower + range->upper), range->upper}
+                                     : std::array<double, 2>{0, 1},
+                               "Elements in which the field may take such values") ||
+                 is_changed;
+    bool has_box = selection.box.has_value();
+    if (check(ui, "elements/box", "In a box", has_box, "Elements whose bounds meet the box")) {
+        selection.box = has_box ? std::optional(volume.bounds) : std::nullopt;
+        is_changed = true;
+    }
+    if (selection.box) {
+        std::array<double, 6>& box = *selection.box;
+        Vector least = {box[0], box[1], box[2]}, most = {box[3], box[4], box[5]};
+        if (vector(ui, "elements/least", "least", least, volume.diagonal(), "The box's least corner") ||
+            vector(ui, "elements/most", "largest", most, volume.diagonal(), "The box's largest corner")) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                box[axis] = std::min(least[axis], most[axis]);
+                box[axis + 3] = std::max(least[axis], most[axis]);
+            }
+            is_changed = true;
+        }
+    }
+    static const std::vector<std::string> words = {"all", "outer", "inner"};
+    auto faces = static_cast<std::size_t>(selection.faces);
+    if (choice(ui, "elements/faces", "Faces", faces, words, "All of the chosen elements, those to others, or those between them")) {
+        selection.faces = static_cast<ElementSelection::Faces>(faces);
+        is_changed = true;
+    }
+    return is_changed;
+}
+
+bool edit(Ui& ui, WireFrame& frame) {
+    bool is_changed = slider(ui, "wires/width", "Width", frame.width, 1, 16, "In pixels");
+    bool has_condition = std::holds_alternative<ElementFaces>(frame.faces);
+    if (check(ui, "wires/elements", "Of chosen elements", has_condition, "Else of the boundary")) {
+        if (has_condition) {
+            // Without any condition a file would mean the boundary.
+            ElementFaces elements;
+            elements.selection.box = ui.model().volume()->bounds;
+            frame.faces = elements;
+        } else {
+            frame.faces = BoundaryFaces{};
+        }
+        is_changed = true;
+    }
+    if (auto* elements = std::get_if<ElementFaces>(&frame.faces)) {
+        is_changed = edit(ui, elements->selection) || is_changed;
+    } else if (auto* boundary = std::get_if<BoundaryFaces>(&frame.faces)) {
+        is_changed = edit(ui, *boundary) || is_changed;
+    }
+    return is_changed;
+}
+
+bool edit(Ui& ui, CutShape& shape) {
+    const double extent = ui.model().volume()->diagonal();
+    if (auto* sphere = std::get_if<Sphere>(&shape)) {
+        bool is_changed = vector(ui, "shape/center", "Centre", sphere->center, extent, "Of the sphere");
+        return positive_number(ui, "shape/radius", "Radius", sphere->radius, extent, "Of the sphere") || is_changed;
+    }
+    if (auto* cylinder = std::get_if<Cylinder>(&shape)) {
+        const Cylinder before = *cylinder;
+        bool is_changed = vector(ui, "shape/from", "From", cylinder->from, extent, "Middle of one end");
+        is_changed = vector(ui, "shape/to", "To", cylinder->to, extent, "Middle of the other end") || is_changed;
+        is_changed = positive_number(ui, "shape/radius", "Radius", cylinder->radius, extent, "Of the cylinder") || is_changed;
+        is_changed = check(ui, "shape/capped", "Closed", cylinder->is_capped, "Whether discs close its ends") || is_changed;
+        if (cylinder->from == cylinder->to) {
+            *cylinder = before;
+        }
+        return is_changed;
+    }
+    if (auto* cone = std::get_if<Cone>(&shape)) {
+        const Cone before = *cone;
+        bool is_changed = vector(ui, "shape/from", "From", cone->from, extent, "Middle of one end");
+        is_changed = vector(ui, "shape/to", "To", cone->to, extent, "Middle of the other end") || is_changed;
+        is_changed = number(ui, "shape/from radius", "Radius there", cone->from_radius, extent, "At the first end") || is_changed;
+        is_changed = number(ui, "shape/to radius", "and there", cone->to_radius, extent, "At the other end") || is_changed;
+        is_changed = check(ui, "shape/capped", "Closed", cone->is_capped, "Whether discs close its ends") || is_changed;
+        if (cone->from == cone->to || cone->from_radius < 0 || cone->to_radius < 0 ||
+            (cone->from_radius == 0 && cone->to_radius == 0)) {
+            *cone = before;
+        }
+        return is_changed;
+    }
+    if (auto* torus = std::get_if<Torus>(&shape)) {
+        const Torus before = *torus;
+        bool is_changed = vector(ui, "shape/center", "Centre", torus->center, extent, "Of the torus");
+        is_changed = vector(ui, "shape/axis", "Axis", torus->axis, 1, "Of any length but zero") || is_changed;
+        is_changed = positive_number(ui, "shape/radius", "Ring", torus->major_radius, extent, "From the centre to the middle of the tube") || is_changed;
+        is_changed = positive_number(ui, "shape/tube", "Tube", torus->minor_radius, extent, "Radius of the tube") || is_changed;
+        if (length(torus->axis) == 0) {
+            *torus = before;
+        }
+        return is_changed;
+    }
+    if (auto* quadric = std::get_if<Quadric>(&shape)) {
+        static const char* names[] = {"xx", "yy", "zz", "xy", "yz", "zx", "x", "y", "z", "1"};
+        bool is_changed = false;
+        const Quadric before = *quadric;
+        for (std::size_t i = 0; i < 10; ++i) {
+            is_changed = number(ui, std::string("shape/") + names[i], names[i], quadric->coefficients[i], 1,
+                                "Coefficient of this in the sum that is zero on the surface") ||
+                         is_changed;
+        }
+        if (std::all_of(quadric->coefficients.begin(), quadric->coefficients.begin() + 9, [](double a) { return a == 0; })) {
+            *quadric = before;
+        }
+        return is_changed;
+    }
+    if (auto* implicit = std::get_if<ImplicitSurface>(&shape)) {
+        return text(ui, "shape/expression", "Zero of", implicit->expression, "An expression of x, y and z");
+    }
+    if (const auto* mesh = std::get_if<MeshSurface>(&shape)) {
+        ImGui::TextWrapped("%s", mesh->mesh->path.c_str());
+    } else if (const auto* bezier = std::get_if<BezierSurface>(&shape)) {
+        ImGui::TextWrapped("%s", bezier->mesh->path.c_str());
+    }
+    return false;
+}
+
+bool edit(Ui& ui, Isosurfaces& isosurfaces) {
+    std::vector<double> values = isosurfaces.values;
+    bool is_changed = false;
+    if (number_list(ui, "isosurface/values", "Values", values, "What the field is there; several are separated by blanks") && !values.empty()) {
+        isosurfaces.values = values;
+        is_changed = true;
+    }
+    const std::optional<ItemId> item = ui.model().selection();
+    const std::optional<std::string>& own = ui.scene().surfaces[item->index].field;
+    const std::optional<FieldRange> range = ui.bench.range(own ? own : ui.scene().field);
+    if (range && range->lower < range->upper) {
+        for (std::size_t i = 0; i < isosurfaces.values.size() && i < 8; ++i) {
+            const std::string label = std::string("##value").append(std::to_string(i));
+            double value = isosurfaces.values[i];
+            if (slider(ui, "isosurface/value" + std::to_string(i), label.c_str(), value, range->lower, range->upper,
+                       "Moves this value through the range of the field")) {
+                // Neighbours are passed only in the list above: their order is that of the sliders.
+                const double least = i > 0 ? std::nextafter(isosurfaces.values[i - 1], value) : range->lower;
+                const double most = i + 1 < isosurfaces.values.size() ? std::nextafter(isosurfaces.values[i + 1], value) : range->upper;
+                isosurfaces.values[i] = std::clamp(value, std::min(least, most), std::max(least, most));
+                is_changed = true;
+            }
+        }
+    }
+    return is_changed;
+}
+
+} // namespace
+
+bool edit_geometry(Ui& ui, SceneSurface& surface) {
+    if (auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
+        return edit(ui, *plane);
+    }
+    if (auto* boundary = std::get_if<BoundaryFaces>(&surface.geometry)) {
+        return edit(ui, *boundary);
+    }
+    if (auto* elements = std::get_if<ElementFaces>(&surface.geometry)) {
+        return edit(ui, elements->selection);
+    }
+    if (auto* frame = std::get_if<WireFrame>(&surface.geometry)) {
+        return edit(ui, *frame);
+    }
+    if (auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+        return edit(ui, *shape);
+    }
+    if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+        return edit(ui, *isosurfaces);
+    }
+    return false;
+}
+
+bool edit_light(Ui& ui, Light& light) {
+    const bool is_point = light.type == Light::Type::point;
+    Vector place = light.vector;
+    bool is_changed = false;
+    if (vector(ui, "light/place", is_point ? "Place" : "Direction", place, is_point ? ui.model().volume()->diagonal() : 1,
+               is_point ? "Where the light is" : "In which the light travels") &&
+        (is_point || length(place) > 0)) {
+        light.vector = place;
+        is_changed = true;
+    }
+    return color(ui, "light/color", "Colour", light.color, "Of the light") || is_changed;
+}
+
+} // namespace elvis::view

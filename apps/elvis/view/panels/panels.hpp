@@ -1,0 +1,40 @@
+/**
+ * @file panels.hpp
+ * The parts of the window. Each draws one thing from the model, and changes it through the model.
+ */
+#pragma once
+
+#include "../ui.hpp"
+
+namespace elvis::view {
+
+void draw_menu(Ui& ui);
+/** List of items, and what can be done with them. */
+void draw_items(Ui& ui);
+/** Properties of the selected item. */
+void draw_item_editor(Ui& ui);
+/** Field, colours, lines and light that items take if they have none of their own. */
+void draw_scene_editor(Ui& ui);
+void draw_camera(Ui& ui);
+void draw_picked(Ui& ui);
+void draw_statistics(Ui& ui);
+/** Which picture is on the screen, and what is being done. */
+void draw_status(Ui& ui);
+void draw_time(Ui& ui);
+/** Whichever is open. */
+void draw_dialogs(Ui& ui);
+
+/** Of parts of items; each returns whether something changed. `name` is for tests. */
+bool edit_color_map(Ui& ui, const std::string& name, SceneColorMap& map, const std::optional<std::string>& field);
+bool edit_contours(Ui& ui, const std::string& name, std::optional<SceneContours>& contours);
+bool edit_mesh_lines(Ui& ui, const std::string& name, std::optional<SceneLineStyle>& lines);
+bool edit_volume_rendering(Ui& ui, SceneVolumeRendering& rendering);
+bool edit_geometry(Ui& ui, SceneSurface& surface);
+bool edit_light(Ui& ui, Light& light);
+
+/** Keys and what they do, for people. */
+const std::vector<std::pair<const char*, const char*>>& shortcut_texts();
+/** Called once a frame. */
+void handle_shortcuts(Ui& ui);
+
+} // namespace elvis::view

@@ -1,0 +1,273 @@
+#include "session.hpp"
+
+#include "camera_motion.hpp"
+
+#include <core/base/error.hpp>
+#include <core/expression/expression.hpp>
+#include <core/scene/frame_request.hpp>
+#include <core/scene/png_file.hpp>
+#include <core/scene/resolve.hpp>
+#include <core/scene/scene_annotation.hpp>
+#include <core/scene/surface_distance.hpp>
+
+#include "../volume_argument.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <random>
+
+namespace elvis::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/** The same picture with more pixels, each a copy of the nearest. */
+Frame stretched(const Frame& frame, std::uint32_t width, std::uint32_t height) {
+    Frame result;
+    result.width = width;
+    result.height = height;
+    result.counts = frame.counts;
+    result.special_values = frame.special_values;
+    result.color.resize(std::size_t{4} * width * height);
+    for (std::uint32_t row = 0; row < height; ++row) {
+        const auto from_row = static_cast<std::size_t>(std::uint64_t{row} * frame.height / height);
+        for (std::uint32_t column = 0; column < width; ++column) {
+            const auto from = 4 * (from_row * frame.width + static_cast<std::size_t>(std::uint64_t{column} * frame.width / width));
+            std::copy_n(frame.color.begin() + static_cast<std::ptrdiff_t>(from), 4,
+                        result.color.begin() + static_cast<std::ptrdiff_t>(4 * (std::size_t{row} * width + column)));
+        }
+    }
+    return result;
+}
+
+std::vector<std::uint8_t> shown_bytes(const Frame& frame) {
+    std::vector<std::uint8_t> bytes(frame.color.size());
+    constexpr double grey = 0.5;
+    for (std::size_t pixel = 0; pixel < frame.color.size(); pixel += 4) {
+        const double alpha = std::clamp(frame.color[pixel + 3], 0.0, 1.0);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const double value = std::clamp(frame.color[pixel + channel], 0.0, 1.0);
+            const double shown = alpha >= 1 ? value : alpha * value + (1 - alpha) * grey;
+            bytes[pixel + channel] = static_cast<std::uint8_t>(std::lround(255 * shown));
+        }
+        bytes[pixel + 3] = 255;
+    }
+    return bytes;
+}
+
+void write_annotation(const Scene& scene, const FrameRequest& request, Frame& frame, const RuntimeVolume& volume,
+                      std::vector<std::string>& remarks) {
+    if (!scene.annotation) {
+        return;
+    }
+    for (const std::string& name : annotate(frame, make_annotation_request(*scene.annotation, request, frame, volume))) {
+        remarks.push_back("annotation: there is no room for the " + name);
+    }
+}
+
+} // namespace
+
+Session::Session(const std::string& device, bool validation) : m_device(std::make_unique<Device>(device, validation)) {}
+Session::~Session() = default;
+
+VolumeFacts Session::open(const Scene& scene) {
+    const std::string key = scene.volume + "\n" + scene.plugin + "\n" + scene.plugin_options;
+    const Precision precision = scene.precision.value_or("float32") == "float64" ? Precision::float64 : Precision::float32;
+    if (!m_volume || key != m_key) {
+        if (scene.volume.empty()) {
+            throw Error("the scene names no volume");
+        }
+        auto volume = std::make_unique<RuntimeVolume>(
+            commands::open_volume(m_registry, scene.volume, scene.plugin, scene.plugin_options));
+        auto renderer = std::make_unique<Renderer>(*m_device, *volume, precision, &m_control);
+        m_prober.reset();
+        m_renderer = std::move(renderer);
+        m_volume = std::move(volume);
+        m_precision = precision;
+        m_key = key;
+    }
+    return facts_of(*m_volume, m_renderer->bounds());
+}
+
+void Session::need_precision(const Scene& scene) {
+    if (!m_volume) {
+        throw Error("no volume is open");
+    }
+    const Precision precision = scene.precision.value_or("float32") == "float64" ? Precision::float64 : Precision::float32;
+    if (!m_renderer || precision != m_precision) {
+        m_renderer.reset();
+        m_renderer = std::make_unique<Renderer>(*m_device, *m_volume, precision, &m_control);
+        m_precision = precision;
+    }
+}
+
+Picture Session::draw(const Scene& scene, double scale) {
+    need_precision(scene);
+    const Clock::time_point start = Clock::now();
+    Scene smaller = scene;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        smaller.size[axis] = std::max(1u, static_cast<std::uint32_t>(std::lround(scale * scene.size[axis])));
+    }
+    FrameRequest request = make_frame_request(smaller, *m_volume, *m_renderer);
+    request.with_buffers = false;
+    Frame frame = m_renderer->render(request);
+    Picture picture;
+    picture.milliseconds = milliseconds_since(start);
+    if (scale < 1 && scene.annotation) {
+        frame = stretched(frame, scene.size[0], scene.size[1]);
+    }
+    write_annotation(scene, request, frame, *m_volume, picture.remarks);
+    picture.width = frame.width;
+    picture.height = frame.height;
+    picture.rgba = shown_bytes(frame);
+    picture.counts = frame.counts;
+    picture.camera = request.camera;
+    return picture;
+}
+
+std::vector<std::string> Session::save_picture(const Scene& scene, const std::string& path, int bits) {
+    need_precision(scene);
+    FrameRequest request = make_frame_request(scene, *m_volume, *m_renderer);
+    request.with_buffers = false;
+    Frame frame = m_renderer->render(request);
+    std::vector<std::string> remarks;
+    write_annotation(scene, request, frame, *m_volume, remarks);
+    write_png(frame, path, bits);
+    return remarks;
+}
+
+FieldRange Session::range(const Scene& scene, const std::optional<std::string>& field) {
+    need_precision(scene);
+    const std::optional<std::string> text = field ? std::optional(with_distances(*field, scene.surfaces)) : std::nullopt;
+    return m_renderer->field_range(choose_field(*m_volume, text), scene.time_step);
+}
+
+Scene Session::first_scene(const std::string& path) {
+    Scene scene;
+    scene.volume = path;
+    scene.annotation = SceneAnnotation{};
+    if (m_volume->dimension() == 2) {
+        scene.surfaces.push_back({ElementFaces{}});
+    } else if (m_volume->n_faces() > 0) {
+        scene.surfaces.push_back({BoundaryFaces{}});
+        scene.lighting = Lighting{};
+    } else {
+        scene.surfaces.push_back({central_plane(m_renderer->bounds())});
+    }
+    return scene;
+}
+
+Picked Session::pick(const Scene& scene, const std::array<double, 2>& place) {
+    need_precision(scene);
+    // One pixel with the ray of that place: s and v of a picture of one pixel are 2 shift_x and -2 shift_y.
+    FrameRequest request = make_frame_request(scene, *m_volume, *m_renderer);
+    const double width = request.width, height = request.height;
+    const Ray ray = ray_through(request.camera, {width, height}, place);
+    request.camera.image_shift = {((place[0] + request.camera.image_shift[0]) / width - 0.5) * width / height,
+                                  (place[1] + request.camera.image_shift[1]) / height - 0.5};
+    request.width = request.height = 1;
+    request.volume.reset(); // Light has no place.
+    const Frame frame = m_renderer->render(request);
+    Picked picked;
+    picked.is_hit = std::isfinite(frame.depth[0]);
+    if (!picked.is_hit) {
+        return picked;
+    }
+    picked.depth = frame.depth[0];
+    picked.position = ray.at(picked.depth);
+    picked.normal = {frame.normal[0], frame.normal[1], frame.normal[2]};
+    picked.shown_value = frame.value[0];
+    if (frame.element[0] >= 0) {
+        picked.element = frame.element[0];
+    }
+    if (m_volume->dimension() == 2) {
+        picked.remark = "Only volumes of three dimensions can be probed.";
+        return picked;
+    }
+    if (!m_prober) {
+        m_prober = std::make_unique<Prober>(*m_volume);
+    }
+    std::vector<std::shared_ptr<const Expression>> expressions;
+    for (const char* text : {"jacobian", "scaled_jacobian", "order"}) {
+        expressions.push_back(std::make_shared<const Expression>(text, m_volume->fields(), m_volume->dimension()));
+    }
+    // A point of the boundary may be outside by what single precision is off: then a little deeper, or less deep.
+    const std::array<double, 6> bounds = m_renderer->bounds();
+    const double diagonal = std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
+    for (const double shift : {0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4}) {
+        const std::array<double, 3> position = ray.at(picked.depth + shift * diagonal);
+        const ProbedPoint point = m_prober->probe(std::span(&position, 1), scene.time_step, expressions).front();
+        if (!point.element) {
+            continue;
+        }
+        picked.position = position;
+        picked.also = point.also;
+        picked.xi = point.xi;
+        if (picked.element && *picked.element != *point.element) {
+            picked.also.push_back(*picked.element);
+        }
+        picked.element = point.element;
+        for (std::size_t i = 0; i < point.fields.size(); ++i) {
+            const FieldInfo& info = m_volume->fields()[i];
+            picked.fields.push_back({info.name, info.unit, point.fields[i].values, point.fields[i].gradients,
+                                     point.fields[i].gradient_is_estimated});
+        }
+        picked.jacobian = point.expressions[0].value;
+        picked.scaled_jacobian = point.expressions[1].value;
+        picked.order = point.expressions[2].value;
+        std::sort(picked.also.begin(), picked.also.end());
+        return picked;
+    }
+    picked.remark = "The point lies in no element.";
+    return picked;
+}
+
+std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count) {
+    need_precision(scene);
+    if (m_volume->dimension() == 2) {
+        throw Error("only volumes of three dimensions can be sampled");
+    }
+    if (!m_prober) {
+        m_prober = std::make_unique<Prober>(*m_volume);
+    }
+    const std::string text = with_distances(field.value_or(m_volume->fields().at(0).name), scene.surfaces);
+    const FieldChoice choice = choose_field(*m_volume, text);
+    std::vector<std::shared_ptr<const Expression>> expressions;
+    if (choice.expression) {
+        expressions.push_back(choice.expression);
+    }
+    const std::array<double, 6> bounds = m_renderer->bounds();
+    std::mt19937 random(1); // The same points each time.
+    std::vector<std::array<double, 3>> positions(count);
+    for (auto& position : positions) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            position[axis] = std::uniform_real_distribution<double>(bounds[axis], bounds[axis + 3])(random);
+        }
+    }
+    std::vector<double> values;
+    for (const ProbedPoint& point : m_prober->probe(positions, scene.time_step, expressions)) {
+        if (!point.element) {
+            continue;
+        }
+        if (choice.expression) {
+            values.push_back(point.expressions[0].value);
+            continue;
+        }
+        const std::vector<double>& components = point.fields[choice.field].values;
+        double value = 0;
+        for (const double component : components) {
+            value = std::hypot(value, component);
+        }
+        values.push_back(choice.component < 0 ? value : components[static_cast<std::size_t>(choice.component)]);
+    }
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    return values;
+}
+
+} // namespace elvis::view

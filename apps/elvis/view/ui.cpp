@@ -1,0 +1,262 @@
+#include "ui.hpp"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace elvis::view {
+
+namespace {
+
+/** "u[0]" */
+std::string component_name(const std::string& field, std::uint32_t component) {
+    std::string name = field;
+    name += '[';
+    name += std::to_string(component);
+    name += ']';
+    return name;
+}
+
+} // namespace
+
+void explain(Ui& ui, const std::string& name, const char* help) {
+    const ImVec2 least = ImGui::GetItemRectMin();
+    const ImVec2 most = ImGui::GetItemRectMax();
+    if (ImGui::IsItemVisible()) {
+        ui.places[name] = {least.x, least.y, most.x, most.y};
+    }
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && help[0] != '\0') {
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+        ImGui::TextUnformatted(help);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+}
+
+bool button(Ui& ui, const std::string& name, const char* label, const char* help) {
+    const bool is_pressed = ImGui::Button(label);
+    explain(ui, name, help);
+    return is_pressed;
+}
+
+bool small_button(Ui& ui, const std::string& name, const char* label, const char* help) {
+    const bool is_pressed = ImGui::SmallButton(label);
+    explain(ui, name, help);
+    return is_pressed;
+}
+
+bool check(Ui& ui, const std::string& name, const char* label, bool& value, const char* help) {
+    const bool is_changed = ImGui::Checkbox(label, &value);
+    explain(ui, name, help);
+    return is_changed;
+}
+
+bool number(Ui& ui, const std::string& name, const char* label, double& value, double extent, const char* help) {
+    double shown = value;
+    ImGui::DragScalar(label, ImGuiDataType_Double, &shown, static_cast<float>(std::max(extent, 1e-30) / 400), nullptr, nullptr,
+                      "%.6g");
+    explain(ui, name, help);
+    if (!std::isfinite(shown) || shown == value) {
+        return false;
+    }
+    value = shown;
+    return true;
+}
+
+bool positive_number(Ui& ui, const std::string& name, const char* label, double& value, double extent, const char* help) {
+    double shown = value;
+    if (!number(ui, name, label, shown, extent, help) || !(shown > 0)) {
+        return false;
+    }
+    value = shown;
+    return true;
+}
+
+bool slider(Ui& ui, const std::string& name, const char* label, double& value, double lower, double upper, const char* help) {
+    double shown = value;
+    ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &lower, &upper, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+    explain(ui, name, help);
+    if (!std::isfinite(shown) || shown == value) {
+        return false;
+    }
+    value = shown;
+    return true;
+}
+
+bool vector(Ui& ui, const std::string& name, const char* label, std::array<double, 3>& value, double extent, const char* help) {
+    std::array<double, 3> shown = value;
+    ImGui::DragScalarN(label, ImGuiDataType_Double, shown.data(), 3, static_cast<float>(std::max(extent, 1e-30) / 400), nullptr,
+                       nullptr, "%.5g");
+    explain(ui, name, help);
+    const bool is_finite = std::all_of(shown.begin(), shown.end(), [](double x) { return std::isfinite(x); });
+    if (!is_finite || shown == value) {
+        return false;
+    }
+    value = shown;
+    return true;
+}
+
+bool color(Ui& ui, const std::string& name, const char* label, std::array<double, 3>& rgb, const char* help) {
+    std::array<float, 3> shown{};
+    std::transform(rgb.begin(), rgb.end(), shown.begin(), [](double x) { return static_cast<float>(x); });
+    const bool is_changed = ImGui::ColorEdit3(label, shown.data(), ImGuiColorEditFlags_NoInputs);
+    explain(ui, name, help);
+    if (is_changed) {
+        std::transform(shown.begin(), shown.end(), rgb.begin(), [](float x) { return std::clamp(double{x}, 0.0, 1.0); });
+    }
+    return is_changed;
+}
+
+bool optional_color(Ui& ui, const std::string& name, const char* label, std::optional<std::array<double, 3>>& rgb,
+                    const std::array<double, 3>& start, const char* help) {
+    bool has_color = rgb.has_value();
+    ImGui::PushID(name.c_str());
+    bool is_changed = check(ui, name, label, has_color, help);
+    if (is_changed) {
+        rgb = has_color ? std::optional(start) : std::nullopt;
+    }
+    if (rgb) {
+        ImGui::SameLine();
+        is_changed = color(ui, name + ".color", "##color", *rgb, help) || is_changed;
+    }
+    ImGui::PopID();
+    return is_changed;
+}
+
+bool text(Ui& ui, const std::string& name, const char* label, std::string& value, const char* help, const char* hint) {
+    const ImGuiID id = ImGui::GetID(label);
+    const int frame = ImGui::GetFrameCount();
+    // What was being written in a control that has gone meanwhile is forgotten.
+    auto written = ui.written.find(id);
+    if (written != ui.written.end() && written->second.frame < frame - 1) {
+        ui.written.erase(written);
+        written = ui.written.end();
+    }
+    std::string shown = written != ui.written.end() ? written->second.text : value;
+    ImGui::InputTextWithHint(label, hint, &shown, ImGuiInputTextFlags_AutoSelectAll);
+    const bool is_active = ImGui::IsItemActive();
+    explain(ui, name, is_active ? "" : help);
+    if (is_active) {
+        ui.written[id] = {shown, frame};
+        return false;
+    }
+    if (written == ui.written.end()) {
+        return false;
+    }
+    ui.written.erase(written);
+    const bool is_changed = shown != value;
+    value = shown;
+    return is_changed;
+}
+
+bool number_list(Ui& ui, const std::string& name, const char* label, std::vector<double>& values, const char* help) {
+    std::string shown;
+    for (const double value : values) {
+        char one[40];
+        std::snprintf(one, sizeof one, "%.9g", value);
+        shown += shown.empty() ? "" : " ";
+        shown += one;
+    }
+    if (!text(ui, name, label, shown, help, "0.1 0.2 0.5")) {
+        return false;
+    }
+    std::vector<double> list;
+    std::replace(shown.begin(), shown.end(), ',', ' ');
+    const char* at = shown.c_str();
+    while (true) {
+        char* end = nullptr;
+        const double value = std::strtod(at, &end);
+        if (end == at) {
+            break;
+        }
+        if (std::isfinite(value)) {
+            list.push_back(value);
+        }
+        at = end;
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    if (list == values) {
+        return false;
+    }
+    values = list;
+    return true;
+}
+
+bool choice(Ui& ui, const std::string& name, const char* label, std::size_t& chosen, const std::vector<std::string>& words,
+            const char* help) {
+    bool is_changed = false;
+    const bool is_open = ImGui::BeginCombo(label, chosen < words.size() ? words[chosen].c_str() : "");
+    explain(ui, name, is_open ? "" : help);
+    if (is_open) {
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            if (ImGui::Selectable(words[i].c_str(), i == chosen) && i != chosen) {
+                chosen = i;
+                is_changed = true;
+            }
+            explain(ui, name + "/" + words[i], "");
+        }
+        ImGui::EndCombo();
+    }
+    return is_changed;
+}
+
+bool field_choice(Ui& ui, const std::string& name, const char* label, std::optional<std::string>& field, bool may_be_scenes,
+                  const char* help) {
+    bool is_changed = false;
+    ImGui::PushID(name.c_str());
+    const std::vector<FieldInfo>& fields = ui.model().volume()->fields;
+    const std::string first = fields.empty() ? std::string() : fields.front().name;
+    const std::string shown = field ? *field : may_be_scenes ? "(the scene's)" : first;
+    const float arrow = ImGui::GetFrameHeight();
+    std::string typed = shown;
+    ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - arrow);
+    if (text(ui, name, "##text", typed, help) && !typed.empty()) {
+        field = typed;
+        is_changed = true;
+    }
+    ImGui::SameLine(0, 0);
+    const bool is_open = ImGui::BeginCombo("##list", nullptr, ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
+    explain(ui, name + ".list", is_open ? "" : "Fields of the volume, and expressions made of them");
+    if (is_open) {
+        const auto offer = [&](const std::optional<std::string>& value, const std::string& words) {
+            if (ImGui::Selectable(words.c_str(), value == field) && value != field) {
+                field = value;
+                is_changed = true;
+            }
+            explain(ui, name + "/" + words, "");
+        };
+        if (may_be_scenes) {
+            offer(std::nullopt, "(the scene's)");
+        }
+        for (const FieldInfo& info : fields) {
+            offer(info.name, info.name);
+            for (std::uint32_t c = 0; info.n_components > 1 && c < info.n_components; ++c) {
+                const std::string component = component_name(info.name, c);
+                offer(component, component);
+            }
+        }
+        for (const FieldInfo& info : fields) {
+            if (info.n_components == 3) {
+                offer("norm(curl(" + info.name + "))", "norm(curl(" + info.name + "))");
+                offer("q_criterion(" + info.name + ")", "q_criterion(" + info.name + ")");
+            } else if (info.n_components == 1) {
+                offer("norm(grad(" + info.name + "))", "norm(grad(" + info.name + "))");
+            }
+        }
+        for (const char* expression : {"scaled_jacobian", "order", "element"}) {
+            offer(expression, expression);
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::TextUnformatted(label);
+    ImGui::PopID();
+    return is_changed;
+}
+
+} // namespace elvis::view

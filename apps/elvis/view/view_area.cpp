@@ -1,0 +1,207 @@
+#include "view_area.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace elvis::view {
+
+namespace {
+
+/** A press that moves less than that, in units of ImGui, is a click. */
+constexpr double click_distance = 4;
+/** After the wheel has turned, the next turn may follow. */
+constexpr double zoom_rest_seconds = 0.3;
+constexpr float handle_radius = 7;
+
+ImU32 rgba(int red, int green, int blue, int alpha = 255) { return IM_COL32(red, green, blue, alpha); }
+
+} // namespace
+
+bool ViewArea::is_moving() const {
+    return (m_drag != Drag::none && m_dragged >= click_distance) ||
+           (m_last_zoom >= 0 && ImGui::GetTime() - m_last_zoom < zoom_rest_seconds);
+}
+
+void ViewArea::begin_drag(Ui& ui, const PicturePoint& place) {
+    m_dragged = 0;
+    m_handle.reset();
+    const ImGuiIO& io = ImGui::GetIO();
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) {
+        m_drag = Drag::pan;
+    } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
+        m_drag = Drag::zoom;
+    } else {
+        m_drag = io.KeyShift ? Drag::pan : io.KeyCtrl ? Drag::roll : Drag::orbit;
+    }
+    const std::optional<ItemId> item = ui.model().selection();
+    if (m_drag != Drag::orbit || !item) {
+        return;
+    }
+    const Camera camera = ui.model().camera();
+    const std::vector<Handle> handles = handles_of(ui.scene(), *item, *ui.model().volume());
+    double nearest = 1.6 * handle_radius * ui.scale * m_pixels;
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        if (const auto at = project(camera, m_size, handles[i].position)) {
+            const double distance = std::hypot((*at)[0] - place[0], (*at)[1] - place[1]);
+            if (distance < nearest) {
+                nearest = distance;
+                m_handle = i;
+                m_drag = Drag::handle;
+                m_before = ui.scene();
+                m_taken = place;
+            }
+        }
+    }
+}
+
+void ViewArea::go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by) {
+    Model& model = ui.model();
+    const Camera camera = model.camera();
+    switch (m_drag) {
+    case Drag::orbit:
+        model.set_camera(orbited(camera, m_size, by));
+        break;
+    case Drag::pan:
+        model.set_camera(panned(camera, m_size, by));
+        break;
+    case Drag::zoom:
+        model.set_camera(zoomed(camera, m_size, {0.5 * m_size.width, 0.5 * m_size.height},
+                                std::exp(-3 * (by[0] - by[1]) / m_size.height)));
+        break;
+    case Drag::roll:
+        model.set_camera(rolled(camera, 180 * by[0] / m_size.width));
+        break;
+    case Drag::handle: {
+        const std::optional<ItemId> item = model.selection();
+        if (item && m_handle) {
+            const std::vector<Handle> handles = handles_of(m_before, *item, *model.volume());
+            const Vector position = dragged_to(handles[*m_handle], camera, m_size, m_taken, place);
+            Scene scene = with_moved_handle(m_before, *item, *model.volume(), *m_handle, position);
+            scene.camera = model.scene().camera;
+            scene.size = model.scene().size;
+            model.edit("move " + item_kind_name(scene, *item), std::move(scene));
+        }
+        break;
+    }
+    case Drag::none:
+        break;
+    }
+}
+
+void ViewArea::draw_handles(Ui& ui) {
+    const std::optional<ItemId> item = ui.model().selection();
+    if (!item) {
+        return;
+    }
+    const Camera camera = ui.model().camera();
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const auto on_screen = [&](const PicturePoint& place) {
+        return ImVec2(static_cast<float>(m_box.x + place[0]) / m_pixels, static_cast<float>(m_box.y + place[1]) / m_pixels);
+    };
+    const std::vector<Handle> handles = handles_of(ui.scene(), *item, *ui.model().volume());
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const float radius = handle_radius * ui.scale;
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        const auto place = project(camera, m_size, handles[i].position);
+        if (!place) {
+            continue;
+        }
+        const ImVec2 at = on_screen(*place);
+        if (handles[i].tied_to) {
+            if (const auto end = project(camera, m_size, *handles[i].tied_to)) {
+                list->AddLine(on_screen(*end), at, rgba(0, 0, 0), 4 * ui.scale);
+                list->AddLine(on_screen(*end), at, rgba(255, 200, 40), 2 * ui.scale);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        const auto place = project(camera, m_size, handles[i].position);
+        if (!place) {
+            continue;
+        }
+        const ImVec2 at = on_screen(*place);
+        const bool is_near = std::hypot(mouse.x - at.x, mouse.y - at.y) < 1.6f * radius;
+        const bool is_held = m_drag == Drag::handle && m_handle == i;
+        list->AddCircleFilled(at, radius + 2 * ui.scale, rgba(0, 0, 0, 180));
+        list->AddCircleFilled(at, radius, is_held || is_near ? rgba(255, 255, 255) : rgba(255, 200, 40));
+        ui.places[std::string("handle/") + handles[i].name] = {at.x - radius, at.y - radius, at.x + radius, at.y + radius};
+        if (is_near && !is_held && m_drag == Drag::none && ImGui::IsItemHovered()) {
+            ImGui::SetTooltip("%s", handles[i].help);
+        }
+    }
+}
+
+void ViewArea::draw_state(Ui& ui) const {
+    const Workbench& bench = ui.bench;
+    std::string words;
+    ImU32 dot = rgba(230, 160, 30);
+    if (bench.state() == ShownState::full && bench.is_settled()) {
+        words = "full";
+        dot = rgba(60, 180, 75);
+    } else if (bench.state() == ShownState::reduced) {
+        char text[60];
+        std::snprintf(text, sizeof text, "reduced 1:%.3g", 1 / bench.shown_scale());
+        words = text;
+    } else if (bench.state() == ShownState::full) {
+        words = "drawing";
+    } else {
+        words = ui.model().volume() ? "drawing" : "";
+    }
+    if (words.empty()) {
+        return;
+    }
+    const float pad = 6 * ui.scale;
+    const float height = ImGui::GetTextLineHeight();
+    const ImVec2 corner(static_cast<float>(m_box.x) / m_pixels + pad,
+                        static_cast<float>(m_box.y + m_box.height) / m_pixels - height - 3 * pad);
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(corner, ImVec2(corner.x + size.x + height + 3 * pad, corner.y + height + 2 * pad), rgba(30, 30, 30, 200),
+                        pad);
+    list->AddCircleFilled(ImVec2(corner.x + pad + 0.5f * height, corner.y + pad + 0.5f * height), 0.35f * height, dot);
+    list->AddText(ImVec2(corner.x + 2 * pad + height, corner.y + pad), rgba(255, 255, 255), words.c_str());
+}
+
+void ViewArea::draw(Ui& ui, float framebuffer_scale) {
+    m_pixels = framebuffer_scale;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    m_box = {static_cast<int>(std::lround(corner.x * m_pixels)), static_cast<int>(std::lround(corner.y * m_pixels)),
+             std::max(1, static_cast<int>(std::lround(room.x * m_pixels))),
+             std::max(1, static_cast<int>(std::lround(room.y * m_pixels)))};
+    m_size = {static_cast<double>(m_box.width), static_cast<double>(m_box.height)};
+    ImGui::InvisibleButton("view", ImVec2(std::max(1.0f, room.x), std::max(1.0f, room.y)),
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
+                               ImGuiButtonFlags_MouseButtonRight);
+    explain(ui, "view", "");
+    Model& model = ui.model();
+    if (!model.volume()) {
+        return;
+    }
+    const ImGuiIO& io = ImGui::GetIO();
+    const PicturePoint place = {double{io.MousePos.x} * m_pixels - m_box.x, double{io.MousePos.y} * m_pixels - m_box.y};
+    if (ImGui::IsItemActivated()) {
+        begin_drag(ui, place);
+    }
+    if (ImGui::IsItemActive() && m_drag != Drag::none) {
+        m_dragged += std::hypot(io.MouseDelta.x, io.MouseDelta.y);
+        if (m_dragged >= click_distance && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+            go_on(ui, place, {io.MouseDelta.x * m_pixels, io.MouseDelta.y * m_pixels});
+        }
+    }
+    if (ImGui::IsItemDeactivated()) {
+        if (m_drag == Drag::orbit && m_dragged < click_distance) {
+            ui.bench.pick(place);
+        }
+        m_drag = Drag::none;
+    }
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+        model.set_camera(zoomed(model.camera(), m_size, place, std::pow(0.88, double{io.MouseWheel})));
+        m_last_zoom = ImGui::GetTime();
+    }
+    draw_handles(ui);
+    draw_state(ui);
+}
+
+} // namespace elvis::view

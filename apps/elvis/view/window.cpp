@@ -1,0 +1,172 @@
+#include "window.hpp"
+
+#include <core/annotation/font.hpp>
+#include <core/base/error.hpp>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+namespace elvis::view {
+
+namespace {
+
+std::string glfw_reason() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text != nullptr ? text : "unknown";
+}
+
+/** The first of the fonts for annotation that is there; else ImGui's own, which has no Greek letters. */
+void load_font(float scale) {
+    const float size = std::round(14 * scale);
+    ImFontAtlas* atlas = ImGui::GetIO().Fonts;
+    static const ImWchar ranges[] = {0x20, 0xff, 0x370, 0x3ff, 0x2010, 0x2027, 0x2190, 0x21ff, 0x2200, 0x22ff, 0};
+    for (const std::string& path : default_font_paths()) {
+        if (std::filesystem::exists(path) && atlas->AddFontFromFileTTF(path.c_str(), size, nullptr, ranges) != nullptr) {
+            return;
+        }
+    }
+    ImFontConfig config;
+    config.SizePixels = size;
+    atlas->AddFontDefault(&config);
+}
+
+void set_style(float scale, bool is_dark) {
+    ImGuiStyle style;
+    if (is_dark) {
+        ImGui::StyleColorsDark(&style);
+    } else {
+        ImGui::StyleColorsLight(&style);
+    }
+    style.WindowRounding = 0;
+    style.FrameRounding = 3;
+    style.GrabRounding = 3;
+    style.WindowBorderSize = 1;
+    style.ScaleAllSizes(scale);
+    ImGui::GetStyle() = style;
+}
+
+} // namespace
+
+Window::Window(const Settings& settings, const std::string& device, bool validation) {
+    if (glfwInit() != GLFW_TRUE) {
+        const char* display = std::getenv("DISPLAY");
+        const bool has_display = display != nullptr && *display != '\0';
+        throw Error("window", (has_display ? "the display '" + std::string(display) + "' cannot be opened"
+                                           : std::string("there is no display ($DISPLAY is not set)")) +
+                                  ": " + glfw_reason() + ". Without one, draw with elvis render, or use xvfb-run");
+    }
+    try {
+        if (glfwVulkanSupported() != GLFW_TRUE) {
+            throw Error("window", "this machine has no Vulkan driver; without a GPU, install a driver for the CPU (Debian package "
+                                  "mesa-vulkan-drivers)");
+        }
+        glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+        m_window = glfwCreateWindow(settings.window_size[0], settings.window_size[1], "ElVis", nullptr, nullptr);
+        if (m_window == nullptr) {
+            throw Error("window", "it cannot be opened: " + glfw_reason());
+        }
+        float content_x = 1, content_y = 1;
+        glfwGetWindowContentScale(m_window, &content_x, &content_y);
+        // Where the framebuffer is finer than the window's units, ImGui scales by itself.
+        m_scale = std::max(0.5f, content_x / framebuffer_scale()) * settings.text_scale;
+
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = nullptr;
+        ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+        set_style(m_scale, settings.is_dark);
+        load_font(m_scale * framebuffer_scale());
+        ImGui::GetIO().FontGlobalScale = 1 / framebuffer_scale();
+
+        // ImGui's own callbacks call these after themselves.
+        glfwSetWindowUserPointer(m_window, this);
+        glfwSetCursorPosCallback(m_window, [](GLFWwindow* window, double, double) { on_event(window); });
+        glfwSetMouseButtonCallback(m_window, [](GLFWwindow* window, int, int, int) { on_event(window); });
+        glfwSetScrollCallback(m_window, [](GLFWwindow* window, double, double) { on_event(window); });
+        glfwSetKeyCallback(m_window, [](GLFWwindow* window, int, int, int, int) { on_event(window); });
+        glfwSetCharCallback(m_window, [](GLFWwindow* window, unsigned) { on_event(window); });
+        glfwSetWindowFocusCallback(m_window, [](GLFWwindow* window, int) { on_event(window); });
+        glfwSetFramebufferSizeCallback(m_window, [](GLFWwindow* window, int, int) { on_event(window); });
+        glfwSetWindowRefreshCallback(m_window, [](GLFWwindow* window) { on_event(window); });
+        glfwSetWindowCloseCallback(m_window, [](GLFWwindow* window) { on_event(window); });
+        glfwSetDropCallback(m_window, [](GLFWwindow* window, int count, const char** paths) {
+            auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+            self->m_dropped.insert(self->m_dropped.end(), paths, paths + count);
+            on_event(window);
+        });
+        ImGui_ImplGlfw_InitForVulkan(m_window, true);
+        m_presenter = std::make_unique<Presenter>(m_window, device, validation);
+    } catch (...) {
+        if (ImGui::GetCurrentContext() != nullptr) {
+            if (ImGui::GetIO().BackendPlatformUserData != nullptr) {
+                ImGui_ImplGlfw_Shutdown();
+            }
+            ImGui::DestroyContext();
+        }
+        glfwTerminate();
+        throw;
+    }
+}
+
+Window::~Window() {
+    m_presenter.reset();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(m_window);
+    glfwTerminate();
+}
+
+void Window::on_event(GLFWwindow* window) { static_cast<Window*>(glfwGetWindowUserPointer(window))->m_has_events = true; }
+
+float Window::framebuffer_scale() const {
+    int width = 1, height = 1, pixels_across = 1, pixels_down = 1;
+    glfwGetWindowSize(m_window, &width, &height);
+    glfwGetFramebufferSize(m_window, &pixels_across, &pixels_down);
+    return width > 0 && pixels_across > 0 ? static_cast<float>(pixels_across) / static_cast<float>(width) : 1.0f;
+}
+
+void Window::set_look(bool is_dark) { set_style(m_scale, is_dark); }
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(m_window, title.c_str()); }
+
+std::array<int, 2> Window::size() const {
+    std::array<int, 2> size{};
+    glfwGetWindowSize(m_window, &size[0], &size[1]);
+    return size;
+}
+
+bool Window::wants_to_close() const { return glfwWindowShouldClose(m_window) == GLFW_TRUE; }
+void Window::keep_open() { glfwSetWindowShouldClose(m_window, GLFW_FALSE); }
+
+bool Window::wait(double seconds) {
+    if (seconds > 0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
+    }
+    return std::exchange(m_has_events, false);
+}
+
+void Window::wake() { glfwPostEmptyEvent(); }
+
+std::vector<std::string> Window::dropped() { return std::exchange(m_dropped, {}); }
+
+void Window::begin_frame() {
+    m_presenter->begin_frame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Window::end_frame(const PixelBox& picture) {
+    ImGui::Render();
+    m_presenter->present(ImGui::GetDrawData(), picture, {0.25f, 0.25f, 0.27f, 1.0f});
+}
+
+} // namespace elvis::view

@@ -1,0 +1,59 @@
+/**
+ * @file window.hpp
+ * A window of the desktop, by GLFW, with ImGui in it.
+ */
+#pragma once
+
+#include "presenter.hpp"
+#include "settings.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace elvis::view {
+
+class Window {
+public:
+    /** An Error if there is no display. `text_scale` times what the screen asks for. */
+    Window(const Settings& settings, const std::string& device, bool validation);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /** Units of ImGui for a length of one: grows with the density of the screen and the wish of the user. */
+    float scale() const { return m_scale; }
+    /** Pixels of the framebuffer a unit of ImGui. */
+    float framebuffer_scale() const;
+    Presenter& presenter() { return *m_presenter; }
+
+    void set_look(bool is_dark);
+    void set_title(const std::string& title);
+    std::array<int, 2> size() const;
+    /** The user wants to close it. Asked for again by calling keep_open(). */
+    bool wants_to_close() const;
+    void keep_open();
+    /** Waits for events, at most that long, and handles them. Returns whether there may have been some. */
+    bool wait(double seconds);
+    /** May be called from any thread. */
+    static void wake();
+    /** Files that were dropped onto it since the last call. */
+    std::vector<std::string> dropped();
+
+    void begin_frame();
+    void end_frame(const PixelBox& picture);
+
+private:
+    static void on_event(GLFWwindow* window);
+
+    GLFWwindow* m_window = nullptr;
+    float m_scale = 1;
+    bool m_has_events = true;
+    std::vector<std::string> m_dropped;
+    std::unique_ptr<Presenter> m_presenter;
+};
+
+} // namespace elvis::view

@@ -1,0 +1,321 @@
+#include "workbench.hpp"
+
+#include "../frame_remarks.hpp"
+
+#include <core/base/error.hpp>
+#include <core/scene/write_scene.hpp>
+
+#include <filesystem>
+#include <numeric>
+#include <utility>
+
+namespace elvis::view {
+
+namespace {
+
+/** A hand that stops for a moment has not come to rest: a full picture cannot always be stopped. */
+constexpr std::chrono::milliseconds rest_time{150};
+constexpr std::size_t most_frame_times = 60;
+
+double seconds_between(Workbench::Clock::time_point from, Workbench::Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+} // namespace
+
+double MotionStatistics::frames_per_second() const {
+    const double sum = std::accumulate(frame_seconds.begin(), frame_seconds.end(), 0.0);
+    return sum > 0 ? static_cast<double>(frame_seconds.size()) / sum : 0;
+}
+
+Workbench::Workbench(std::unique_ptr<Session> session, std::function<void()> wake)
+    : m_device_messages([device = &session->device()] { return device->validation_messages(); }),
+      m_worker(std::move(session), std::move(wake)) {}
+
+void Workbench::say(Message::Kind kind, std::string text) {
+    constexpr std::size_t most_messages = 500;
+    m_messages.push_back({kind, std::move(text)});
+    if (m_messages.size() > most_messages) {
+        m_messages.erase(m_messages.begin());
+    }
+}
+
+void Workbench::open(const std::string& path) {
+    try {
+        if (!std::filesystem::exists(path)) {
+            throw Error(path, "there is no such file");
+        }
+        if (is_scene(path)) {
+            Scene scene = read_scene(path);
+            open_scene(std::move(scene), path, path);
+        } else {
+            Scene scene;
+            scene.volume = path;
+            open_scene(std::move(scene), {}, path);
+        }
+    } catch (const std::exception& error) {
+        say(Message::Kind::error, error.what());
+    }
+}
+
+void Workbench::open_scene(Scene scene, std::string file, std::string path) {
+    scene.size = file.empty() ? m_model.scene().size : scene.size;
+    const auto job = [this, scene = std::move(scene), file, path](Session& session) mutable -> FrameWorker::Answer {
+        if (file.empty()) {
+            bool is_foreign = false;
+            try {
+                session.registry().runtime_for(path);
+            } catch (const Error&) {
+                session.registry().converter_for(path); // Says what is wrong if it is nobody's file.
+                is_foreign = true;
+            }
+            if (is_foreign) {
+                return [this, path] { foreign_file = path; };
+            }
+        }
+        VolumeFacts facts = session.open(scene);
+        if (file.empty()) {
+            const std::array<std::uint32_t, 2> size = scene.size;
+            scene = session.first_scene(path);
+            scene.size = size;
+        }
+        return [this, scene = std::move(scene), facts = std::move(facts), file, path]() mutable {
+            ++m_volume_number;
+            m_ranges.clear();
+            m_histograms.clear();
+            m_picked.reset();
+            m_picture = {};
+            m_state = ShownState::nothing;
+            say(Message::Kind::info, "opened " + path + ": " + std::to_string(facts.n_elements) + " elements, " +
+                                         std::to_string(facts.fields.size()) + " fields");
+            try {
+                m_model.open(std::move(scene), std::move(facts), file);
+            } catch (const std::exception& error) {
+                say(Message::Kind::error, error.what());
+            }
+            if (on_file) {
+                on_file(path);
+            }
+        };
+    };
+    m_worker.post("opening " + std::filesystem::path(path).filename().string(), job,
+                  [this](const std::string& error) { say(Message::Kind::error, error); });
+}
+
+void Workbench::save_scene(const std::string& path) {
+    try {
+        write_scene(m_model.scene(), path);
+        m_model.saved(path);
+        say(Message::Kind::info, "saved the scene as " + path);
+        if (on_file) {
+            on_file(path);
+        }
+    } catch (const std::exception& error) {
+        say(Message::Kind::error, error.what());
+    }
+}
+
+void Workbench::save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits) {
+    Scene scene = m_model.scene();
+    scene.size = size;
+    m_worker.post("drawing " + std::filesystem::path(path).filename().string(),
+                  [this, scene = std::move(scene), path, bits](Session& session) -> FrameWorker::Answer {
+                      std::vector<std::string> remarks = session.save_picture(scene, path, bits);
+                      return [this, path, remarks = std::move(remarks), size = scene.size] {
+                          say(Message::Kind::info, "saved the picture as " + path + ", " + std::to_string(size[0]) + "x" +
+                                                       std::to_string(size[1]));
+                          for (const std::string& remark : remarks) {
+                              say(Message::Kind::warning, remark);
+                          }
+                      };
+                  },
+                  [this](const std::string& error) { say(Message::Kind::error, error); });
+}
+
+void Workbench::pick(const PicturePoint& place) {
+    const Scene& scene = m_model.scene();
+    m_worker.post("picking",
+                  [this, scene, place, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+                      Picked picked = session.pick(scene, place);
+                      return [this, picked = std::move(picked), number] {
+                          if (number == m_volume_number) {
+                              m_picked = picked;
+                          }
+                      };
+                  },
+                  [this](const std::string& error) { say(Message::Kind::error, error); });
+}
+
+std::string Workbench::field_key(const std::optional<std::string>& field) const {
+    const Scene& scene = m_model.scene();
+    std::string key = std::to_string(scene.time_step);
+    const std::string text = field.value_or("");
+    // Distances are to surfaces of the scene, which may move.
+    if (text.find("distance") != std::string::npos) {
+        key += ' ';
+        key += std::to_string(m_model.revision());
+    }
+    key += '|';
+    key += text;
+    return key;
+}
+
+std::optional<FieldRange> Workbench::range(const std::optional<std::string>& field) {
+    if (!m_model.volume()) {
+        return std::nullopt;
+    }
+    const std::string key = field_key(field);
+    const auto [found, is_new] = m_ranges.try_emplace(key);
+    if (is_new) {
+        const Scene& scene = m_model.scene();
+        m_worker.post("finding a range",
+                      [this, scene, field, key, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+                          const FieldRange range = session.range(scene, field);
+                          return [this, range, key, number] {
+                              if (number == m_volume_number) {
+                                  m_ranges[key] = range;
+                              }
+                          };
+                      },
+                      [](const std::string&) {}); // The picture says it.
+    }
+    return found->second;
+}
+
+const Histogram* Workbench::histogram(const std::optional<std::string>& field) {
+    const std::optional<FieldRange> ends = range(field);
+    if (!ends || m_model.volume()->dimension == 2) {
+        return nullptr;
+    }
+    const std::string key = field_key(field);
+    const auto [found, is_new] = m_histograms.try_emplace(key);
+    if (is_new) {
+        constexpr std::size_t n_points = 20000;
+        const Scene& scene = m_model.scene();
+        m_worker.post("sampling the field",
+                      [this, scene, field, key, ends, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+                          Histogram histogram(session.samples(scene, field, n_points), ends->lower, ends->upper);
+                          return [this, histogram = std::move(histogram), key, number] {
+                              if (number == m_volume_number) {
+                                  m_histograms[key] = histogram;
+                              }
+                          };
+                      },
+                      [](const std::string&) {});
+    }
+    return found->second ? &*found->second : nullptr;
+}
+
+void Workbench::convert(const std::string& input, const std::string& output) {
+    if (m_conversion.is_running()) {
+        say(Message::Kind::error, "another conversion is still at work");
+        return;
+    }
+    m_conversion.start({input}, output, m_worker.wake());
+}
+
+void Workbench::take(DrawAnswer answer) {
+    const Clock::time_point now = Clock::now();
+    if (!answer.error.empty()) {
+        if (m_drawing_error != answer.error) {
+            say(Message::Kind::error, answer.error);
+        }
+        m_drawing_error = answer.error;
+        m_failed_revision = answer.revision;
+        return;
+    }
+    m_drawing_error.clear();
+    m_picture = std::move(answer.picture);
+    m_state = answer.scale < 1 ? ShownState::reduced : ShownState::full;
+    m_shown_scale = answer.scale;
+    m_shown_revision = answer.revision;
+    m_resolution.measured(answer.scale, m_picture.milliseconds);
+    if (m_rest_since) {
+        if (m_state == ShownState::full) {
+            m_motion.rest_to_full_seconds = seconds_between(*m_rest_since, now);
+        }
+        m_last_moving_picture.reset();
+        return;
+    }
+    if (m_last_moving_picture) {
+        m_motion.frame_seconds.push_back(seconds_between(*m_last_moving_picture, now));
+        if (m_motion.frame_seconds.size() > most_frame_times) {
+            m_motion.frame_seconds.pop_front();
+        }
+    }
+    m_last_moving_picture = now;
+}
+
+bool Workbench::update(bool is_moving) {
+    std::optional<DrawAnswer> answer = m_worker.collect();
+    const bool has_news = answer.has_value();
+    if (answer) {
+        take(std::move(*answer));
+    }
+    if (std::optional<ConversionResult> result = m_conversion.collect()) {
+        if (result->was_cancelled) {
+            say(Message::Kind::info, "the conversion was cancelled");
+        } else if (!result->error.empty()) {
+            say(Message::Kind::error, result->error);
+        } else {
+            for (const FieldReport& field : result->report.fields) {
+                char text[200];
+                std::snprintf(text, sizeof text, "field %s: %s, residual %.3g of its range", field.name.c_str(),
+                              field.exact ? "exact but for round-off" : "NOT exact", field.residual);
+                say(field.exact ? Message::Kind::info : Message::Kind::warning, text);
+            }
+            open(result->output);
+        }
+    }
+    const Clock::time_point now = Clock::now();
+    if (is_moving) {
+        m_rest_since.reset();
+    } else if (!m_rest_since) {
+        m_rest_since = now;
+    }
+    const std::uint64_t revision = m_model.revision();
+    if (!m_model.volume() || m_failed_revision == revision) {
+        return has_news;
+    }
+    const std::optional<std::pair<std::uint64_t, double>> drawing = m_worker.drawing();
+    if (is_moving) {
+        const bool is_shown = m_state != ShownState::nothing && m_shown_revision == revision;
+        // A full picture that is being drawn is out of date: drawing another one stops it, where that is possible.
+        const bool is_busy = drawing && drawing->second < 1;
+        if (!is_shown && !is_busy && (!drawing || drawing->first != revision)) {
+            m_worker.draw({m_model.scene(), m_resolution.scale(), revision});
+        }
+    } else {
+        const bool is_shown = m_state == ShownState::full && m_shown_revision == revision;
+        const bool is_drawn = drawing && drawing->first == revision && drawing->second >= 1;
+        if (!is_shown && !is_drawn && (now - *m_rest_since >= rest_time || m_state == ShownState::nothing)) {
+            m_worker.draw({m_model.scene(), 1, revision});
+        }
+    }
+    return has_news;
+}
+
+bool Workbench::is_settled() const {
+    const std::uint64_t revision = m_model.revision();
+    const bool is_drawn = m_state == ShownState::full && m_shown_revision == revision;
+    return m_worker.is_idle() && !m_conversion.is_running() &&
+           (!m_model.volume() || is_drawn || m_failed_revision == revision);
+}
+
+std::string Workbench::activity() const { return m_worker.activity(); }
+
+std::vector<Message> Workbench::picture_messages() const {
+    std::vector<Message> messages;
+    if (m_state != ShownState::full) {
+        return messages;
+    }
+    for (const commands::FrameRemark& remark : commands::remarks_on(m_picture.counts)) {
+        messages.push_back({remark.is_warning ? Message::Kind::warning : Message::Kind::info, remark.text});
+    }
+    for (const std::string& remark : m_picture.remarks) {
+        messages.push_back({Message::Kind::warning, remark});
+    }
+    return messages;
+}
+
+} // namespace elvis::view

@@ -1,0 +1,127 @@
+/**
+ * @file workbench.hpp
+ * The model together with the thread that draws it: everything that panels can ask for, still without a window.
+ */
+#pragma once
+
+#include "camera_motion.hpp"
+#include "conversion_task.hpp"
+#include "frame_worker.hpp"
+#include "histogram.hpp"
+#include "model.hpp"
+#include "resolution.hpp"
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elvis::view {
+
+struct Message {
+    enum class Kind { info, warning, error };
+    Kind kind = Kind::info;
+    std::string text;
+};
+
+/** Which picture is on the screen. */
+enum class ShownState {
+    nothing,
+    reduced, ///< coarser than the screen, to keep up with the hand
+    full     ///< the picture that `elvis render` draws
+};
+
+/** Pictures shown while something moved. */
+struct MotionStatistics {
+    std::deque<double> frame_seconds; ///< between pictures, the latest last
+    std::optional<double> rest_to_full_seconds;
+
+    double frames_per_second() const;
+};
+
+class Workbench {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    Workbench(std::unique_ptr<Session> session, std::function<void()> wake);
+
+    Model& model() { return m_model; }
+    const Model& model() const { return m_model; }
+
+    /** A volume, a scene, or a foreign file, for which a conversion is then offered. */
+    void open(const std::string& path);
+    void save_scene(const std::string& path);
+    void save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits);
+    /** What is seen at a place of the picture. */
+    void pick(const PicturePoint& place);
+    const std::optional<Picked>& picked() const { return m_picked; }
+    void forget_picked() { m_picked.reset(); }
+
+    /** Of a field or expression at the present time step; asked for when it is not known yet, and nothing until then. */
+    std::optional<FieldRange> range(const std::optional<std::string>& field);
+    const Histogram* histogram(const std::optional<std::string>& field);
+
+    /** A foreign file that waits for somebody to say that it shall be converted. */
+    std::optional<std::string> foreign_file;
+    void convert(const std::string& input, const std::string& output);
+    ConversionTask& conversion() { return m_conversion; }
+
+    /** To be called often. `is_moving`: the hand is at work. Returns whether there is a new picture. */
+    bool update(bool is_moving);
+    /** The last picture; its width is 0 if there is none. */
+    const Picture& picture() const { return m_picture; }
+    ShownState state() const { return m_state; }
+    double shown_scale() const { return m_shown_scale; }
+    /** The picture, full or not, is of the present scene. */
+    bool has_shown_present() const { return m_state != ShownState::nothing && m_shown_revision == m_model.revision(); }
+    /** The picture is full and of the present scene, and nothing is being done. */
+    bool is_settled() const;
+    /** What is being done: "drawing", "opening"; empty if nothing. */
+    std::string activity() const;
+    /** The last picture could not be drawn, because of this. */
+    const std::string& drawing_error() const { return m_drawing_error; }
+    const MotionStatistics& motion() const { return m_motion; }
+
+    const std::vector<Message>& messages() const { return m_messages; }
+    void say(Message::Kind kind, std::string text);
+    /** The same to be told of the picture, from its counts. */
+    std::vector<Message> picture_messages() const;
+    std::vector<std::string> validation_messages() const { return m_device_messages(); }
+
+    /** Called with each volume and scene that was opened or saved. */
+    std::function<void(const std::string& path)> on_file;
+
+private:
+    void open_scene(Scene scene, std::string file, std::string path);
+    std::string field_key(const std::optional<std::string>& field) const;
+    void take(DrawAnswer answer);
+
+    Model m_model;
+    ResolutionChooser m_resolution;
+    std::function<std::vector<std::string>()> m_device_messages;
+    std::optional<Picked> m_picked;
+    std::map<std::string, std::optional<FieldRange>> m_ranges;
+    std::map<std::string, std::optional<Histogram>> m_histograms;
+    /** Answers to questions about volumes that are no longer open are dropped. */
+    std::uint64_t m_volume_number = 0;
+
+    Picture m_picture;
+    ShownState m_state = ShownState::nothing;
+    double m_shown_scale = 1;
+    std::uint64_t m_shown_revision = 0;
+    std::uint64_t m_failed_revision = 0;
+    std::string m_drawing_error;
+    std::optional<Clock::time_point> m_rest_since;
+    std::optional<Clock::time_point> m_last_moving_picture;
+    MotionStatistics m_motion;
+    std::vector<Message> m_messages;
+    ConversionTask m_conversion;
+    /** After all else: its answers touch it. */
+    FrameWorker m_worker;
+};
+
+} // namespace elvis::view
