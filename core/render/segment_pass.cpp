@@ -107,8 +107,8 @@ SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, cons
         const double side = data.bounds()[i + 3] - data.bounds()[i];
         square += side * side;
     }
-    const std::array<double, 4> frame = {data.centre()[0], data.centre()[1], data.centre()[2],
-                                         tolerance(m_precision) * std::sqrt(square)};
+    m_tolerance = tolerance(m_precision) * std::sqrt(square);
+    const std::array<double, 4> frame = {data.centre()[0], data.centre()[1], data.centre()[2], m_tolerance};
     write_reals(m_frame, m_precision, frame);
 }
 
@@ -216,7 +216,7 @@ std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay>
                 }
             }
             for (std::size_t ray = 0; ray < count; ++ray) {
-                result[first + ray] = merge_segments(of_classes[ray], counts.overlaps);
+                result[first + ray] = merge_segments(of_classes[ray], m_tolerance, counts.overlaps);
             }
         }
     };
@@ -256,10 +256,7 @@ std::vector<double> SegmentPass::lengths(std::span<const SegmentRay> rays, Segme
     return result;
 }
 
-std::vector<Segment> merge_segments(std::span<const std::vector<Segment>> lists, std::uint64_t& n_overlaps) {
-    if (lists.size() == 1) {
-        return lists.front();
-    }
+std::vector<Segment> merge_segments(std::span<const std::vector<Segment>> lists, double least_gap, std::uint64_t& n_overlaps) {
     std::vector<Segment> all;
     for (const std::vector<Segment>& list : lists) {
         all.insert(all.end(), list.begin(), list.end());
@@ -270,11 +267,19 @@ std::vector<Segment> merge_segments(std::span<const std::vector<Segment>> lists,
         if (!merged.empty()) {
             const Segment& last = merged.back();
             const double error = segment.error + last.error;
-            const bool is_joined = std::abs(segment.enter - last.leave) <= error;
+            const bool is_joined = std::abs(segment.enter - last.leave) <= error + least_gap;
             n_overlaps += !is_joined && segment.enter < last.leave && segment.leave - segment.enter > error ? 1 : 0;
             segment.enter = is_joined ? last.leave : std::max(segment.enter, last.leave);
         }
-        if (segment.enter < segment.leave) {
+        if (segment.enter >= segment.leave) {
+            continue;
+        }
+        // A part that ended early, where a bound could not be held, and goes on.
+        if (!merged.empty() && segment.element == merged.back().element && segment.enter == merged.back().leave) {
+            merged.back().leave = segment.leave;
+            merged.back().error = std::max(merged.back().error, segment.error);
+            merged.back().is_estimated = merged.back().is_estimated || segment.is_estimated;
+        } else {
             merged.push_back(segment);
         }
     }

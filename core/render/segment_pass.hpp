@@ -87,13 +87,16 @@ private:
     const DeviceVolume& m_data;
     Precision m_precision;
     std::vector<ClassKernel> m_kernels;
+    /** How far ends may be off. */
+    double m_tolerance = 0;
     Buffer m_frame;
 };
 
 /**
  * One list from several, each in order: of parts that overlap the one entered first goes to its end, and of the others what is
- * left. Ends that agree within their errors become one. Adds to the number of overlaps.
+ * left. Ends that agree within their errors, or are no farther apart than `least_gap`, become one, and so do parts of one element that
+ * follow each other. Adds to the number of overlaps.
  */
-std::vector<Segment> merge_segments(std::span<const std::vector<Segment>> lists, std::uint64_t& n_overlaps);
+std::vector<Segment> merge_segments(std::span<const std::vector<Segment>> lists, double least_gap, std::uint64_t& n_overlaps);
 
 } // namespace elvis

@@ -49,6 +49,10 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #include "library/look_beyond.glsl"
 #include "library/driver_limit.glsl"
 #include "library/shown_model.glsl"
+// Of elements that are curved more than usual a part that is missed would be a crossing missed.
+#define CORE_ASSUMED_CURVATURE elvis_real(16)
+#define CORE_CERTAIN_TURNS 96u
+#define CORE_PART_TURNS 160u
 #include "library/ray_part.glsl"
 #include "library/ray_sample.glsl"
 #include "library/level_model.glsl"

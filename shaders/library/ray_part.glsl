@@ -20,15 +20,18 @@
 
 // Elements of larger or unknown curvature, and those that take too many turns, are looked at with this bound or a part of it: their parts are
 // estimated.
-#define CORE_ASSUMED_CURVATURE elvis_real(16)
+// A kernel may bring others: more is right for more elements, and takes more turns.
+#ifndef CORE_ASSUMED_CURVATURE
+#define CORE_ASSUMED_CURVATURE elvis_real(4)
+#define CORE_CERTAIN_TURNS 64u
+#define CORE_PART_TURNS 128u
+#endif
 // In the record of core_links, behind the faces.
 #define CORE_LINKS_CURVATURE 7u
 // A kernel without core_links has it from elsewhere.
 #ifndef CORE_PART_CURVATURE
 #define CORE_PART_CURVATURE(element) elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)))
 #endif
-#define CORE_CERTAIN_TURNS 96u
-#define CORE_PART_TURNS 160u
 
 #define CORE_PART_OPEN 0u
 #define CORE_PART_FOUND 1u
@@ -202,7 +205,7 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     part.is_estimated = part.is_estimated || !is_certain;
     const elvis_real curvature = is_certain ? part.curvature
                                  : part.curvature *
-                                       (part.turns < 128u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
+                                       (part.turns < CORE_CERTAIN_TURNS + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
     const elvis_real step = max(core_model_step(model, part.begin), core_model_step(model, part.end));
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in library/newton.glsl.
     const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);

@@ -6,8 +6,10 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <random>
+#include <thread>
 
 namespace elvis::oracle {
 namespace {
@@ -74,7 +76,104 @@ private:
     Vector m_centre;
 };
 
+/** Rays whose lists are in memory at once; rays that a thread takes at once. */
+constexpr std::size_t rays_a_batch = 1u << 17, rays_a_turn = 256;
+
+struct Judged {
+    const Volume& model;
+    const std::vector<Enclosure>& enclosures;
+    const BoxTree& tree;
+    Vector centre;
+    double size, promise;
+    bool is_double;
+};
+
+/** For one thread. */
+class SegmentJudge {
+public:
+    explicit SegmentJudge(const Judged& judged) : m(judged), m_inverter(judged.model, judged.enclosures), m_exact(judged.model, judged.centre) {}
+
+    void judge(const SegmentRay& ray, const std::vector<Segment>& list) {
+        m_result.n_segments += list.size();
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            if (i > 0) {
+                const double gap = list[i].enter - list[i - 1].leave;
+                m_result.n_joints += gap == 0;
+                m_result.n_almost_joined += gap != 0 && gap < 10 * m.promise;
+            }
+            judge_ends(ray, list[i]);
+        }
+    }
+
+    void judge_points(const SegmentRay& ray, const std::vector<Segment>& list, std::size_t n_points, std::mt19937& random) {
+        std::uniform_real_distribution<double> coordinate(0, 1);
+        for (std::size_t point = 0; point < n_points; ++point)
+            judge_point(ray, list, (2 * coordinate(random) - 1) * 0.5 * m.size);
+    }
+
+    const SegmentAccuracy& result() const { return m_result; }
+
+private:
+    Vector at(const SegmentRay& ray, double t) const { return m.centre + convert(ray.origin) + t * convert(ray.direction); }
+
+    void judge_ends(const SegmentRay& ray, const Segment& segment) {
+        const std::vector<Solution> inside = m_inverter.find(segment.element, at(ray, 0.5 * (segment.enter + segment.leave)), 1e-6);
+        // A segment of rounding length has no middle to speak of.
+        if (inside.empty()) {
+            m_result.n_unsolved += segment.leave - segment.enter > 10 * m.promise + 2 * segment.error;
+            return;
+        }
+        for (const double t : {segment.enter, segment.leave}) {
+            const Crossing crossing = m_exact.find(segment.element, ray, t, inside.front().xi);
+            if (!crossing.is_solved) {
+                ++m_result.n_unsolved;
+                continue;
+            }
+            const double off = std::abs(t - crossing.t), chord = off * std::max(crossing.facing, 1e-3);
+            m_result.end_error = std::max(m_result.end_error, off * crossing.facing / m.size);
+            m_result.chord_error = std::max(m_result.chord_error, chord / m.size);
+            m_result.n_beyond += !segment.is_estimated && chord > m.promise;
+        }
+    }
+
+    void judge_point(const SegmentRay& ray, const std::vector<Segment>& list, double t) {
+        const Vector x = at(ray, t);
+        bool is_near_end = false, is_in_segment = false;
+        for (const Segment& segment : list) {
+            const double margin = 10 * m.promise + segment.error;
+            is_near_end = is_near_end || std::abs(t - segment.enter) < margin || std::abs(t - segment.leave) < margin;
+            is_in_segment = is_in_segment || (t > segment.enter && t < segment.leave);
+        }
+        if (is_near_end)
+            return;
+        bool is_inside = false, is_doubtful = false;
+        for (const std::size_t element : m.tree.find(x, m.promise))
+            for (const Solution& solution : m_inverter.find(element, x, 1e-4)) {
+                is_inside = is_inside || solution.excess <= 0;
+                is_doubtful = is_doubtful || std::abs(solution.excess) < (m.is_double ? 1e-9 : 1e-4);
+            }
+        ++m_result.n_points;
+        m_result.n_missed += is_inside && !is_doubtful && !is_in_segment;
+        m_result.n_invented += !is_inside && !is_doubtful && is_in_segment;
+    }
+
+    const Judged& m;
+    Inverter m_inverter;
+    ExactEnds m_exact;
+    SegmentAccuracy m_result;
+};
+
 } // namespace
+
+SegmentAccuracy& SegmentAccuracy::operator+=(const SegmentAccuracy& other) {
+    for (const auto member : {&SegmentAccuracy::n_rays, &SegmentAccuracy::n_segments, &SegmentAccuracy::n_joints, &SegmentAccuracy::n_beyond,
+                              &SegmentAccuracy::n_almost_joined, &SegmentAccuracy::n_points, &SegmentAccuracy::n_missed,
+                              &SegmentAccuracy::n_invented, &SegmentAccuracy::n_unsolved})
+        this->*member += other.*member;
+    for (const auto member : {&SegmentAccuracy::end_error, &SegmentAccuracy::chord_error})
+        this->*member = std::max(this->*member, other.*member);
+    return *this;
+}
 
 SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision,
                                  std::size_t n_rays, std::size_t points_a_ray, unsigned seed) {
@@ -82,85 +181,46 @@ SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volu
     data.select(0, 0, std::vector<double>(volume.fields()[0].n_components, 0.0));
     const SegmentPass pass(device, volume, data);
     const std::array<double, 6>& box = data.bounds();
-    const Vector lower(box[0], box[1], box[2]), upper(box[3], box[4], box[5]), centre = convert(Vector3(data.centre()));
+    const Vector lower(box[0], box[1], box[2]), upper(box[3], box[4], box[5]);
     const double size = (upper - lower).norm();
-    const double promise = (precision == Precision::float64 ? 1e-13 : 1e-6) * size;
+    const bool is_double = precision == Precision::float64;
+    const std::vector<Enclosure> enclosures = make_enclosures(model);
+    const BoxTree tree(enclosures);
+    const Judged judged{model, enclosures, tree, convert(Vector3(data.centre())), size, (is_double ? 1e-13 : 1e-6) * size, is_double};
+    std::vector<SegmentJudge> judges(std::max(1u, std::thread::hardware_concurrency()), SegmentJudge(judged));
 
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(0, 1);
     std::normal_distribution<double> normal;
-    std::vector<SegmentRay> rays;
-    for (std::size_t k = 0; k < n_rays; ++k) {
-        Vector point, direction;
-        for (int i = 0; i < 3; ++i) {
-            point[i] = lower[i] + coordinate(random) * (upper[i] - lower[i]);
-            direction[i] = normal(random);
-        }
-        const Vector eye = point - 1.5 * size * direction.normalized();
-        rays.push_back(near_centre(convert(eye), convert(point), data.centre(), precision));
-    }
     SegmentAccuracy result;
-    const std::vector<std::vector<Segment>> lists = pass.lists(rays, result.counts);
-
-    const std::vector<Enclosure> enclosures = make_enclosures(model);
-    const BoxTree tree(enclosures);
-    Inverter inverter(model, enclosures);
-    const ExactEnds exact(model, centre);
-    result.n_rays = n_rays;
-    for (std::size_t k = 0; k < n_rays; ++k) {
-        const SegmentRay& ray = rays[k];
-        const Vector origin = centre + convert(ray.origin), direction = convert(ray.direction);
-        const std::vector<Segment>& list = lists[k];
-        result.n_segments += list.size();
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            const Segment& segment = list[i];
-            const bool follows = i > 0;
-            if (follows) {
-                const double gap = segment.enter - list[i - 1].leave;
-                result.n_joints += gap == 0;
-                result.n_almost_joined += gap != 0 && gap < 10 * promise;
+    for (std::size_t first = 0; first < n_rays; first += rays_a_batch) {
+        std::vector<SegmentRay> rays;
+        for (std::size_t k = first; k < std::min(n_rays, first + rays_a_batch); ++k) {
+            Vector point, direction;
+            for (int i = 0; i < 3; ++i) {
+                point[i] = lower[i] + coordinate(random) * (upper[i] - lower[i]);
+                direction[i] = normal(random);
             }
-            const std::vector<Solution> inside =
-                inverter.find(segment.element, origin + 0.5 * (segment.enter + segment.leave) * direction, 1e-6);
-            // A segment of rounding length has no middle to speak of.
-            if (inside.empty()) {
-                result.n_unsolved += segment.leave - segment.enter > 10 * promise + 2 * segment.error;
-                continue;
-            }
-            for (const double t : {segment.enter, segment.leave}) {
-                const Crossing crossing = exact.find(segment.element, ray, t, inside.front().xi);
-                if (!crossing.is_solved) {
-                    ++result.n_unsolved;
-                    continue;
-                }
-                const double off = std::abs(t - crossing.t);
-                result.end_error = std::max(result.end_error, off * crossing.facing / size);
-                result.chord_error = std::max(result.chord_error, off * std::max(crossing.facing, 1e-3) / size);
-                result.n_beyond += !segment.is_estimated && off * std::max(crossing.facing, 1e-3) > promise;
-            }
+            const Vector eye = point - 1.5 * size * direction.normalized();
+            rays.push_back(near_centre(convert(eye), convert(point), data.centre(), precision));
         }
-        for (std::size_t point = 0; point < points_a_ray; ++point) {
-            const double t = (2 * coordinate(random) - 1) * 0.5 * size;
-            const Vector x = origin + t * direction;
-            bool is_near_end = false, is_in_segment = false;
-            for (const Segment& segment : list) {
-                const double margin = 10 * promise + segment.error;
-                is_near_end = is_near_end || std::abs(t - segment.enter) < margin || std::abs(t - segment.leave) < margin;
-                is_in_segment = is_in_segment || (t > segment.enter && t < segment.leave);
-            }
-            if (is_near_end)
-                continue;
-            bool is_inside = false, is_doubtful = false;
-            for (const std::size_t element : tree.find(x, promise))
-                for (const Solution& solution : inverter.find(element, x, 1e-4)) {
-                    is_inside = is_inside || solution.excess <= 0;
-                    is_doubtful = is_doubtful || std::abs(solution.excess) < (precision == Precision::float64 ? 1e-9 : 1e-4);
+        const std::vector<std::vector<Segment>> lists = pass.lists(rays, result.counts);
+        result.n_rays += rays.size();
+        std::atomic<std::size_t> next = 0;
+        std::vector<std::jthread> threads;
+        for (SegmentJudge& judge : judges)
+            threads.emplace_back([&] {
+                for (std::size_t begin = next.fetch_add(rays_a_turn); begin < rays.size(); begin = next.fetch_add(rays_a_turn)) {
+                    std::mt19937 points(static_cast<unsigned>(seed + first + begin));
+                    for (std::size_t k = begin; k < std::min(rays.size(), begin + rays_a_turn); ++k) {
+                        judge.judge(rays[k], lists[k]);
+                        judge.judge_points(rays[k], lists[k], points_a_ray, points);
+                    }
                 }
-            ++result.n_points;
-            result.n_missed += is_inside && !is_doubtful && !is_in_segment;
-            result.n_invented += !is_inside && !is_doubtful && is_in_segment;
-        }
+            });
     }
+    for (const SegmentJudge& judge : judges)
+        result += judge.result();
     return result;
 }
 

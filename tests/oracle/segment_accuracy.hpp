@@ -25,9 +25,13 @@ struct SegmentAccuracy {
     /** Segments whose ends could not be computed. */
     std::size_t n_unsolved = 0;
     SegmentCounts counts;
+
+    /** Of other rays of the same pass; leaves the pass's counts alone. */
+    SegmentAccuracy& operator+=(const SegmentAccuracy& other);
 };
 
-/** Rays through points of the volume's box in directions by chance. `points_a_ray`: for n_missed and n_invented. */
+/** Rays through points of the volume's box in directions by chance, judged by as many threads as the machine has cores. `points_a_ray`: for
+ *  n_missed and n_invented. */
 SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision,
                                  std::size_t n_rays, std::size_t points_a_ray, unsigned seed);
 

@@ -26,9 +26,9 @@ void check(const std::string& path, Precision precision, std::size_t n_rays) {
     CHECK(r.n_missed == 0);
     CHECK(r.n_invented == 0);
     CHECK(r.counts.failures <= r.n_segments / 1000);
-    // In single precision a part may end early and go on as another one of the same element.
-    CHECK(r.n_beyond <= (precision == Precision::float64 ? 0 : r.n_segments / 200));
-    CHECK(r.n_almost_joined <= r.n_segments / 500);
+    // In single precision a few ends in tetrahedra are off by half as much again.
+    CHECK(r.n_beyond <= (precision == Precision::float64 ? 0 : r.n_segments / 2000));
+    CHECK(r.n_almost_joined <= r.n_segments / 2000);
 }
 
 // The segments of rays along x at (y, z), relative to the world's origin.
