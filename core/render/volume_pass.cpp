@@ -50,7 +50,6 @@ struct MarchParameters {
     std::uint32_t n_breakpoints;
     std::uint32_t has_depths, has_stops;
     std::uint32_t skips_by_range;
-    std::uint32_t has_steps;
     std::uint32_t zero;
     float extent;
     float tolerance, steepest, step;
@@ -206,13 +205,14 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
 }
 
 const ComposedKernel& VolumePass::march_kernel(ClassKernels& kernels) {
-    std::unique_ptr<ComposedKernel>& kernel = kernels.march[static_cast<std::size_t>(m_wanted.integrator)];
+    std::unique_ptr<ComposedKernel>& kernel = kernels.march[2 * static_cast<std::size_t>(m_wanted.integrator) + (m_has_steps ? 1 : 0)];
     if (!kernel) {
         KernelRequest request = request_of(kernels, "volume_march");
         request.buffers.push_back(m_models.host_buffer(kernels.element_class));
         m_data.add_field(request, kernels.element_class, true);
         request.text += segment::segment_glsl(segment::fixed_plan(step_degree)) + segment::quadrature_glsl(step_degree, kronrod_points);
         request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
+        request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
         for (std::uint32_t binding = 1; binding <= 6; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
         }
@@ -261,7 +261,6 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, FrameCount
                                picture.depths ? 1u : 0u,
                                picture.stops ? 1u : 0u,
                                m_wanted.skips_by_range ? 1u : 0u,
-                               m_has_steps ? 1u : 0u,
                                0,
                                static_cast<float>(m_extent),
                                static_cast<float>(m_wanted.tolerance),

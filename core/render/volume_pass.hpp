@@ -40,7 +40,8 @@ private:
         std::uint32_t element_class = 0;
         std::uint64_t first_element = 0, n_elements = 0;
         std::unique_ptr<ComposedKernel> tiles, seek;
-        std::array<std::unique_ptr<ComposedKernel>, 5> march;
+        /** By integrator, and whether the transfer function has steps. */
+        std::array<std::unique_ptr<ComposedKernel>, 10> march;
         std::optional<Buffer> tile_lists;
     };
     struct Picture;

@@ -1,5 +1,6 @@
 #include <core/volume/element_chains.hpp>
 
+#include <core/volume/face_links.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -10,22 +11,10 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t no_link = 0xffffffffu;
-constexpr std::uint32_t faces_a_record = 8;
 constexpr std::uint32_t place_of_curvature = 7;
 constexpr std::uint32_t words_a_node = 8;
-/** Elements or faces asked for at once. */
+/** Elements asked for at once. */
 constexpr std::uint64_t block = 1u << 16;
-
-std::uint32_t n_faces_of(elvis_shape shape) {
-    switch (shape) {
-    case ELVIS_SHAPE_HEXAHEDRON: return 6;
-    case ELVIS_SHAPE_TETRAHEDRON: return 4;
-    case ELVIS_SHAPE_QUADRILATERAL: return 4;
-    case ELVIS_SHAPE_TRIANGLE: return 3;
-    default: return 5;
-    }
-}
 
 /** Whether a ray can start in the box. */
 bool can_start_in(std::span<const double> box, const ViewStart& start) {
@@ -50,12 +39,8 @@ bool can_start_in(std::span<const double> box, const ViewStart& start) {
 } // namespace
 
 ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_volume(volume), m_centre(data.centre()), m_classes(volume.classes().size()) {
-    std::vector<std::vector<std::uint32_t>> links(m_classes.size());
-    for (std::size_t index = 0; index < m_classes.size(); ++index) {
-        links[index].assign(faces_a_record * volume.classes()[index].n_elements, no_link);
-    }
-    read_faces(links);
+    : m_centre(data.centre()), m_classes(volume.classes().size()) {
+    std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
         if (info.n_elements == 0) {
@@ -65,11 +50,10 @@ ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, 
         chains.is_open.resize(info.n_elements);
         const std::span<const float> curvatures = data.curvatures(index);
         for (std::uint64_t element = 0; element < info.n_elements; ++element) {
-            const auto own = std::span(links[index]).subspan(faces_a_record * element, n_faces_of(info.shape));
-            chains.is_open[element] = std::ranges::find(own, no_link) != own.end();
-            links[index][faces_a_record * element + place_of_curvature] = std::bit_cast<std::uint32_t>(curvatures[element]);
+            chains.is_open[element] = has_open_face(links[index], info, element);
+            links[index][links_an_element * element + place_of_curvature] = std::bit_cast<std::uint32_t>(curvatures[element]);
         }
-        chains.links = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, faces_a_record);
+        chains.links = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, links_an_element);
         chains.links->write_uints(0, links[index]);
         // Room for all elements, so that kernels composed with it stay valid.
         chains.nodes = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, words_a_node);
@@ -79,34 +63,6 @@ ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, 
             std::vector<double> boxes(6 * count);
             volume.bounds(info.first_element + first, count, boxes);
             std::ranges::copy(boxes, chains.boxes.begin() + static_cast<std::ptrdiff_t>(6 * first));
-        }
-    }
-}
-
-void ElementChains::read_faces(std::vector<std::vector<std::uint32_t>>& links) const {
-    const auto place_of = [&](std::int64_t element) -> std::uint32_t* {
-        for (std::size_t index = 0; index < m_classes.size(); ++index) {
-            const ClassInfo& info = m_volume.classes()[index];
-            const std::int64_t local = element - static_cast<std::int64_t>(info.first_element);
-            if (local >= 0 && static_cast<std::uint64_t>(local) < info.n_elements) {
-                return links[index].data() + faces_a_record * static_cast<std::uint64_t>(local);
-            }
-        }
-        return nullptr;
-    };
-    std::vector<elvis_face> faces;
-    const std::uint64_t n_faces = m_volume.n_faces();
-    for (std::uint64_t first = 0; first < n_faces; first += block) {
-        const std::uint64_t count = std::min(block, n_faces - first);
-        faces.assign(count, elvis_face{});
-        m_volume.faces(first, count, faces);
-        for (const elvis_face& face : faces) {
-            std::uint32_t* const one = place_of(face.element);
-            std::uint32_t* const other = place_of(face.neighbour);
-            if (one && other && face.local_face >= 0 && face.neighbour_local_face >= 0) {
-                one[face.local_face] = static_cast<std::uint32_t>(face.neighbour);
-                other[face.neighbour_local_face] = static_cast<std::uint32_t>(face.element);
-            }
         }
     }
 }

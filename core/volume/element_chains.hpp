@@ -49,9 +49,7 @@ private:
         /** Six numbers an element. */
         std::vector<double> boxes;
     };
-    void read_faces(std::vector<std::vector<std::uint32_t>>& links) const;
 
-    const RuntimeVolume& m_volume;
     std::array<double, 3> m_centre;
     std::vector<ClassChains> m_classes;
     std::optional<ViewStart> m_start;

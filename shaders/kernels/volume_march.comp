@@ -30,8 +30,6 @@ layout(push_constant) uniform core_parameters {
     uint core_has_depths, core_has_stops;
     // Parts of rays where bounds say that density and colour are constant need no values.
     uint core_skips_by_range;
-    // The transfer function has two values at a breakpoint.
-    uint core_has_steps;
     uint core_zero;
     // The diagonal of the volume's bounds.
     float core_extent;
@@ -43,6 +41,7 @@ layout(push_constant) uniform core_parameters {
 #include "library/driver_limit.glsl"
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
+#include "library/chain_walk.glsl"
 #include "library/shown_model.glsl"
 #include "library/ray_sample.glsl"
 #include "library/transfer.glsl"
@@ -68,100 +67,10 @@ layout(push_constant) uniform core_parameters {
 #endif
 // Parts on end that are too short to matter, before the element around the ray is looked for.
 #define CORE_MOST_GRAZES 4u
-// Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
-#define CORE_MOST_HOPS 16u
 // Over the volume's size: gaps between elements of a chain that are rounding's.
 #define CORE_WIDEST_GAP 1e-6
-// Of rays along faces: steps towards where they leave; violation of the face within which they run along it.
-#define CORE_ROUGH_TURNS 8u
-#define CORE_ALONG 1e-5
 // Below this share nothing behind can be seen.
 #define CORE_OPAQUE 0.125
-
-// Goes on from element to element towards the point of the ray at t, until one holds it: its position in the class; or
-// CORE_NO_ELEMENT, and in `other` the element of another class in which to go on, if there is one.
-uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint other) {
-    other = CORE_NO_LINK;
-    uint hops = 0u;
-    bool is_found = false;
-    elvis_real x = CORE_CENTROID.x, y = CORE_CENTROID.y, z = CORE_CENTROID.z;
-    uint steps = 0u;
-    bool is_over = false;
-    while (!is_over) {
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
-        const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 step = core_to_xi(frame, core_part_target(ray, element, t) - position);
-        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(step, elvis_vec3(-4), elvis_vec3(4));
-        steps += 1u;
-        const bool is_there = core_max_norm(step) <= elvis_real(4) * core_max_norm(frame.xi_error) || steps >= 8u;
-        elvis_real worst = elvis_real(-4);
-        uint worst_face = 0u;
-        for (int face = 0; face < CORE_N_FACES; ++face) {
-            const elvis_vec4 constraint = core_face_constraint(face);
-            const elvis_real excess = dot(constraint.xyz, next) + constraint.w;
-            worst_face = excess > worst ? uint(face) : worst_face;
-            worst = max(worst, excess);
-        }
-        is_found = is_there && worst <= elvis_real(4) * core_max_norm(frame.xi_error);
-        const bool leaves = is_there && !is_found;
-        const uint link = elvis_fetch_core_links(element, worst_face);
-        const bool is_own = link != CORE_NO_LINK && link >= core_first_element && link - core_first_element < core_n_elements;
-        hops += leaves ? 1u : 0u;
-        other = leaves && !is_own ? link : other;
-        is_over = is_found || (leaves && !is_own) || hops >= CORE_MOST_HOPS || !frame.is_sound;
-        element = leaves && is_own ? link - core_first_element : element;
-        steps = leaves ? 0u : steps;
-        elvis_real new_x = next.x, new_y = next.y, new_z = next.z;
-        core_project(new_x, new_y, new_z);
-        x = leaves ? CORE_CENTROID.x : new_x;
-        y = leaves ? CORE_CENTROID.y : new_y;
-        z = leaves ? CORE_CENTROID.z : new_z;
-    }
-    return is_found ? element : CORE_NO_ELEMENT;
-}
-
-// Where the ray leaves the element as Newton's method predicts it, without bounds: for rays that run along a curved face within
-// rounding, which is then left out. The result stands in the part, which is an estimate.
-void core_leave_roughly(core_walk_ray ray, elvis_real from, inout core_part part) {
-    elvis_real leave = from;
-    int leave_face = CORE_NO_FACE;
-    for (uint turn = 0u; turn < CORE_ROUGH_TURNS; ++turn) {
-        elvis_real x = part.x + (leave - part.anchor) * part.slope_x, y = part.y + (leave - part.anchor) * part.slope_y;
-        elvis_real z = part.z + (leave - part.anchor) * part.slope_z;
-        core_project(x, y, z);
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(part.element, elvis_vec3(x, y, z), position, jacobian);
-        const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 at = elvis_vec3(x, y, z) + core_to_xi(frame, core_part_target(ray, part.element, leave) - position);
-        const elvis_vec3 slope = core_to_xi(frame, ray.direction);
-        elvis_real first = from + ray.reach;
-        for (int face = 0; face < CORE_N_FACES; ++face) {
-            const elvis_vec4 constraint = core_face_constraint(face);
-            const elvis_real value = dot(constraint.xyz, at) + constraint.w, rate = dot(constraint.xyz, slope);
-            const elvis_real root = leave - value / rate;
-            const bool is_along = abs(value) + abs(value + (from - leave) * rate) <= elvis_real(CORE_ALONG);
-            const bool is_first = rate > elvis_real(0) && !is_along && root > from && root < first;
-            leave_face = is_first ? face : leave_face;
-            first = is_first ? root : first;
-        }
-        part.x = at.x;
-        part.y = at.y;
-        part.z = at.z;
-        part.slope_x = slope.x;
-        part.slope_y = slope.y;
-        part.slope_z = slope.z;
-        part.anchor = leave;
-        leave = first;
-    }
-    part.enter = from;
-    part.enter_error = elvis_real(0);
-    part.leave = leave;
-    part.leave_face = leave_face;
-    part.is_estimated = true;
-}
 
 void main() {
     const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
@@ -201,6 +110,7 @@ void main() {
     part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
     part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
     part.turns = 0u;
+    core_held_piece held = core_hold_piece(0u);
     bool goes = is_mine && status == CORE_RAY_GOES;
     while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
         n_elements += 1u;
@@ -235,10 +145,9 @@ void main() {
 
         // What lies between.
         const bool has_segment = is_met && from < until;
-        core_transfer_piece level;
-        const bool is_level = core_is_level(core_level_range(part, from, until), level) && has_segment && core_skips_by_range != 0u;
+        const bool is_level = core_is_level(core_level_range(part, from, until), held) && has_segment && core_skips_by_range != 0u;
         for (uint turn = 0u; turn < (is_level ? 1u : 0u); ++turn) {
-            core_add_level(light, level, (until - from) * ray.speed);
+            core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
         }
         n_segments += has_segment ? 1u : 0u;
         n_empty += is_level ? 1u : 0u;
@@ -257,7 +166,7 @@ void main() {
         core_follow_to(follower, core_integral_at(integral));
         follower.span = core_integral_span(integral);
         follower.enough = enough;
-        bool is_broken = false, is_fresh = true, is_dismissed = false;
+        bool is_broken = false, is_no_number = false, is_fresh = true, is_dismissed = false;
         while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
             // Until all lanes have theirs, so that what follows is done for all of them together.
             elvis_real value = elvis_real(0), slope = value, error = value, bend = value;
@@ -268,6 +177,7 @@ void main() {
                 n_evaluations += 1u;
                 const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
                 is_broken = is_nan || has_failed;
+                is_no_number = is_nan;
                 n_failures += has_failed ? 1u : 0u;
                 flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
                 value = result.value;
@@ -279,17 +189,17 @@ void main() {
                 const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
                 for (uint turn = 0u; turn < (is_all ? 1u : 0u); ++turn) {
                     const elvis_real other = value + follower.span * slope, beyond = bend + error;
-                    is_dismissed = core_is_level(elvis_vec2(min(value, other) - beyond, max(value, other) + beyond), level);
+                    is_dismissed = core_is_level(elvis_vec2(min(value, other) - beyond, max(value, other) + beyond), held);
                 }
                 is_running = is_running && !is_dismissed;
             }
             work = subgroupMax(work);
             for (uint turn = 0u; turn < (is_dismissed ? 1u : 0u); ++turn) {
-                core_add_level(light, level, (until - from) * ray.speed);
+                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
             }
             for (uint turn = 0u; turn < (is_broken || is_dismissed ? 0u : 1u); ++turn) {
                 is_fresh = false;
-                core_integral_add(integral, light, value, slope, error, bend, ray.speed, tolerance, ahead, work);
+                core_integral_add(integral, light, value, slope, error, bend, ray.speed, tolerance, ahead, held, work);
                 core_follow_to(follower, core_integral_at(integral));
                 follower.span = core_integral_span(integral);
                 follower.enough = enough;
@@ -300,7 +210,7 @@ void main() {
         n_breakpoints += integral.n_breakpoints;
         flags |= has_segment && core_is_model_estimated(local) ? CORE_FLAG_ESTIMATED : 0u;
         // What is no number hides all behind it, in a colour of its own.
-        for (uint turn = 0u; turn < ((flags & CORE_FLAG_NAN) != 0u && is_broken ? 1u : 0u); ++turn) {
+        for (uint turn = 0u; turn < (is_no_number ? 1u : 0u); ++turn) {
             core_add_light(light, elvis_vec3(1, 0, 1), elvis_real(0));
         }
 

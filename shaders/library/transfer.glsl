@@ -29,6 +29,47 @@ uint core_piece_index(elvis_real value) {
     return first;
 }
 
+// The piece used last, and the values that it holds: from `lower` on, below `upper`. Mostly it is the one wanted next. Scalars, since loops
+// carry it.
+struct core_held_piece {
+    uint index;
+    elvis_real lower, upper;
+    elvis_real from, density, density_slope, steepness;
+    elvis_real red, green, blue, red_slope, green_slope, blue_slope;
+};
+
+core_held_piece core_hold_piece(uint index) {
+    const bool is_first = index == 0u, is_last = index == core_n_breakpoints;
+    const core_transfer_piece piece = core_fetch_piece(index);
+    core_held_piece held;
+    held.index = index;
+    held.lower = is_first ? elvis_real(-3e38LF) : core_breakpoints[index - (is_first ? 0u : 1u)];
+    held.upper = is_last ? elvis_real(3e38LF) : core_breakpoints[index - (is_last ? 1u : 0u)];
+    held.from = piece.from;
+    held.density = piece.density;
+    held.density_slope = piece.density_slope;
+    held.steepness = piece.steepness;
+    held.red = piece.color.x;
+    held.green = piece.color.y;
+    held.blue = piece.color.z;
+    held.red_slope = piece.color_slope.x;
+    held.green_slope = piece.color_slope.y;
+    held.blue_slope = piece.color_slope.z;
+    return held;
+}
+
+core_transfer_piece core_piece_of(core_held_piece held) {
+    return core_transfer_piece(held.from, held.density, held.density_slope, held.steepness, elvis_vec3(held.red, held.green, held.blue),
+                               elvis_vec3(held.red_slope, held.green_slope, held.blue_slope));
+}
+
+void core_hold_value(inout core_held_piece held, elvis_real value) {
+    const bool is_held = value >= held.lower && value < held.upper;
+    for (uint turn = 0u; turn < (is_held ? 0u : 1u); ++turn) {
+        held = core_hold_piece(core_piece_index(value));
+    }
+}
+
 elvis_real core_density_at(core_transfer_piece piece, elvis_real value) {
     return max(piece.density + piece.density_slope * (value - piece.from), elvis_real(0));
 }

@@ -104,7 +104,8 @@ elvis_real core_hidden_error(elvis_real first, elvis_real first_change, core_opt
 }
 
 void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error,
-                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead, inout uint work) {
+                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
+                       inout core_held_piece held, inout uint work) {
     const uint given = integral.wants;
     const bool is_left = given == CORE_WANTS_LEFT, is_right = given == CORE_WANTS_RIGHT, is_middle = given == CORE_WANTS_MIDDLE;
     integral.n_samples += 1u;

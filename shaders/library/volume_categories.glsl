@@ -181,7 +181,8 @@ void core_add_point(inout core_integral integral, inout core_light light, elvis_
 }
 
 void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error,
-                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead, inout uint work) {
+                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
+                       inout core_held_piece held, inout uint work) {
     const uint given = integral.wants;
     const bool is_end = given == CORE_WANTS_END, is_value = given == CORE_WANTS_VALUE;
     const elvis_real length = (integral.to - integral.from) * per_parameter;

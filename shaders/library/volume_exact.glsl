@@ -9,43 +9,45 @@
 
 #include "library/kronrod.glsl"
 #include "library/segment_bernstein.glsl"
-#include "library/segment_crossings.glsl"
 
-// Of what the kernel does in one dispatch: for a breakpoint, and for any step.
-#define CORE_WORK_A_CROSSING 12u
+// Of what the kernel does in one dispatch.
 #define CORE_WORK_A_STEP 3u
-// Breakpoints met in one step, beyond which it is not to be good.
-#define CORE_MOST_CROSSINGS 32u
+#define CORE_WORK_A_TURN 6u
+// Breakpoints met and cells halved in one step, beyond which it is not to be good.
+#define CORE_MOST_TURNS 256u
+#define CORE_MEETING_TURNS 48u
+// Of the parameter: cells are not halved further.
+#define CORE_SMALLEST_CELL elvis_real(1.52587890625e-5LF)
+// Of what a step may be off, what quadrature may be in a cell.
+#define CORE_QUADRATURE_SHARE elvis_real(0.03125LF)
 
-struct core_rules {
-    elvis_real kronrod, gauss, size;
-};
-
-// `i`: literal in every call, since arrays of constants are read from memory otherwise.
-void core_add_node(core_polynomial q, core_transfer_piece piece, elvis_real length, int i, inout core_rules rules) {
+// Of q dO / dt over length. `i`: literal in every call, since arrays of constants are read from memory otherwise.
+elvis_real core_weighted_at(core_polynomial q, core_transfer_piece piece, elvis_real length, int i) {
     elvis_real value = elvis_real(0), integral = elvis_real(0);
     for (int j = 0; j < CORE_SEGMENT_SIZE; ++j) {
         value += core_quadrature_values[i][j] * q.c[j];
         integral += core_quadrature_integrals[i][j] * q.c[j];
     }
     const elvis_real depth = length * (piece.density * core_kronrod_at[i] + piece.density_slope * integral);
-    const elvis_real weighted = value * (piece.density + piece.density_slope * value) * elvis_exp(-depth);
-    rules.kronrod += core_kronrod_weights[i] * weighted;
-    rules.gauss += core_gauss_weights[i] * weighted;
-    rules.size += core_kronrod_weights[i] * abs(weighted);
+    return value * (piece.density + piece.density_slope * value) * elvis_exp(-depth);
 }
 
-// Integral of q dO, D = length (density s + slope integral of q), over a part of the ray; its error.
-elvis_vec2 core_weighted_value(core_polynomial q, core_transfer_piece piece, elvis_real length) {
-    core_rules rules = core_rules(elvis_real(0), elvis_real(0), elvis_real(0));
-    core_add_node(q, piece, length, 0, rules);
-    core_add_node(q, piece, length, 1, rules);
-    core_add_node(q, piece, length, 2, rules);
-    core_add_node(q, piece, length, 3, rules);
-    core_add_node(q, piece, length, 4, rules);
-    core_add_node(q, piece, length, 5, rules);
-    core_add_node(q, piece, length, 6, rules);
-    return length * elvis_vec2(rules.kronrod, core_kronrod_error(rules.kronrod, rules.gauss, rules.size));
+// Integral of q dO, D = length (density s + slope integral of q), over a part of the ray, by Gauss' rule; its error. `through`: exp(-D) at
+// the end.
+//
+// The error is estimated from Simpson's rule, which needs but the ends besides. With h the part's length Simpson's error is about
+// h^5 / 2880 times the fourth derivative, Gauss' h^7 / 2016000 times the sixth: for exp(h) that is 0.08 of the 3/2th power of the other,
+// of which a few hundred times as much are taken.
+elvis_vec2 core_weighted_value(core_polynomial q, core_transfer_piece piece, elvis_real length, elvis_real through) {
+    const elvis_real first = core_weighted_at(q, piece, length, 1), middle = core_weighted_at(q, piece, length, 3);
+    const elvis_real last = core_weighted_at(q, piece, length, 5);
+    const elvis_real begin = q.c[0] * (piece.density + piece.density_slope * q.c[0]);
+    const elvis_real end = q.c[CORE_SEGMENT_DEGREE] * (piece.density + piece.density_slope * q.c[CORE_SEGMENT_DEGREE]) * through;
+    const elvis_real gauss = core_gauss_weights[1] * (first + last) + core_gauss_weights[3] * middle;
+    const elvis_real simpson = (begin + elvis_real(4) * middle + end) * elvis_real(0.16666666666666666667LF);
+    const elvis_real size = core_gauss_weights[1] * (abs(first) + abs(last)) + core_gauss_weights[3] * abs(middle);
+    const elvis_real differ = abs(gauss - simpson), ratio = elvis_real(8) * differ / max(size, elvis_real(1e-30LF));
+    return length * elvis_vec2(gauss, min(elvis_real(0.5LF) * differ, size * ratio * sqrt(ratio)));
 }
 
 elvis_real core_mean(core_polynomial q) {
@@ -56,9 +58,8 @@ elvis_real core_mean(core_polynomial q) {
     return sum / elvis_real(CORE_SEGMENT_SIZE);
 }
 
-// A piece without breakpoints inside; `error`: of the field. `missed` grows by what quadrature is off.
-void core_add_piece(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, inout elvis_real missed) {
-    const core_transfer_piece piece = core_fetch_piece(core_piece_index(core_bernstein_value(p, elvis_real(0.5LF))));
+// A piece without breakpoints inside; `error`: of the field. What quadrature is off.
+elvis_real core_add_piece(inout core_light light, core_polynomial p, core_transfer_piece piece, elvis_real length, elvis_real error) {
     core_polynomial q;
     for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
         q.c[i] = p.c[i] - piece.from;
@@ -66,21 +67,33 @@ void core_add_piece(inout core_light light, core_polynomial p, elvis_real length
     const elvis_real depth = max(length * (piece.density + piece.density_slope * core_mean(q)), elvis_real(0));
     const elvis_real through = elvis_exp(-depth);
     const elvis_real slope = max(max(abs(piece.color_slope.x), abs(piece.color_slope.y)), abs(piece.color_slope.z));
-    elvis_vec2 weighted = elvis_vec2(0);
-    for (uint turn = 0u; turn < (slope * depth > elvis_real(0) ? 1u : 0u); ++turn) {
-        weighted = core_weighted_value(q, piece, length);
-    }
-    missed += light.left * slope * weighted.y;
-    light.error += light.left * (slope * weighted.y + length * piece.steepness * error);
+    const elvis_vec2 weighted = core_weighted_value(q, piece, length, through);
+    const elvis_real missed = light.left * slope * weighted.y;
+    light.error += missed + light.left * length * piece.steepness * error;
     core_add_light(light, (elvis_real(1) - through) * piece.color + weighted.x * piece.color_slope, through);
+    return missed;
 }
 
-// Whether a polynomial that is off by `error` at most meets no breakpoint, as most do.
-bool core_is_in_one_piece(core_polynomial p, elvis_real error) {
-    return core_piece_index(core_least(p) - error) == core_piece_index(core_most(p) + error);
+// Where a polynomial that is on both sides of the value at the ends of [0, 1], or on it at the second, comes to it, within `error` of the
+// value.
+elvis_real core_meet(core_polynomial p, elvis_real value, elvis_real error) {
+    elvis_real a = elvis_real(0), b = elvis_real(1), fa = p.c[0] - value, fb = p.c[CORE_SEGMENT_DEGREE] - value;
+    elvis_real x = abs(fa) <= error ? a : b, fx = abs(fa) <= error ? fa : fb;
+    for (uint turn = 0u; turn < CORE_MEETING_TURNS && abs(fx) > error && b - a > elvis_real(4) * CORE_ROUNDOFF; ++turn) {
+        x = a + (b - a) * (fa / (fa - fb));
+        fx = core_bernstein_value(p, x) - value;
+        const bool is_first = (fx < elvis_real(0)) == (fb < elvis_real(0));
+        // An end that stays counts half from then on, so that it does not for long (the Illinois rule).
+        fa = is_first ? elvis_real(0.5LF) * fa : fx;
+        fb = is_first ? fx : elvis_real(0.5LF) * fb;
+        a = is_first ? a : x;
+        b = is_first ? x : b;
+    }
+    return x;
 }
 
-// How far from a crossing at t the polynomial is not off by more than `error` on both sides yet.
+#if CORE_HAS_STEPS
+// How far from where it meets the value, at t, the polynomial is not off by more than `error` on both sides yet.
 elvis_real core_doubtful_width(core_polynomial p, elvis_real t, elvis_real value, elvis_real error) {
     elvis_real width = elvis_real(4) * CORE_ROUNDOFF;
     bool is_doubtful = true;
@@ -93,41 +106,84 @@ elvis_real core_doubtful_width(core_polynomial p, elvis_real t, elvis_real value
     return width;
 }
 
-// All of a polynomial, on a part of a ray of this length, that is off by `error` at most. `is_whole`: it is in one piece.
-void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, bool is_whole,
-                         inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
-    for (uint turn = 0u; turn < (is_whole ? 1u : 0u); ++turn) {
-        core_add_piece(light, p, length, error, missed);
-    }
-    core_walk walk = core_walk_begin();
-    elvis_real from = elvis_real(0);
-    uint n_pieces = 0u;
-    bool is_over = is_whole;
-    while (!is_over) {
-        const core_crossing crossing = core_next_crossing(p, error, core_n_breakpoints, walk);
-        n_pieces += 1u;
-        work += CORE_WORK_A_CROSSING;
-        is_over = crossing.kind == CORE_CROSSING_NONE || n_pieces > CORE_MOST_CROSSINGS;
-        const elvis_real to = is_over ? elvis_real(1) : clamp(crossing.t, from, elvis_real(1));
-        n_breakpoints += is_over ? 0u : 1u;
-        for (uint turn = 0u; turn < (to > from ? 1u : 0u); ++turn) {
-            const core_polynomial cell = core_after(core_before(p, to), from / to);
-            core_add_piece(light, cell, (to - from) * length, error, missed);
+// By how much density and light change at the breakpoint that the piece begins or ends with.
+elvis_real core_jump_at(core_held_piece held, bool is_upper) {
+    const core_transfer_piece beyond = core_fetch_piece(is_upper ? held.index + 1u : held.index - 1u);
+    const elvis_real at = is_upper ? held.upper : held.lower;
+    const elvis_vec3 colors = abs(core_color_at(core_piece_of(held), at) - core_color_at(beyond, at));
+    const elvis_real here = core_density_at(core_piece_of(held), at), there = core_density_at(beyond, at);
+    return abs(here - there) + max(here, there) * max(max(colors.x, colors.y), colors.z);
+}
+#endif
+
+// All of a polynomial, on a part of a ray of this length, that is off by `error` at most; less if light is off by more than `most` before the end.
+// `held`: the piece that holds its beginning. `missed`: what quadrature is off, not more than `allowed` in any cell.
+//
+// Cells in which it is monotone, or in one piece, or that do not change by more than it is off anyway, are gone through from breakpoint to
+// breakpoint; others are halved, and where quadrature is not good enough. Cells are always those of the whole polynomial, so that errors
+// do not add up.
+void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, elvis_real most, elvis_real allowed,
+                         inout core_held_piece held, inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
+    elvis_real from = elvis_real(0), to = elvis_real(1);
+    bool has_crossed = false;
+    uint n_turns = 0u;
+    while (from < elvis_real(1) && light.error <= most && n_turns < CORE_MOST_TURNS) {
+        n_turns += 1u;
+        work += CORE_WORK_A_TURN;
+        const core_polynomial cell = core_after(core_before(p, to), from / to);
+        const elvis_real first = cell.c[0], last = cell.c[CORE_SEGMENT_DEGREE], least = core_least(cell), size = core_most(cell) - least;
+        const bool rises = last > first;
+        const bool is_whole = least - error >= held.lower && (least + size) + error < held.upper;
+        const bool is_smallest = to - from <= CORE_SMALLEST_CELL, is_small = size <= elvis_real(2) * error || is_smallest;
+        const bool is_simple = is_whole || is_small || core_is_monotone(cell);
+        const elvis_real next = rises ? held.upper : held.lower;
+        const bool meets = is_simple && !is_whole && (rises ? last >= next : last < next);
+        elvis_real share = elvis_real(1);
+        for (uint turn = 0u; turn < (meets ? 1u : 0u); ++turn) {
+            share = core_meet(cell, next, elvis_real(0.25LF) * error);
         }
-        // Where the polynomial cannot tell on which side of the breakpoint the field is, and steps, which are where it crosses.
-        for (uint turn = 0u; turn < (!is_over && (core_has_steps != 0u || crossing.kind == CORE_CROSSING_TOUCH) ? 1u : 0u); ++turn) {
-            const core_transfer_piece below = core_fetch_piece(crossing.index), above = core_fetch_piece(crossing.index + 1u);
-            const elvis_real width = crossing.upper - crossing.lower;
-            const elvis_real at = core_level_value(crossing.index);
-            const elvis_vec3 colors = abs(core_color_at(below, at) - core_color_at(above, at));
-            const elvis_real densities = abs(core_density_at(below, at) - core_density_at(above, at));
-            const elvis_real jump = densities + core_density_at(above, at) * max(max(colors.x, colors.y), colors.z);
-            const bool is_touch = crossing.kind == CORE_CROSSING_TOUCH;
-            const elvis_real share = is_touch ? width : core_doubtful_width(p, crossing.t, at, error);
-            const elvis_real bends = is_touch ? elvis_real(2) * error * abs(above.steepness - below.steepness) : elvis_real(0);
-            light.error += light.left * length * share * (jump + bends);
+        const elvis_real left = light.left;
+        core_light with = light;
+        const elvis_real miss = core_add_piece(with, core_before(cell, share), core_piece_of(held), share * (to - from) * length, error);
+        // Quadrature need not be better than the field.
+        const bool is_good = miss <= max(allowed, elvis_real(0.25LF) * (with.error - light.error)) || is_smallest;
+        const bool is_done = is_simple && is_good, crosses = is_done && meets;
+        light.red = is_done ? with.red : light.red;
+        light.green = is_done ? with.green : light.green;
+        light.blue = is_done ? with.blue : light.blue;
+        light.left = is_done ? with.left : light.left;
+        light.error = is_done ? with.error : light.error;
+        missed += is_done ? miss : elvis_real(0);
+
+        // Where it comes so near to a breakpoint the field may be on the other side: near turns and ends for as long as it likes, else on its way
+        // across.
+        const elvis_real reach = (is_small ? elvis_real(3) : elvis_real(1.25LF)) * error, length_done = share * (to - from) * length;
+        const elvis_real across = min(elvis_real(4) * reach / max(abs((meets ? next : last) - first), reach), elvis_real(1));
+        const bool is_doubtful = is_done && !is_whole;
+        const bool touches_first = is_doubtful && (rises ? first - held.lower : held.upper - first) <= reach;
+        const bool touches_last = is_doubtful && !meets && (rises ? held.upper - last : last - held.lower) <= reach;
+        const elvis_real first_share = touches_first ? (has_crossed ? across : elvis_real(1)) : elvis_real(0);
+        const elvis_real last_share = crosses ? across : touches_last ? elvis_real(1) : elvis_real(0);
+        light.error += left * length_done * (reach + error) * elvis_real(core_steepest) * (first_share + last_share);
+#if CORE_HAS_STEPS
+        for (uint turn = 0u; turn < ((touches_first && !has_crossed) || touches_last ? 1u : 0u); ++turn) {
+            light.error += left * length_done * core_jump_at(held, touches_last == rises);
         }
-        from = to;
+        for (uint turn = 0u; turn < (crosses ? 1u : 0u); ++turn) {
+            light.error += left * (to - from) * length * core_doubtful_width(cell, share, next, error) * core_jump_at(held, rises);
+        }
+#endif
+        for (uint turn = 0u; turn < (crosses ? 1u : 0u); ++turn) {
+            held = core_hold_piece(rises ? held.index + 1u : held.index - 1u);
+        }
+        n_breakpoints += crosses ? 1u : 0u;
+        has_crossed = is_done ? crosses : has_crossed;
+        const elvis_real step = to - from, reached = from + share * step;
+        from = crosses ? min(reached, to) : is_done ? to : from;
+        to = crosses ? to : is_done ? min(to + elvis_real(2) * max(step, CORE_SMALLEST_CELL), elvis_real(1)) : from + elvis_real(0.5LF) * share * step;
     }
-    light.error += n_pieces > CORE_MOST_CROSSINGS ? elvis_real(1) : elvis_real(0);
+    // Not all of it is there.
+    const elvis_real lost = from < elvis_real(1) ? elvis_real(1) : elvis_real(0);
+    light.error += lost;
+    missed += lost;
 }

@@ -23,13 +23,13 @@ elvis_vec2 core_level_range(core_part part, elvis_real from, elvis_real until) {
     return is_known ? elvis_vec2(min(a, b) - error, max(a, b) + error) : elvis_vec2(1, -1);
 }
 
-// The piece of the transfer function that holds all of the range, if it is one in which nothing changes, as in empty space.
-bool core_is_level(elvis_vec2 range, out core_transfer_piece piece) {
-    const uint first = core_piece_index(range.x), last = core_piece_index(range.y);
-    piece = core_fetch_piece(first);
-    const elvis_vec3 change = abs(piece.color_slope);
-    return range.x <= range.y && first == last && piece.density_slope == elvis_real(0) &&
-           (piece.density == elvis_real(0) || change.x + change.y + change.z == elvis_real(0));
+// Whether one piece of the transfer function holds all of the range, and nothing changes in it, as in empty space; that is then held.
+bool core_is_level(elvis_vec2 range, inout core_held_piece held) {
+    const bool is_known = range.x <= range.y;
+    core_hold_value(held, is_known ? range.x : held.lower);
+    const elvis_real change = abs(held.red_slope) + abs(held.green_slope) + abs(held.blue_slope);
+    return is_known && range.y < held.upper && held.density_slope == elvis_real(0) &&
+           (held.density == elvis_real(0) || change == elvis_real(0));
 }
 
 void core_add_level(inout core_light light, core_transfer_piece piece, elvis_real length) {

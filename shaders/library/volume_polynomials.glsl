@@ -29,6 +29,8 @@
 #define CORE_MARGIN elvis_real(15)
 // How many times as much as is allowed a cubic may be off in the steepest piece, of which there may be little.
 #define CORE_HOPELESS elvis_real(16)
+// Share of what a step may be off that a line may be.
+#define CORE_LINE_SHARE elvis_real(0.125LF)
 // Of pairs of Chebyshev coefficients: none is believed to be faster; one that is slower is none.
 #define CORE_FASTEST_DECAY elvis_real(0.25LF)
 #define CORE_SLOWEST_DECAY elvis_real(0.75LF)
@@ -81,45 +83,49 @@ elvis_real core_integral_span(core_integral integral) {
     return integral.wants == CORE_WANTS_RIGHT ? -width : width;
 }
 
+// Divisions take ten times as long as products.
+#define CORE_ONE_THIRD elvis_real(0.33333333333333333333LF)
+#define CORE_ONE_FIFTH elvis_real(0.2LF)
+
 struct core_fitted {
     core_polynomial p;
     elvis_real error;
 };
 
-// `with_inner`: a quintic.
-core_fitted core_fit_step(core_integral integral, bool with_inner) {
+// `with_inner`: a quintic. `is_line`: a line from the right, which bounds tell how far the field may be from.
+core_fitted core_fit_step(core_integral integral, bool with_inner, bool is_line) {
     const elvis_real width = integral.right - integral.left;
     const elvis_real c0 = integral.left_value, c3 = integral.right_value;
-    const elvis_real c1 = c0 + width * integral.left_slope / elvis_real(3), c2 = c3 - width * integral.right_slope / elvis_real(3);
+    const elvis_real c1 = c0 + CORE_ONE_THIRD * width * integral.left_slope, c2 = c3 - CORE_ONE_THIRD * width * integral.right_slope;
     const elvis_real cubic = c3 - c0 + elvis_real(3) * (c1 - c2), square = elvis_real(3) * (c0 - elvis_real(2) * c1 + c2);
     // What is added to it: t^2 (1 - t)^2 (shift + tilt (t - at)).
     const elvis_real at = CORE_INNER_AT, rest = elvis_real(1) - CORE_INNER_AT;
     const elvis_real there = rest * rest * rest * c0 + elvis_real(3) * rest * at * (rest * c1 + at * c2) + at * at * at * c3;
     const elvis_real slope_there =
         elvis_real(3) * (rest * rest * (c1 - c0) + elvis_real(2) * rest * at * (c2 - c1) + at * at * (c3 - c2));
-    const elvis_real bubble = at * at * rest * rest, bubble_slope = elvis_real(2) * at * rest * (rest - at);
-    const elvis_real shift = with_inner ? (integral.inner_value - there) / bubble : elvis_real(0);
+    const elvis_real per_bubble = elvis_real(1) / (at * at * rest * rest), bubble_slope = elvis_real(2) * at * rest * (rest - at);
+    const elvis_real shift = with_inner ? (integral.inner_value - there) * per_bubble : elvis_real(0);
     const elvis_real tilt =
-        with_inner ? (width * integral.inner_slope - slope_there - bubble_slope * shift) / bubble : elvis_real(0);
+        with_inner ? (width * integral.inner_slope - slope_there - bubble_slope * shift) * per_bubble : elvis_real(0);
     core_fitted fitted;
     fitted.p.c[0] = c0;
-    fitted.p.c[1] = (elvis_real(2) * c0 + elvis_real(3) * c1) / elvis_real(5);
-    fitted.p.c[2] = (c0 + elvis_real(6) * c1 + elvis_real(3) * c2 + shift - at * tilt) / elvis_real(10);
-    fitted.p.c[3] = (c3 + elvis_real(6) * c2 + elvis_real(3) * c1 + shift + rest * tilt) / elvis_real(10);
-    fitted.p.c[4] = (elvis_real(2) * c3 + elvis_real(3) * c2) / elvis_real(5);
+    fitted.p.c[1] = CORE_ONE_FIFTH * (elvis_real(2) * c0 + elvis_real(3) * c1);
+    fitted.p.c[2] = elvis_real(0.5LF) * CORE_ONE_FIFTH * (c0 + elvis_real(6) * c1 + elvis_real(3) * c2 + shift - at * tilt);
+    fitted.p.c[3] = elvis_real(0.5LF) * CORE_ONE_FIFTH * (c3 + elvis_real(6) * c2 + elvis_real(3) * c1 + shift + rest * tilt);
+    fitted.p.c[4] = CORE_ONE_FIFTH * (elvis_real(2) * c3 + elvis_real(3) * c2);
     fitted.p.c[5] = c3;
     // Powers of the step's parameter, and from them the Chebyshev coefficients from the second on.
     const elvis_real level = shift - at * tilt;
     const elvis_real a2 = square + level, a3 = cubic - elvis_real(2) * level + tilt, a4 = level - elvis_real(2) * tilt;
-    const elvis_real second = abs(a2 / elvis_real(8) + (a3 * elvis_real(96) + a4 * elvis_real(112) + tilt * elvis_real(120)) / elvis_real(512));
-    const elvis_real third = abs(a3 / elvis_real(32) + (a4 * elvis_real(32) + tilt * elvis_real(45)) / elvis_real(512));
-    const elvis_real last = abs(a4 / elvis_real(128) + tilt * elvis_real(0.01953125LF)) + abs(tilt) / elvis_real(512);
+    const elvis_real second = abs(a2 * elvis_real(0.125LF) + a3 * elvis_real(0.1875LF) + a4 * elvis_real(0.21875LF) + tilt * elvis_real(0.234375LF));
+    const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
+    const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
     const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
     const elvis_real of_quintic = CORE_MARGIN * last * decay / (elvis_real(1) - decay);
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_DOUBT * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
-    fitted.error = (with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    fitted.error = (is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
     return fitted;
 }
 
@@ -127,7 +133,8 @@ core_fitted core_fit_step(core_integral integral, bool with_inner) {
 // `tolerance`: what each channel may be off in the end; `ahead`: how much of the ray is left at most, from `from` on. `work` grows by what
 // loops have done. Up to integral.left light is settled.
 void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error, elvis_real bend,
-                       elvis_real per_parameter, elvis_real tolerance, elvis_real ahead, inout uint work) {
+                       elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
+                       inout core_held_piece held, inout uint work) {
     integral.error = max(integral.error, error);
     const bool is_left = integral.wants == CORE_WANTS_LEFT, is_inner = integral.wants == CORE_WANTS_INNER;
     const bool is_right = integral.wants == CORE_WANTS_RIGHT, is_end = is_right && integral.right >= integral.to;
@@ -142,26 +149,37 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
     integral.inner_value = is_inner ? value : integral.inner_value;
     integral.inner_slope = is_inner ? slope : integral.inner_slope;
     integral.bend = is_right ? bend : is_left ? max(integral.bend, bend) : integral.bend;
-    integral.wants = integral.has_left ? CORE_WANTS_NOTHING : CORE_WANTS_LEFT;
+    integral.wants = CORE_WANTS_NOTHING;
     bool has_inner = is_inner;
+    bool is_line = !integral.has_left;
     while (integral.wants == CORE_WANTS_NOTHING && integral.left < integral.to) {
         const elvis_real width = integral.right - integral.left;
         // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
         const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
         const elvis_real allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
-        const core_fitted fitted = core_fit_step(integral, has_inner);
-        const bool is_whole = core_is_in_one_piece(fitted.p, fitted.error);
-        // A cubic that is far from good is not tried: the sample inside is.
-        const elvis_real worst = light.left * width * per_parameter * elvis_real(core_steepest) * fitted.error;
-        const bool is_tried = has_inner || is_whole || worst <= CORE_HOPELESS * allowed;
+        integral.left_value = is_line ? integral.right_value - width * integral.right_slope : integral.left_value;
+        integral.left_slope = is_line ? integral.right_slope : integral.left_slope;
+        const core_fitted fitted = core_fit_step(integral, has_inner, is_line);
+        core_hold_value(held, fitted.p.c[0]);
+        const bool is_whole = core_least(fitted.p) - fitted.error >= held.lower && core_most(fitted.p) + fitted.error < held.upper;
+        // What cannot be good, and a cubic that is far from that, is not tried: another sample is.
+        const elvis_real worst = light.left * width * per_parameter * fitted.error;
+        const bool is_shortest = width <= CORE_SHORTEST_STEP * (integral.to - integral.from);
+        const bool is_exhausted = has_inner && (is_shortest || fitted.error <= elvis_real(2) * integral.error);
+        // Of a line the bound is what it may well be off.
+        const elvis_real acceptable = is_line ? CORE_LINE_SHARE * allowed : allowed;
+        const bool is_hopeful = is_whole ? worst * held.steepness <= acceptable
+                                         : has_inner || worst * elvis_real(core_steepest) <= (is_line ? acceptable : CORE_HOPELESS * allowed);
+        const bool is_tried = is_hopeful || is_exhausted;
         core_light next = light;
         uint n_breakpoints = 0u;
         elvis_real missed = elvis_real(0);
         work += CORE_WORK_A_STEP;
         for (uint turn = 0u; turn < (is_tried ? 1u : 0u); ++turn) {
-            core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, is_whole, n_breakpoints, missed, work);
+            const elvis_real most = is_exhausted ? CORE_FAR : light.error + allowed;
+            core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed, held, n_breakpoints,
+                                missed, work);
         }
-        const bool is_shortest = width <= CORE_SHORTEST_STEP * (integral.to - integral.from);
         // The rest is not of the polynomial's making.
         const bool is_rounding = fitted.error <= elvis_real(2) * integral.error && missed <= allowed;
         const bool is_good = (is_tried && next.error - light.error <= allowed) || (has_inner && (is_shortest || is_rounding));
@@ -186,8 +204,11 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         integral.right = next_right;
         const bool is_known = integral.left >= integral.to || (is_last && integral.has_end);
         integral.wants = is_good ? (is_known ? CORE_WANTS_NOTHING : CORE_WANTS_RIGHT)
+                         : is_line    ? CORE_WANTS_LEFT
                          : is_shorter ? CORE_WANTS_NOTHING
                                       : CORE_WANTS_INNER;
+        integral.has_left = integral.has_left || is_good;
         has_inner = false;
+        is_line = false;
     }
 }

@@ -45,7 +45,8 @@ elvis_real core_integral_at(core_integral integral) {
 }
 
 void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error,
-                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead, inout uint work) {
+                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
+                       inout core_held_piece held, inout uint work) {
     const core_optics optics = core_optics_at(value);
     const elvis_real length = (integral.to - integral.from) * per_parameter, width = length / elvis_real(integral.n_steps);
     const bool is_first = integral.n_samples == 0u;

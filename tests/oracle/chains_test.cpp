@@ -1,0 +1,97 @@
+// Neighbours across faces, and the elements in which rays can start.
+#include "test_files.hpp"
+
+#include <core/volume/element_chains.hpp>
+#include <core/volume/face_links.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+namespace elvis::oracle {
+namespace {
+
+std::size_t n_open_faces(const std::vector<std::uint32_t>& links, const ClassInfo& info, std::uint64_t element) {
+    const auto begin = links.begin() + static_cast<std::ptrdiff_t>(links_an_element * element);
+    return static_cast<std::size_t>(std::count(begin, begin + n_faces_of(info.shape), no_link));
+}
+
+} // namespace
+
+TEST_CASE("elements in a row are linked to those beside them") {
+    const TemporaryFile file("row.h5");
+    generate(R"({"generator": 1, "mesh": "box", "elements": [3, 1, 1], "order": 1, "field": "waves"})", file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    const std::vector<std::uint32_t> links = read_face_links(volume).at(0);
+    const ClassInfo& info = volume.classes()[0];
+    REQUIRE(links.size() == 3 * links_an_element);
+    CHECK(n_open_faces(links, info, 0) == 5);
+    CHECK(n_open_faces(links, info, 1) == 4);
+    CHECK(n_open_faces(links, info, 2) == 5);
+    CHECK(std::count(links.begin() + links_an_element, links.begin() + 2 * links_an_element, 0u) == 1);
+    CHECK(std::count(links.begin() + links_an_element, links.begin() + 2 * links_an_element, 2u) == 1);
+}
+
+TEST_CASE("links lead back, from one element class to another too") {
+    const TemporaryFile file("ball.h5");
+    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "layers": 2, "order": 1, "field": "waves"})",
+             file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    const std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
+    REQUIRE(volume.classes().size() > 1);
+    std::size_t n_links = 0, n_lost = 0, n_others = 0, n_wrong = 0;
+    for (std::size_t index = 0; index < links.size(); ++index) {
+        const ClassInfo& info = volume.classes()[index];
+        const std::vector<std::uint32_t> own = links_in_class(links[index], info);
+        for (std::uint64_t element = 0; element < info.n_elements; ++element) {
+            CHECK(has_open_face(links[index], info, element) == (n_open_faces(links[index], info, element) > 0));
+            for (std::uint32_t face = 0; face < n_faces_of(info.shape); ++face) {
+                const std::uint32_t link = links[index][links_an_element * element + face];
+                if (link == no_link) {
+                    continue;
+                }
+                n_links += 1;
+                for (std::size_t other = 0; other < links.size(); ++other) {
+                    const ClassInfo& there = volume.classes()[other];
+                    if (link < there.first_element || link - there.first_element >= there.n_elements) {
+                        continue;
+                    }
+                    const auto begin =
+                        links[other].begin() + static_cast<std::ptrdiff_t>(links_an_element * (link - there.first_element));
+                    n_lost += std::find(begin, begin + links_an_element, info.first_element + element) == begin + links_an_element;
+                    n_others += other != index;
+                    const std::uint32_t local = own[links_an_element * element + face];
+                    n_wrong += local != (other == index ? link - info.first_element : no_link);
+                }
+            }
+        }
+    }
+    CHECK(n_links > 100);
+    CHECK(n_lost == 0);
+    CHECK(n_others > 0);
+    CHECK(n_wrong == 0);
+}
+
+TEST_CASE("rays start in elements with an open face, and around the eye") {
+    const TemporaryFile file("starts.h5");
+    generate(R"({"generator": 1, "mesh": "box", "elements": 3, "order": 1, "field": "waves"})", file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    const Device device;
+    DeviceVolume data(device, volume, Precision::float32, nullptr);
+    data.select(0, 0, {0});
+    ElementChains chains(device, volume, data);
+    chains.look_from({{4, 3, 2}, {}});
+    CHECK(chains.n_starts(0) == 26);
+    chains.look_from({{0.05, -0.1, 0.02}, {}});
+    CHECK(chains.n_starts(0) == 27);
+    // In a corner element, which has open faces anyway.
+    chains.look_from({{0.9, 0.9, 0.9}, {}});
+    CHECK(chains.n_starts(0) == 26);
+    // Planes across a parallel view: through the middle, and beside it.
+    chains.look_from({{0, 0, 0}, {{1, 0, 0}}});
+    CHECK(chains.n_starts(0) == 27);
+    chains.look_from({{0.5, 0, 0}, {{1, 0, 0}}});
+    CHECK(chains.n_starts(0) == 26);
+}
+
+} // namespace elvis::oracle
