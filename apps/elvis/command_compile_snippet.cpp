@@ -18,6 +18,9 @@ struct Arguments {
     std::string shape = "hexahedron";
     std::string prefix;
     std::vector<std::string> defines;
+    /** Element, then xi. */
+    std::vector<double> at;
+    bool in_float32 = false;
 };
 
 elvis_shape shape_of(const std::string& name) {
@@ -45,6 +48,9 @@ std::pair<std::string, std::int64_t> definition_of(const std::string& text) {
 }
 
 void run(Arguments arguments) {
+    if (!arguments.at.empty() && arguments.subject.library.empty()) {
+        throw UsageError("--at", "wants --plugin LIBRARY --volume FILE: there must be an element to look at");
+    }
     conformance::SnippetReport report;
     if (!arguments.subject.library.empty()) {
         if (arguments.subject.files.empty()) {
@@ -65,6 +71,14 @@ void run(Arguments arguments) {
         std::printf("note: %s\n", note.c_str());
     }
     std::printf("%s compiles (%zu kernels)\n", arguments.file.c_str(), report.n_kernels);
+    if (!arguments.at.empty()) {
+        const std::vector<std::string> lines =
+            conformance::evaluate_at(arguments.file, arguments.subject, static_cast<std::uint64_t>(arguments.at[0]),
+                                     {arguments.at[1], arguments.at[2], arguments.at[3]}, arguments.in_float32);
+        for (const std::string& line : lines) {
+            std::printf("%s\n", line.c_str());
+        }
+    }
 }
 
 } // namespace
@@ -82,6 +96,12 @@ void add_compile_snippet(CLI::App& app) {
     command->add_option("--prefix", a->prefix, "Without a plugin: the snippet's prefix (default: what most names begin with)");
     command->add_option("--define", a->defines, "Without a plugin: a constant NAME=INTEGER; repeatable (default: 1)");
     command->add_option("--uint-buffer", a->surroundings.uint_buffers, "Without a plugin: this buffer is of kind UINT; repeatable");
+    command
+        ->add_option("--at", a->at,
+                     "With a plugin: ELEMENT,X,Y,Z, a reference point at which to evaluate; shows what elvis_debug(NUMBER) was given there")
+        ->delimiter(',')
+        ->expected(4);
+    command->add_flag("--float32", a->in_float32, "With --at: in single precision");
     command->callback([a] { run(*a); });
 }
 

@@ -1,4 +1,5 @@
 #include "commands.hpp"
+#include "crash_report.hpp"
 
 #include <core/base/error.hpp>
 #include <core/base/log.hpp>
@@ -74,4 +75,7 @@ int run(int argc, char** argv) {
 
 } // namespace
 
-int main(int argc, char** argv) { return run(argc, argv); }
+int main(int argc, char** argv) {
+    elvis::report_crashes();
+    return run(argc, argv);
+}

@@ -23,6 +23,16 @@ const Device& need_float64(const Device& device) {
     return device;
 }
 
+void replace_by_name(Snippet& snippet, const std::vector<SnippetText>& replacements) {
+    for (SnippetText& source : snippet.sources) {
+        for (const SnippetText& replacement : replacements) {
+            if (source.name == replacement.name) {
+                source.text = replacement.text;
+            }
+        }
+    }
+}
+
 const RuntimeVolume& need_fields(const RuntimeVolume& volume) {
     if (volume.fields().empty()) {
         throw Skipped("the volume has no field");
@@ -51,6 +61,9 @@ const ComposedKernel& DeviceSampler::kernel(std::uint32_t element_class, const S
         request.with_second_derivatives = options.with_hessians;
         request.poisons_outputs = options.poisons_outputs;
         m_on_device.add_field(request, element_class);
+        for (SnippetInstance& instance : request.instances) {
+            replace_by_name(instance.snippet, m_replacements);
+        }
         request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(std::uint32_t);
         kernel = std::make_unique<ComposedKernel>(m_device, request);

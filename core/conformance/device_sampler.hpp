@@ -49,8 +49,11 @@ struct Sample {
     std::array<Matrix, 3> mapping_hessians;
     /** 1 if a loop of the snippet went on beyond reason; found only with poisons_outputs. */
     double is_endless;
+    /** How many numbers elvis_debug was given by elvis_field_value and elvis_mapping, and the first of them; with poisons_outputs. */
+    double n_debug;
+    std::array<double, 15> debug;
 };
-static_assert(sizeof(Sample) == 86 * sizeof(double));
+static_assert(sizeof(Sample) == 102 * sizeof(double));
 
 struct SampleOptions {
     bool with_hessians = false;
@@ -68,6 +71,9 @@ public:
 
     std::vector<Sample> sample(const std::vector<SamplePoint>& points, const SampleOptions& options = {}) const;
 
+    /** These texts from now on in place of the snippets' sources of their names. */
+    void replace_sources(std::vector<SnippetText> sources) { m_replacements = std::move(sources); }
+
     /** What positions in the element are relative to. */
     Point origin(std::uint64_t element) const { return m_on_device.origin(element); }
     double field_offset(std::uint32_t component) const { return m_on_device.field_offset(component); }
@@ -80,6 +86,7 @@ private:
     const RuntimeVolume& m_volume;
     Precision m_precision;
     DeviceVolume m_on_device;
+    std::vector<SnippetText> m_replacements;
     /** By class and options; for what is selected. */
     mutable std::map<std::tuple<std::uint32_t, bool, bool>, std::unique_ptr<ComposedKernel>> m_kernels;
 };

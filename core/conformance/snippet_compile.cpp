@@ -1,6 +1,8 @@
 #include <core/conformance/snippet_compile.hpp>
 
 #include <core/base/error.hpp>
+#include <core/conformance/device_sampler.hpp>
+#include <core/conformance/differences.hpp>
 #include <core/conformance/scratch.hpp>
 #include <core/shader/compiler.hpp>
 #include <core/shader/composer.hpp>
@@ -218,6 +220,47 @@ SnippetReport compile_in_plugin(const std::string& path, Subject subject) {
         throw Error(path, "is no source of the plugin's snippets, which are: " + list);
     }
     return report;
+}
+
+std::vector<std::string> evaluate_at(const std::string& path, const Subject& subject, std::uint64_t element,
+                                     const std::array<double, 3>& xi, bool in_float32) {
+    const std::shared_ptr<const Plugin> plugin = Plugin::load(fs::absolute(subject.library));
+    const RuntimeVolume volume(plugin, subject.files.front(), subject.options);
+    if (element >= volume.n_elements()) {
+        throw Error(subject.files.front(), "has " + std::to_string(volume.n_elements()) + " elements, counted from 0");
+    }
+    DeviceSampler sampler(volume, subject.device, in_float32 ? Precision::float32 : Precision::float64);
+    std::vector<SnippetText> files = read_snippet(path);
+    files.front().name = fs::path(path).filename().string();
+    sampler.replace_sources(std::move(files));
+    SampleOptions options;
+    options.poisons_outputs = true;
+    std::vector<std::string> lines;
+    for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
+        sampler.select(field, 0);
+        const FieldInfo& info = volume.fields()[field];
+        for (std::uint32_t component = 0; component < info.n_components; ++component) {
+            const Sample sample = sampler.sample({{element, xi, component}}, options).front();
+            if (field == 0 && component == 0) {
+                lines.push_back("elvis_mapping = " + text_of(sample.position) + ", relative to " + text_of(sampler.origin(element)));
+                for (std::size_t j = 0; j < 3; ++j) {
+                    const Point column{sample.jacobian[3 * j], sample.jacobian[3 * j + 1], sample.jacobian[3 * j + 2]};
+                    lines.push_back("elvis_jacobian[" + std::to_string(j) + "] = " + text_of(column));
+                }
+            }
+            const std::string name = info.name + (info.n_components > 1 ? "[" + std::to_string(component) + "]" : "");
+            lines.push_back("elvis_field_value of " + name + " = " + text_of(sample.value));
+            lines.push_back("elvis_field_gradient of " + name + " = " + text_of(sample.gradient));
+            const auto n_said = static_cast<std::size_t>(sample.n_debug);
+            for (std::size_t i = 0; i < std::min(n_said, sample.debug.size()); ++i) {
+                lines.push_back("    elvis_debug " + std::to_string(i) + ": " + text_of(sample.debug[i]));
+            }
+            if (n_said > sample.debug.size()) {
+                lines.push_back("    and " + std::to_string(n_said - sample.debug.size()) + " more");
+            }
+        }
+    }
+    return lines;
 }
 
 } // namespace elvis::conformance

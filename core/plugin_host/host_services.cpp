@@ -17,6 +17,13 @@ struct PluginError {
 /** What the plugin said last on this thread: calls may run at the same time on several. */
 thread_local PluginError last_error;
 
+struct CurrentCall {
+    const char* plugin = nullptr;
+    const char* function = nullptr;
+};
+
+thread_local CurrentCall current_call;
+
 const HostServices& services(const elvis_host* host) { return *static_cast<const HostServices*>(host->context); }
 
 spdlog::level::level_enum log_level(elvis_log_level level) {
@@ -73,10 +80,17 @@ HostServices::HostServices(std::string plugin_id, const TaskControl* control)
     };
 }
 
-void HostServices::clear_error() { last_error = {}; }
+void HostServices::begin(const char* function) const {
+    last_error = {};
+    current_call = {m_plugin_id.c_str(), function};
+}
+
+const char* HostServices::current_plugin() { return current_call.plugin; }
+const char* HostServices::current_function() { return current_call.function; }
 
 void HostServices::check(elvis_result result, const char* function, const std::string& place) const {
     const PluginError said = std::exchange(last_error, {});
+    current_call = {};
     if (result == ELVIS_OK) {
         return;
     }

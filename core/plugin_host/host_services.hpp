@@ -31,8 +31,15 @@ public:
     const elvis_host* table() const { return &m_table; }
     const std::string& plugin_id() const { return m_plugin_id; }
 
-    /** Forgets an error text that this thread's earlier calls left. */
-    static void clear_error();
+    /**
+     * Before a call of a plugin's function: forgets the error text that this thread's earlier calls left, and remembers the
+     * function for the message of a crash. check() ends the call.
+     */
+    void begin(const char* function) const;
+
+    /** Plugin and function that this thread is in, or null. Safe in a signal handler. */
+    static const char* current_plugin();
+    static const char* current_function();
 
     /**
      * Throws for anything but ELVIS_OK: Cancelled, or an Error that names plugin, function and what the plugin said. `place` is

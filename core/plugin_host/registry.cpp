@@ -57,7 +57,7 @@ std::shared_ptr<const Plugin> most_confident(const std::vector<std::shared_ptr<c
         }
         const HostServices services(plugin->id(), nullptr);
         std::uint32_t confidence = 0;
-        HostServices::clear_error();
+        services.begin("probe");
         try {
             services.check(probe(services.table(), path.c_str(), &confidence), "probe", path);
             answers += "\n  " + plugin->id() + ": " + (confidence ? "perhaps" : "no");

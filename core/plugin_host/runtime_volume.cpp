@@ -45,7 +45,9 @@ struct RuntimeVolume::Impl {
 
     ~Impl() {
         if (volume) {
+            services->begin("close");
             table->close(volume);
+            services->check(ELVIS_OK, "close", {});
         }
     }
 
@@ -66,6 +68,7 @@ struct RuntimeVolume::Impl {
 
 void RuntimeVolume::Impl::read_info() {
     info = sized<elvis_volume_info>();
+    services->begin("get_info");
     check(table->get_info(volume, &info), "get_info");
     if (info.dimension != 2 && info.dimension != 3) {
         refuse("get_info", "dimension " + std::to_string(info.dimension));
@@ -96,6 +99,7 @@ void RuntimeVolume::Impl::read_classes() {
     std::uint64_t n_elements = 0;
     for (std::uint32_t index = 0; index < info.n_classes; ++index) {
         auto theirs = sized<elvis_element_class>();
+        services->begin("get_class");
         check(table->get_class(volume, index, &theirs), "get_class");
         if (theirs.shape > ELVIS_SHAPE_TRIANGLE || (theirs.shape >= ELVIS_SHAPE_QUADRILATERAL) != (info.dimension == 2)) {
             refuse("get_class", "shape " + std::to_string(theirs.shape) + " for class " + std::to_string(index));
@@ -122,6 +126,7 @@ void RuntimeVolume::Impl::read_fields() {
     for (std::uint32_t index = 0; index < info.n_fields; ++index) {
         auto theirs = sized<elvis_field>();
         theirs.max_jump = std::nan("");
+        services->begin("get_field");
         check(table->get_field(volume, index, &theirs), "get_field");
         if (!theirs.name || !*theirs.name || theirs.n_components == 0 || theirs.n_components > 1024) {
             refuse("get_field", "a field without name or with " + std::to_string(theirs.n_components) + " components");
@@ -142,6 +147,7 @@ void RuntimeVolume::Impl::read_fields() {
 void RuntimeVolume::Impl::read_texts() {
     times.assign(info.n_time_steps, 0.0);
     for (std::uint32_t step = 0; step < info.n_time_steps; ++step) {
+        services->begin("get_time");
         check(table->get_time(volume, step, &times[step]), "get_time");
     }
     if (info.n_boundary_groups > 0 && !table->get_boundary_group) {
@@ -149,6 +155,7 @@ void RuntimeVolume::Impl::read_texts() {
     }
     for (std::uint32_t group = 0; group < info.n_boundary_groups; ++group) {
         elvis_string name = nullptr;
+        services->begin("get_boundary_group");
         check(table->get_boundary_group(volume, group, &name), "get_boundary_group");
         groups.emplace_back(name ? name : "");
     }
@@ -158,6 +165,7 @@ void RuntimeVolume::Impl::read_texts() {
     for (std::uint32_t note = 0; note < info.n_notes; ++note) {
         elvis_string key = nullptr;
         elvis_string value = nullptr;
+        services->begin("get_note");
         check(table->get_note(volume, note, &key, &value), "get_note");
         notes.emplace_back(key ? key : "", value ? value : "");
     }
@@ -174,8 +182,8 @@ RuntimeVolume::RuntimeVolume(std::shared_ptr<const Plugin> plugin, const std::st
     m_impl->services = std::make_unique<HostServices>(plugin->id(), control);
     m_impl->plugin = std::move(plugin);
     m_impl->path = path;
-    HostServices::clear_error();
     elvis_volume* volume = nullptr;
+    m_impl->services->begin("open");
     m_impl->check(
         m_impl->table->open(m_impl->services->table(), path.c_str(), options.empty() ? nullptr : options.c_str(), &volume),
         "open");
@@ -218,7 +226,7 @@ std::uint32_t RuntimeVolume::field_index(const std::string& name) const {
 
 ClassFieldInfo RuntimeVolume::class_field(std::uint32_t element_class, std::uint32_t field) const {
     auto theirs = sized<elvis_class_field>();
-    HostServices::clear_error();
+    m_impl->services->begin("get_class_field");
     m_impl->check(m_impl->table->get_class_field(m_impl->volume, element_class, field, &theirs), "get_class_field");
     if (theirs.n_constants > 4096 || (theirs.n_constants > 0 && !theirs.constants)) {
         m_impl->refuse("get_class_field", std::to_string(theirs.n_constants) + " constants or no array of them");
@@ -237,7 +245,7 @@ ClassFieldInfo RuntimeVolume::class_field(std::uint32_t element_class, std::uint
 
 BufferInfo RuntimeVolume::buffer(std::uint32_t buffer, std::uint32_t field) const {
     auto theirs = sized<elvis_buffer>();
-    HostServices::clear_error();
+    m_impl->services->begin("get_buffer");
     m_impl->check(m_impl->table->get_buffer(m_impl->volume, buffer, field, &theirs), "get_buffer");
     if (!theirs.name || !is_identifier(theirs.name, false)) {
         m_impl->refuse("get_buffer", "a name that is not a lower-case identifier");
@@ -254,7 +262,7 @@ BufferInfo RuntimeVolume::buffer(std::uint32_t buffer, std::uint32_t field) cons
 
 Snippet RuntimeVolume::snippet(std::uint32_t element_class) const {
     auto theirs = sized<elvis_snippet>();
-    HostServices::clear_error();
+    m_impl->services->begin("get_snippet");
     m_impl->check(m_impl->table->get_snippet(m_impl->volume, element_class, &theirs), "get_snippet");
     if (!theirs.prefix || !is_identifier(theirs.prefix, false)) {
         m_impl->refuse("get_snippet", "a prefix that is not a lower-case identifier");
@@ -279,7 +287,7 @@ Snippet RuntimeVolume::snippet(std::uint32_t element_class) const {
 elvis_certainty RuntimeVolume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> out) const {
     assert(out.size() == 6 * count && first + count <= n_elements());
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    HostServices::clear_error();
+    m_impl->services->begin("get_bounds");
     m_impl->check(m_impl->table->get_bounds(m_impl->volume, first, count, out.data(), &certainty), "get_bounds");
     m_impl->check_certainty(certainty, "get_bounds");
     for (std::uint64_t element = 0; element < count; ++element) {
@@ -305,7 +313,7 @@ void RuntimeVolume::element_numbers(std::uint64_t first, std::uint64_t count, st
         }
         return;
     }
-    HostServices::clear_error();
+    m_impl->services->begin("get_element_numbers");
     m_impl->check(m_impl->table->get_element_numbers(m_impl->volume, first, count, out.data()), "get_element_numbers");
     for (const std::int64_t number : out) {
         if (number < 0 || number >= 0xffffffffll) {
@@ -319,7 +327,7 @@ void RuntimeVolume::faces(std::uint64_t first, std::uint64_t count, std::span<el
     for (elvis_face& face : out) {
         face = sized<elvis_face>();
     }
-    HostServices::clear_error();
+    m_impl->services->begin("get_faces");
     m_impl->check(m_impl->table->get_faces(m_impl->volume, first, count, out.data()), "get_faces");
     const auto n = static_cast<std::int64_t>(n_elements());
     for (const elvis_face& face : out) {
@@ -338,7 +346,7 @@ elvis_certainty RuntimeVolume::field_ranges(std::uint32_t field, std::uint32_t t
     static_assert(sizeof(FieldRange) == 2 * sizeof(double));
     assert(has_field_ranges() && out.size() == count * m_impl->fields[field].n_components);
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    HostServices::clear_error();
+    m_impl->services->begin("get_field_ranges");
     m_impl->check(m_impl->table->get_field_ranges(m_impl->volume, field, time_step, first, count,
                                                   reinterpret_cast<double*>(out.data()), &certainty),
                   "get_field_ranges");
@@ -359,7 +367,7 @@ elvis_certainty RuntimeVolume::derivative_bounds(std::uint32_t field, std::uint3
     assert(has_derivative_bounds() && out.size() == count * m_impl->fields[field].n_components);
     constexpr const char* function = "get_field_derivative_bounds";
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    HostServices::clear_error();
+    m_impl->services->begin("get_field_derivative_bounds");
     m_impl->check(m_impl->table->get_field_derivative_bounds(m_impl->volume, field, time_step, first, count,
                                                              reinterpret_cast<double*>(out.data()), &certainty),
                   function);
@@ -378,7 +386,7 @@ elvis_certainty RuntimeVolume::derivative_bounds(std::uint32_t field, std::uint3
 void RuntimeVolume::fill_buffer(const elvis_fill_request& request, void* destination) const {
     elvis_fill_request copy = request;
     copy.struct_size = sizeof copy;
-    HostServices::clear_error();
+    m_impl->services->begin("fill_buffer");
     m_impl->check(m_impl->table->fill_buffer(m_impl->volume, &copy, destination), "fill_buffer");
 }
 
@@ -389,7 +397,7 @@ void RuntimeVolume::evaluate_mapping(std::uint64_t element, std::span<const doub
     const std::size_t n_points = xi.size() / 3;
     assert(positions.empty() || positions.size() == 3 * n_points);
     assert(jacobians.empty() || jacobians.size() == 9 * n_points);
-    HostServices::clear_error();
+    m_impl->services->begin("evaluate_mapping");
     m_impl->check(m_impl->table->evaluate_mapping(m_impl->volume, element, n_points, xi.data(),
                                                   positions.empty() ? nullptr : positions.data(),
                                                   jacobians.empty() ? nullptr : jacobians.data()),
@@ -401,7 +409,7 @@ void RuntimeVolume::evaluate_field(std::uint32_t field, std::uint32_t time_step,
     [[maybe_unused]] const std::size_t n_numbers = xi.size() / 3 * m_impl->fields[field].n_components;
     assert(values.empty() || values.size() == n_numbers);
     assert(gradients.empty() || gradients.size() == 3 * n_numbers);
-    HostServices::clear_error();
+    m_impl->services->begin("evaluate_field");
     m_impl->check(m_impl->table->evaluate_field(m_impl->volume, field, time_step, element, xi.size() / 3, xi.data(),
                                                 values.empty() ? nullptr : values.data(),
                                                 gradients.empty() ? nullptr : gradients.data()),
@@ -414,7 +422,7 @@ elvis_certainty RuntimeVolume::check_jacobians(std::uint64_t first, double toler
     assert(has_jacobian_checks() && dimension() == 3 && first + out.size() <= n_elements());
     std::vector<elvis_jacobian_check> theirs(out.size(), sized<elvis_jacobian_check>());
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    HostServices::clear_error();
+    m_impl->services->begin("check_jacobians");
     m_impl->check(m_impl->table->check_jacobians(m_impl->volume, first, out.size(), tolerance, theirs.data(), &certainty),
                   "check_jacobians");
     m_impl->check_certainty(certainty, "check_jacobians");

@@ -31,7 +31,9 @@ struct SourceVolume::Impl {
 
     ~Impl() {
         if (source) {
+            services->begin("close");
             table->close(source);
+            services->check(ELVIS_OK, "close", {});
         }
     }
 
@@ -45,6 +47,7 @@ struct SourceVolume::Impl {
 
 void SourceVolume::Impl::read_description() {
     info = sized<elvis_source_info>();
+    services->begin("get_info");
     check(table->get_info(source, &info), "get_info");
     if (info.dimension != 2 && info.dimension != 3) {
         refuse("get_info", "dimension " + std::to_string(info.dimension));
@@ -60,6 +63,7 @@ void SourceVolume::Impl::read_description() {
     }
     for (std::uint32_t index = 0; index < info.n_fields; ++index) {
         auto field = sized<elvis_source_field>();
+        services->begin("get_field");
         check(table->get_field(source, index, &field), "get_field");
         if (!field.name || !*field.name || field.n_components == 0 || field.n_components > 1024) {
             refuse("get_field", "a field without name or with " + std::to_string(field.n_components) + " components");
@@ -80,6 +84,7 @@ void SourceVolume::Impl::read_description() {
         refuse("get_info", "several time steps, but get_time is missing");
     }
     for (std::uint32_t step = 0; table->get_time && step < info.n_time_steps; ++step) {
+        services->begin("get_time");
         check(table->get_time(source, step, &times[step]), "get_time");
     }
     if (info.n_boundary_groups > 0 && !table->get_boundary_group) {
@@ -87,6 +92,7 @@ void SourceVolume::Impl::read_description() {
     }
     for (std::uint32_t group = 0; group < info.n_boundary_groups; ++group) {
         elvis_string name = nullptr;
+        services->begin("get_boundary_group");
         check(table->get_boundary_group(source, group, &name), "get_boundary_group");
         groups.emplace_back(name ? name : "");
     }
@@ -107,8 +113,8 @@ SourceVolume::SourceVolume(std::shared_ptr<const Plugin> plugin, const std::vect
     for (const std::string& path : paths) {
         names.push_back(path.c_str());
     }
-    HostServices::clear_error();
     elvis_source_volume* source = nullptr;
+    m_impl->services->begin("open");
     m_impl->check(m_impl->table->open(m_impl->services->table(), names.data(), static_cast<std::uint32_t>(names.size()),
                                       options.empty() ? nullptr : options.c_str(), &source),
                   "open");
@@ -136,7 +142,7 @@ void SourceVolume::elements(std::uint64_t first, std::uint64_t count, std::span<
     for (elvis_source_element& element : out) {
         element = sized<elvis_source_element>();
     }
-    HostServices::clear_error();
+    m_impl->services->begin("get_elements");
     m_impl->check(m_impl->table->get_elements(m_impl->source, first, count, out.data()), "get_elements");
     for (std::uint64_t index = 0; index < count; ++index) {
         const elvis_source_element& element = out[index];
@@ -171,7 +177,7 @@ void SourceVolume::spaces(std::uint32_t field, std::uint64_t first, std::uint64_
     for (elvis_source_space& space : out) {
         space = sized<elvis_source_space>();
     }
-    HostServices::clear_error();
+    m_impl->services->begin("get_spaces");
     m_impl->check(m_impl->table->get_spaces(m_impl->source, field, first, count, out.data()), "get_spaces");
     for (std::uint64_t index = 0; index < count; ++index) {
         for (const std::uint32_t order : out[index].order) {
@@ -186,7 +192,7 @@ void SourceVolume::spaces(std::uint32_t field, std::uint64_t first, std::uint64_
 
 void SourceVolume::evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions) const {
     assert(xi.size() % 3 == 0 && positions.size() == xi.size());
-    HostServices::clear_error();
+    m_impl->services->begin("evaluate_mapping");
     m_impl->check(m_impl->table->evaluate_mapping(m_impl->source, element, xi.size() / 3, xi.data(), positions.data()),
                   "evaluate_mapping");
     for (const double coordinate : positions) {
@@ -201,13 +207,13 @@ void SourceVolume::sample(std::uint32_t time_step, std::uint64_t element, std::s
     const std::size_t n_points = xi.size() / 3;
     assert(values.size() == n_points * m_impl->n_values);
     if (m_impl->table->sample) {
-        HostServices::clear_error();
-        m_impl->check(m_impl->table->sample(m_impl->source, time_step, element, n_points, xi.data(), values.data()), "sample");
+            m_impl->services->begin("sample");
+            m_impl->check(m_impl->table->sample(m_impl->source, time_step, element, n_points, xi.data(), values.data()), "sample");
         return;
     }
     std::vector<double> positions(xi.size());
     evaluate_mapping(element, xi, positions);
-    HostServices::clear_error();
+    m_impl->services->begin("sample_world");
     m_impl->check(m_impl->table->sample_world(m_impl->source, time_step, element, n_points, positions.data(), values.data()),
                   "sample_world");
 }

@@ -364,10 +364,22 @@ Kernel make_kernel(const Device& device, const KernelRequest& request) {
     return Kernel(device, spirv, std::move(layout), request.push_constant_bytes, request.name);
 }
 
+/** Each once: "snippet 'my_solver' (hexahedron.glsl)". */
+std::string snippet_names(const KernelRequest& request) {
+    std::string names;
+    for (const SnippetInstance& instance : request.instances) {
+        const std::string name = "snippet '" + instance.snippet.prefix + "' (" + instance.snippet.sources.front().name + ")";
+        if (names.find(name) == std::string::npos) {
+            names += (names.empty() ? "" : ", ") + name;
+        }
+    }
+    return names;
+}
+
 } // namespace
 
 ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request)
-    : m_kernel(make_kernel(device, request)), m_records(record_bindings(request, Records(request))),
+    : m_kernel(make_kernel(device, request)), m_snippets(snippet_names(request)), m_records(record_bindings(request, Records(request))),
       m_n_bindings(request.bindings.size()) {}
 
 void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
@@ -377,7 +389,16 @@ void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span
     for (std::uint32_t binding = 0; binding < bindings.size(); ++binding) {
         bound.push_back({binding, bindings[binding], nullptr, 0});
     }
-    m_kernel.dispatch(bound, push_constants, groups_x, groups_y, groups_z);
+    try {
+        m_kernel.dispatch(bound, push_constants, groups_x, groups_y, groups_z);
+    } catch (const Error& error) {
+        // A lost device is most often a snippet's endless loop or a fetch beyond a record.
+        if (m_snippets.empty()) {
+            throw;
+        }
+        throw Error(error.place(), error.cause() + " [the kernel evaluates the plugin's " + m_snippets +
+                                       "; elvis check-plugin looks for endless loops there]");
+    }
 }
 
 std::string compose_text(const Device& device, const KernelRequest& request) {

@@ -102,6 +102,8 @@ public:
 
 private:
     Kernel m_kernel;
+    /** The snippets in it, for messages: their texts' names. */
+    std::string m_snippets;
     std::vector<BoundBuffer> m_records;
     std::size_t m_n_bindings;
 };

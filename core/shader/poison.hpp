@@ -22,6 +22,21 @@ constexpr double poison = 0x1p100;
  */
 std::string poison_outputs(std::string_view text, const GlslNames& names);
 
-constexpr const char* poison_declarations = "#define CORE_DEBUG_BUILD 1\nuint core_loop_turns = 0u;\nbool core_is_endless = false;\n";
+/** Also elvis_debug, which then keeps up to CORE_N_DEBUG numbers. */
+constexpr const char* poison_declarations = R"(#define CORE_DEBUG_BUILD 1
+#define CORE_N_DEBUG 15u
+uint core_loop_turns = 0u;
+bool core_is_endless = false;
+uint core_n_debug = 0u;
+double core_debug[CORE_N_DEBUG];
+void core_keep_debug(double value) {
+    if (core_n_debug < CORE_N_DEBUG) {
+        core_debug[core_n_debug] = value;
+    }
+    ++core_n_debug;
+}
+#undef elvis_debug
+#define elvis_debug(value) core_keep_debug(double(value))
+)";
 
 } // namespace elvis

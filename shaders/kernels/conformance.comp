@@ -9,7 +9,7 @@ struct core_point {
 };
 
 // Numbers a point; the order is that of core/conformance/device_sampler.hpp.
-#define CORE_N_NUMBERS 86u
+#define CORE_N_NUMBERS 102u
 
 layout(set = 0, binding = 0, std430) readonly buffer core_points_block { core_point core_points[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer core_results_block { double core_results[]; };
@@ -38,13 +38,20 @@ void main() {
     const uint first = CORE_N_NUMBERS * index;
 
     core_results[first] = double(elvis_field_value(element, xi, component));
+    const elvis_vec3 position = elvis_mapping(element, xi);
+#ifdef CORE_DEBUG_BUILD
+    // What elvis_field_value and elvis_mapping said; the other functions call them again.
+    core_results[first + 86u] = double(core_n_debug);
+    for (uint i = 0u; i < CORE_N_DEBUG; ++i) {
+        core_results[first + 87u + i] = i < core_n_debug ? core_debug[i] : 0.0LF;
+    }
+#endif
     elvis_real value;
     elvis_vec3 gradient;
     elvis_field_gradient(element, xi, component, value, gradient);
     core_results[first + 1u] = double(value);
     core_write_vector(first + 2u, gradient);
 
-    const elvis_vec3 position = elvis_mapping(element, xi);
     core_write_vector(first + 5u, position);
     core_write_matrix(first + 8u, elvis_jacobian(element, xi));
     elvis_vec3 x;

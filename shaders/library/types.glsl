@@ -25,4 +25,7 @@
 #define ELVIS_SHAPE_QUADRILATERAL 4
 #define ELVIS_SHAPE_TRIANGLE 5
 
+// For people who write snippets: a number to be shown by `elvis compile-snippet --at`; nothing otherwise.
+#define elvis_debug(value)
+
 #endif

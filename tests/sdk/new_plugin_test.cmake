@@ -40,6 +40,19 @@ if(result EQUAL 0 OR NOT output MATCHES "not empty")
   message(FATAL_ERROR "new-plugin writes into a folder that is not empty: ${output}")
 endif()
 
+# A number from inside the snippet is shown, without building the plugin again.
+if(KIND STREQUAL "runtime")
+  file(READ "${WORK}/my_solver/src/snippet.glsl" original)
+  string(REPLACE "return value / elvis_real(8);" "elvis_debug(xi.x * xi.y);\n    return value / elvis_real(8);" text "${original}")
+  file(WRITE "${WORK}/my_solver/src/snippet.glsl" "${text}")
+  run(${CMAKE_COMMAND} -E chdir my_solver "${WORK}/prefix/bin/elvis" compile-snippet src/snippet.glsl --plugin build/my_solver.so
+      --volume sample/twist.mesh --at 3,0.25,0.5,0)
+  if(NOT output MATCHES "elvis_field_value of temperature = .*elvis_debug 0: 0.125")
+    message(FATAL_ERROR "elvis_debug is not shown:\n${output}")
+  endif()
+  file(WRITE "${WORK}/my_solver/src/snippet.glsl" "${original}")
+endif()
+
 # A mistake in the snippet is reported with its file and line.
 if(KIND STREQUAL "runtime")
   file(READ "${WORK}/my_solver/src/snippet.glsl" text)

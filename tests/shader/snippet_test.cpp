@@ -1,0 +1,107 @@
+// What helps people who write snippets: signatures, hints, and the debug build that finds outputs never written and endless loops.
+#include "fixture.hpp"
+
+#include <core/base/error.hpp>
+#include <core/shader/compiler.hpp>
+#include <core/shader/composer.hpp>
+#include <core/shader/glsl_scan.hpp>
+#include <core/shader/poison.hpp>
+#include <core/shader/snippet_check.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace elvis;
+
+namespace {
+
+std::string complaint(const Snippet& snippet) {
+    try {
+        check_snippet(snippet);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/** The snippet with a part of its first source replaced. */
+Snippet changed(Snippet snippet, const std::string& what, const std::string& by) {
+    std::string& text = snippet.sources.front().text;
+    const std::size_t at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, what.size(), by);
+    return snippet;
+}
+
+} // namespace
+
+TEST_CASE("Functions with other parameters or another type than the interface's are refused with its signature") {
+    const Snippet good = test::simple_snippet();
+    REQUIRE(complaint(good).empty());
+    for (const char* signature : {"elvis_real elvis_field_value(uint element, elvis_vec3 xi)",
+                                  "elvis_real elvis_field_value(uint element, uint component, elvis_vec3 xi)",
+                                  "elvis_vec3 elvis_field_value(uint element, elvis_vec3 xi, uint component)",
+                                  "elvis_real elvis_field_value(uint element, out elvis_vec3 xi, uint component)"}) {
+        INFO(signature);
+        const Snippet bad = changed(good, "elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component)", signature);
+        CHECK(contains(complaint(bad), "elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component)"));
+        CHECK(contains(complaint(bad), good.sources.front().name + ":"));
+    }
+    // Qualifiers that change nothing are fine.
+    CHECK(complaint(changed(good, "elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component)",
+                            "elvis_real elvis_field_value(in uint element, const in elvis_vec3 xi, const uint component)"))
+              .empty());
+}
+
+TEST_CASE("Messages about the interface say what it has") {
+    CHECK(contains(explain_errors("a.glsl:3: 'elvis_sinn' : no matching overloaded function found"), "nearest is elvis_sin"));
+    CHECK(contains(explain_errors("a.glsl:3: 'elvis_mapping' : no matching overloaded function found"),
+                   "elvis_vec3 elvis_mapping(uint element, elvis_vec3 xi)"));
+    CHECK(contains(explain_errors("a.glsl:3: 'elvis_fetch_mods' : no matching overloaded function found"), "no buffer"));
+    CHECK(contains(explain_errors("a.glsl:3: 'sin' : no matching overloaded function found"), "take elvis_sin"));
+    CHECK(explain_errors("a.glsl:3: '' : syntax error\nb.glsl:4: other") == "a.glsl:3: '' : syntax error\nb.glsl:4: other");
+}
+
+TEST_CASE("The debug build poisons every output and counts every loop with braces, and keeps lines") {
+    const std::string text = "void elvis_field_gradient(uint element, elvis_vec3 xi, uint component,\n"
+                             "                          out elvis_real value, out elvis_vec3 gradient) {\n"
+                             "    for (int i = 0; i < 3; ++i) { value = 1; }\n"
+                             "    while (value > 3) { value -= 1; }\n"
+                             "    do { value += 1; } while (value < 0);\n"
+                             "    // for (;;) { a comment }\n"
+                             "    for (int i = 0; i < 3; ++i) value += 1;\n"
+                             "    if (value > 0) { value = 0; }\n"
+                             "}\n";
+    const std::string poisoned = poison_outputs(text, scan_glsl(text));
+    CHECK(contains(poisoned, " value = elvis_real("));
+    CHECK(contains(poisoned, " gradient = elvis_vec3("));
+    CHECK(std::count(poisoned.begin(), poisoned.end(), '\n') == std::count(text.begin(), text.end(), '\n'));
+    std::size_t n_counts = 0;
+    for (std::size_t at = poisoned.find("++core_loop_turns"); at != std::string::npos; at = poisoned.find("++core_loop_turns", at + 1)) {
+        ++n_counts;
+    }
+    CHECK(n_counts == 3);
+}
+
+TEST_CASE("A snippet's debug build compiles without a device") {
+    KernelRequest request;
+    request.name = "debug build";
+    request.kernel = "kernels/conformance.comp";
+    request.poisons_outputs = true;
+    SnippetInstance instance;
+    instance.snippet = test::simple_snippet();
+    instance.constants = {};
+    // Stand-ins for its buffers.
+    for (const std::string& name : scan_glsl(instance.snippet.sources.front().text).identifiers) {
+        if (name.rfind("elvis_fetch4_", 0) == 0) {
+            request.defines.emplace_back(name + "(record, index)", "elvis_vec4(0)");
+        } else if (name.rfind("elvis_fetch_", 0) == 0) {
+            request.defines.emplace_back(name + "(record, index)", "elvis_real(0)");
+        }
+    }
+    request.instances = {instance};
+    CHECK_FALSE(compile_shader(compose_text(request), request.name).empty());
+}
