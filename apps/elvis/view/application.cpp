@@ -204,6 +204,7 @@ private:
         m_ui.scale = m_window.scale();
         m_ui.places.clear();
         m_ui.is_dragging = false;
+        m_ui.keys = m_window.pressed_keys();
         if (m_ui.has_new_look) {
             m_ui.has_new_look = false;
             m_window.set_look(m_settings.is_dark);

@@ -53,6 +53,8 @@ public:
     using Job = std::function<Answer(Session&)>;
     /** A job that throws answers with `on_error`. `activity` says what is being done. */
     void post(std::string activity, Job job, std::function<void(const std::string&)> on_error);
+    /** The same, when there is nothing else to do. Jobs that take long should come in pieces. */
+    void post_later(std::string activity, Job job, std::function<void(const std::string&)> on_error);
 
     /** Takes the place of a picture that waits, and stops one that is being drawn, if the renderer can be stopped. */
     void draw(DrawRequest request);
@@ -81,7 +83,7 @@ private:
     std::function<void()> m_wake;
     mutable std::mutex m_mutex;
     std::condition_variable_any m_changed;
-    std::deque<Task> m_tasks;
+    std::deque<Task> m_tasks, m_later_tasks;
     std::optional<DrawRequest> m_wanted;
     std::optional<std::pair<std::uint64_t, double>> m_drawing;
     std::string m_activity;

@@ -44,7 +44,7 @@ void Model::changed() {
     m_is_changed = true;
 }
 
-void Model::edit(const std::string& what, Scene scene) {
+void Model::edit(const std::string& what, Scene&& scene) {
     if (m_gesture != what || m_undo.empty()) {
         m_undo.push_back({what, m_scene, m_selection});
         if (m_undo.size() > most_steps) {

@@ -37,7 +37,7 @@ public:
     void saved(std::string file);
 
     /** `what` names the step: "opacity", "remove plane". */
-    void edit(const std::string& what, Scene scene);
+    void edit(const std::string& what, Scene&& scene);
     /** What follows is a step of its own. */
     void end_gesture() { m_gesture.clear(); }
     /** An edit has been made since the last end_gesture(). */
