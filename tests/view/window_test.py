@@ -37,8 +37,8 @@ def opens_by_dialog(window):
     window.wait_for(lambda screen: screen["dialog"] == 1, "the dialog")
     window.write(os.path.join(window.folder, "ball.h5"))
     window.key("Return")
+    window.wait_for(lambda screen: screen["volume"].endswith("ball.h5"), "the volume")
     screen = window.settle()
-    require(screen["volume"].endswith("ball.h5"), f"no volume is open: {screen['messages']}")
     require(screen["items"] == ["Boundary"], f"the items are {screen['items']}")
     window.picture("opened.png")
     left, top, right, bottom = (int(x) for x in screen["places"]["view"])
@@ -53,9 +53,9 @@ def orbits(window):
     before = window.screen()["scene"]["camera"]
     states = set()
     window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: states.add(screen["state"]))
+    window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != before["eye"], "the camera to move")
     screen = window.settle()
     after = screen["scene"]["camera"]
-    require(before["eye"] != after["eye"], "the camera has not moved")
     distance = [sum((a - b) ** 2 for a, b in zip(camera["eye"], camera["look_at"])) for camera in (before, after)]
     require(abs(distance[0] - distance[1]) < 1e-6 * distance[0], f"the distance has changed: {distance}")
     require("reduced" in states, f"no reduced picture was shown while moving, only {states}")
@@ -67,37 +67,39 @@ def orbits(window):
 def zooms_to_the_cursor(window):
     before = window.screen()["scene"]["camera"]
     window.wheel(window.place("view", 0.6, 0.4), 3)
-    after = window.settle()["scene"]["camera"]
-    require(before["look_at"] != after["look_at"], "the wheel has not moved what is looked at")
+    window.wait_for(lambda screen: screen["scene"]["camera"]["look_at"] != before["look_at"], "what is looked at to move")
     window.key("f")
+    window.wait_for(lambda screen: abs(screen["scene"]["camera"]["look_at"][0] - before["look_at"][0]) < 1e-9, "all to be seen")
     window.settle()
 
 
 def adds_a_cut_plane(window):
     window.click("items/add")
     window.click("add/Cut plane")
-    screen = window.settle()
-    require(len(screen["items"]) == 2 and screen["items"][1].startswith("Cut plane"), f"the items are {screen['items']}")
+    window.wait_for(lambda screen: len(screen["items"]) == 2 and screen["items"][1].startswith("Cut plane"), "the plane")
     window.click("item/0/shown")
-    screen = window.settle()
-    require(screen["scene"]["surfaces"][0].get("visible") is False, "the boundary is not hidden")
+    window.wait_for(lambda screen: screen["scene"]["surfaces"][0].get("visible") is False, "the boundary to be hidden")
+    window.settle()
 
 
 def moves_it(window):
+    """Returns the plane before, after it was moved, and after it was turned, too."""
     before = plane_of(window.screen())
     window.drag(window.place("handle/move"), (60, 25))
+    window.wait_for(lambda screen: plane_of(screen) != before, "the plane to move")
     screen = window.settle()
-    after = plane_of(screen)
-    require(before[:3] == after[:3] and before[3] != after[3], f"the plane went from {before} to {after}")
+    moved = plane_of(screen)
+    require(before[:3] == moved[:3], f"the plane went from {before} to {moved}")
     require(screen["undo"] == "move cut plane", f"to undo is '{screen['undo']}'")
     window.drag(window.place("handle/turn"), (30, 60))
-    turned = plane_of(window.settle())
-    require(turned[:3] != after[:3], "the plane has not turned")
-    return before
+    window.wait_for(lambda screen: plane_of(screen)[:3] != moved[:3], "the plane to turn")
+    return before, moved, plane_of(window.settle())
 
 
 def picks(window, elvis):
+    eye = window.screen()["scene"]["camera"]["eye"]
     window.key("1")  # From +x, which is nearly across the plane.
+    window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != eye, "the view from +x")
     window.settle()
     window.click("view", 0.45, 0.6)
     screen = window.wait_for(lambda screen: "element" in screen["picked"], "a point")
@@ -114,15 +116,11 @@ def picks(window, elvis):
     window.picture("picked.png")
 
 
-def undoes(window, first_plane):
-    window.key("ctrl+z")
-    window.key("ctrl+z")
-    screen = window.settle()
-    require(plane_of(screen) == first_plane, f"undone, the plane is {plane_of(screen)}, not {first_plane}")
-    window.key("ctrl+y")
-    window.key("ctrl+y")
-    screen = window.settle()
-    require(plane_of(screen) != first_plane and screen["redo"] == "", "nothing was done again")
+def undoes(window, first, moved, turned):
+    for key, plane in (("ctrl+z", moved), ("ctrl+z", first), ("ctrl+y", moved), ("ctrl+y", turned)):
+        window.key(key)
+        window.wait_for(lambda screen: plane_of(screen) == plane, f"{key} to make the plane {plane}", 30)
+    require(window.settle()["redo"] == "", "there is more to be done again")
 
 
 def saves(window, elvis):
@@ -130,12 +128,13 @@ def saves(window, elvis):
     window.wait_for(lambda screen: screen["dialog"] == 2, "the dialog")
     window.write(os.path.join(window.folder, "saved.json"))
     window.key("Return")
-    window.settle()
-    require(os.path.exists("saved.json"), "there is no scene")
+    window.wait_for(lambda screen: os.path.exists("saved.json"), "the scene")
+    window.wait_for(lambda screen: screen["dialog"] == 0, "the dialog to close")
     window.key("ctrl+p")
     window.wait_for(lambda screen: screen["dialog"] == 3, "the dialog")
     window.write(os.path.join(window.folder, "window.png"))
     window.key("Return")
+    window.wait_for(lambda screen: any("saved the picture" in message for message in screen["messages"]), "the picture")
     window.settle()
     run(elvis, window.folder, "render", "saved.json", "-o", "rendered.png")
     with open("window.png", "rb") as one, open("rendered.png", "rb") as other:
@@ -146,6 +145,20 @@ def saves(window, elvis):
     part = (0, 3 * (bottom - top) // 4, right - left, (bottom - top) // 4)
     shown = pixels("saved.png", (left + part[0], top + part[1], part[2], part[3]))
     require(shown == pixels("rendered.png", part), "the screen shows another picture than elvis render draws")
+
+
+def converts(window):
+    """A foreign file is converted after asking."""
+    window.key("ctrl+o")
+    window.wait_for(lambda screen: screen["dialog"] == 1, "the dialog")
+    window.write(os.path.join(window.folder, "foreign.json"))
+    window.key("Return")
+    window.wait_for(lambda screen: screen["dialog"] == 4, "the offer to convert")
+    window.picture("convert.png")
+    window.click("dialog/do")
+    screen = window.wait_for(lambda screen: screen["volume"].endswith("foreign.h5"), "the converted volume")
+    require(any("residual" in message for message in screen["messages"]), f"no report: {screen['messages']}")
+    window.settle()
 
 
 def quits(window):
@@ -168,6 +181,7 @@ def main(elvis, folder):
     says_that_there_is_no_display(elvis, folder)
     with open("ball.json", "w") as file:
         json.dump(VOLUME, file)
+    shutil.copy("ball.json", "foreign.json")
     run(elvis, folder, "convert", "ball.json", "-o", "ball.h5")
     display = Display()
     window = None
@@ -177,10 +191,11 @@ def main(elvis, folder):
         orbits(window)
         zooms_to_the_cursor(window)
         adds_a_cut_plane(window)
-        first_plane = moves_it(window)
+        planes = moves_it(window)
         picks(window, elvis)
-        undoes(window, first_plane)
+        undoes(window, *planes)
         saves(window, elvis)
+        converts(window)
         quits(window)
     finally:
         if window:

@@ -4,8 +4,8 @@
 
 namespace elvis::view {
 
-FrameWorker::FrameWorker(std::unique_ptr<Session> session, std::function<void()> wake)
-    : m_session(std::move(session)), m_wake(std::move(wake)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
+FrameWorker::FrameWorker(std::unique_ptr<Session> session)
+    : m_session(std::move(session)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
 
 FrameWorker::~FrameWorker() {
     m_thread.request_stop();
@@ -121,7 +121,6 @@ void FrameWorker::run(const std::stop_token& stop) {
                 m_drawn = std::move(answer);
             }
         }
-        m_wake();
     }
 }
 

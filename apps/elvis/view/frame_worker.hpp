@@ -41,8 +41,7 @@ struct DrawAnswer {
  */
 class FrameWorker {
 public:
-    /** `wake` is called from the thread whenever there is an answer. */
-    FrameWorker(std::unique_ptr<Session> session, std::function<void()> wake);
+    explicit FrameWorker(std::unique_ptr<Session> session);
     /** Waits for what is being done. */
     ~FrameWorker();
     FrameWorker(const FrameWorker&) = delete;
@@ -65,8 +64,6 @@ public:
     /** A picture is being drawn, or waits: its revision and scale. */
     std::optional<std::pair<std::uint64_t, double>> drawing() const;
 
-    const std::function<void()>& wake() const { return m_wake; }
-
     /** Calls the answers that have come, and returns the last picture among them. */
     std::optional<DrawAnswer> collect();
 
@@ -80,7 +77,6 @@ private:
     DrawAnswer drawn(const DrawRequest& request);
 
     std::unique_ptr<Session> m_session;
-    std::function<void()> m_wake;
     mutable std::mutex m_mutex;
     std::condition_variable_any m_changed;
     std::deque<Task> m_tasks, m_later_tasks;

@@ -75,8 +75,7 @@ void Model::set_size(const std::array<std::uint32_t, 2>& size) {
     }
 }
 
-Camera Model::camera() const {
-    const SceneCamera& own = m_scene.camera;
+Camera camera_of(const SceneCamera& own) {
     Camera camera;
     camera.orthographic = own.orthographic.value_or(false);
     camera.eye = own.eye.value_or(Vector3{0, 0, 1});
@@ -87,6 +86,8 @@ Camera Model::camera() const {
     camera.image_shift = own.image_shift;
     return camera;
 }
+
+Camera Model::camera() const { return camera_of(m_scene.camera); }
 
 std::optional<std::string> Model::undo_name() const {
     return m_undo.empty() ? std::nullopt : std::optional(m_undo.back().what);

@@ -77,6 +77,9 @@ private:
     std::optional<ItemId> m_selection;
 };
 
+/** Complete, with the usual values for what is left open. */
+Camera camera_of(const SceneCamera& camera);
+
 /** Steps of undo that are kept. */
 inline constexpr std::size_t most_steps = 200;
 

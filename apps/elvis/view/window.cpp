@@ -178,8 +178,6 @@ bool Window::wait(double seconds) {
     return std::exchange(m_has_events, false);
 }
 
-void Window::wake() { glfwPostEmptyEvent(); }
-
 std::vector<std::string> Window::dropped() { return std::exchange(m_dropped, {}); }
 
 std::vector<KeyPress> Window::pressed_keys() { return std::exchange(m_keys, {}); }

@@ -39,8 +39,6 @@ public:
     void keep_open();
     /** Waits for events, at most that long, and handles them. Returns whether there may have been some. */
     bool wait(double seconds);
-    /** May be called from any thread. */
-    static void wake();
     /** Files that were dropped onto it since the last call. */
     std::vector<std::string> dropped();
 

@@ -28,9 +28,9 @@ double MotionStatistics::frames_per_second() const {
     return sum > 0 ? static_cast<double>(frame_seconds.size()) / sum : 0;
 }
 
-Workbench::Workbench(std::unique_ptr<Session> session, std::function<void()> wake)
+Workbench::Workbench(std::unique_ptr<Session> session)
     : m_device_messages([device = &session->device()] { return device->validation_messages(); }),
-      m_worker(std::move(session), std::move(wake)) {}
+      m_worker(std::move(session)) {}
 
 void Workbench::say(Message::Kind kind, std::string text) {
     constexpr std::size_t most_messages = 500;
@@ -221,7 +221,7 @@ void Workbench::convert(const std::string& input, const std::string& output) {
         say(Message::Kind::error, "another conversion is still at work");
         return;
     }
-    m_conversion.start({input}, output, m_worker.wake());
+    m_conversion.start({input}, output);
 }
 
 void Workbench::take(DrawAnswer answer) {

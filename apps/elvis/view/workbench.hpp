@@ -47,7 +47,7 @@ class Workbench {
 public:
     using Clock = std::chrono::steady_clock;
 
-    Workbench(std::unique_ptr<Session> session, std::function<void()> wake);
+    explicit Workbench(std::unique_ptr<Session> session);
 
     Model& model() { return m_model; }
     const Model& model() const { return m_model; }
