@@ -8,10 +8,10 @@ packages=(
     cmake ninja-build g++ pkg-config
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
     libboost-filesystem-dev libeigen3-dev libhdf5-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libpng-dev
-    libfreetype-dev fonts-dejavu-core
+    libfreetype-dev fonts-dejavu-core libglfw3-dev libimgui-dev libstb-dev
     libpugixml-dev zlib1g-dev liblz4-dev
 )
-test_packages=(catch2 vulkan-validationlayers python3-h5py gmsh)
+test_packages=(catch2 vulkan-validationlayers python3-h5py gmsh xvfb xdotool imagemagick)
 
 usage() {
     cat <<'END'

@@ -84,6 +84,7 @@ TEST_CASE("Every key of the schema is read") {
           [](const auto& r) { return r.integrator == Integrator::trapezoid && r.step == 0.125; }}},
         {"tolerance", {R"({"tolerance": 1e-5})", [](const auto& r) { return r.tolerance == 1e-5; }}},
         {"range_skipping", {R"({"range_skipping": false})", [](const auto& r) { return !r.skips_by_range; }}},
+        {"visible", {R"({"visible": false})", [](const auto& r) { return !r.is_shown; }}},
     };
     const json properties = schema_of_volume_rendering();
     for (const auto& [key, ignored] : properties.items()) {

@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 namespace elvis::view {
@@ -20,11 +21,18 @@ namespace {
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings;
 
+/** Panels are drawn at most that often. */
+constexpr double frame_seconds = 1.0 / 40;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 class Application {
 public:
     explicit Application(const Options& options)
         : m_options(options), m_settings(settings_of(options)), m_window(m_settings, options.device, options.validation),
-          m_bench(std::make_unique<Session>(options.device, options.validation), Window::wake),
+          m_bench(std::make_unique<Session>(options.device, options.validation)),
           m_ui{m_bench, m_settings, m_window.scale()} {
         m_bench.on_file = [this](const std::string& path) {
             m_settings.add_recent(path);
@@ -39,14 +47,19 @@ public:
         while (!m_is_done) {
             // After an event, ImGui takes some frames to settle; while something is shown that changes by itself, few a second.
             const bool is_lively = m_frames_wanted > 0 || m_view.is_moving() || m_ui.is_playing;
-            const bool has_events = m_window.wait(is_lively ? 0.0 : m_bench.is_settled() ? 0.5 : 0.05);
+            // The thread that draws is asked, not waited for: GLFW 3.3 may hang where other threads post events.
+            const double calm = m_bench.is_settled() ? 0.5 : 0.01;
+            const bool has_events = m_window.wait(is_lively ? frame_seconds - seconds_since(m_last_frame) : calm);
             const bool has_news = update();
-            if (has_events || has_news) {
+            if (has_events || has_news || m_bench.activity() != m_shown_activity || m_bench.is_settled() != m_was_settled) {
                 m_frames_wanted = 3;
             }
-            if (m_frames_wanted > 0 || is_lively || !m_bench.is_settled() || m_bench.activity() != m_shown_activity) {
+            // Where the device is the CPU, panels that are drawn too often are in the way of the picture.
+            const double least = has_news ? 0 : m_frames_wanted > 0 || is_lively ? frame_seconds : m_bench.is_settled() ? 0.5 : 0.2;
+            if (seconds_since(m_last_frame) >= least) {
                 m_frames_wanted = std::max(0, m_frames_wanted - 1);
                 m_shown_activity = m_bench.activity();
+                m_was_settled = m_bench.is_settled();
                 draw();
             }
         }
@@ -200,10 +213,12 @@ private:
     }
 
     void draw() {
+        m_last_frame = Clock::now();
         m_window.begin_frame();
         m_ui.scale = m_window.scale();
         m_ui.places.clear();
         m_ui.is_dragging = false;
+        m_ui.keys = m_window.pressed_keys();
         if (m_ui.has_new_look) {
             m_ui.has_new_look = false;
             m_window.set_look(m_settings.is_dark);
@@ -252,9 +267,11 @@ private:
     Ui m_ui;
     ViewArea m_view;
     bool m_is_done = false;
+    bool m_was_settled = false;
     bool m_has_picture = false;
     bool m_had_picked = false;
     int m_frames_wanted = 3;
+    Clock::time_point m_last_frame{};
     std::string m_shown_activity;
     std::string m_title;
     std::string m_description;

@@ -10,7 +10,7 @@ namespace elvis::view {
 
 ConversionTask::~ConversionTask() { cancel(); }
 
-void ConversionTask::start(std::vector<std::string> inputs, std::string output, std::function<void()> wake) {
+void ConversionTask::start(std::vector<std::string> inputs, std::string output) {
     if (m_thread.joinable()) {
         m_thread.join();
     }
@@ -18,16 +18,12 @@ void ConversionTask::start(std::vector<std::string> inputs, std::string output, 
     m_fraction = -1;
     m_activity.clear();
     m_is_running = true;
-    m_control.on_progress = [this, wake](double fraction, std::string_view activity) {
+    m_control.on_progress = [this](double fraction, std::string_view activity) {
         const std::lock_guard lock(m_mutex);
-        const bool is_news = activity != m_activity || fraction - m_fraction > 0.01;
         m_fraction = fraction;
         m_activity = activity;
-        if (is_news) {
-            wake();
-        }
     };
-    m_thread = std::jthread([this, inputs = std::move(inputs), output = std::move(output), wake] {
+    m_thread = std::jthread([this, inputs = std::move(inputs), output = std::move(output)] {
         ConversionResult result;
         result.output = output;
         try {
@@ -46,7 +42,6 @@ void ConversionTask::start(std::vector<std::string> inputs, std::string output, 
             m_result = std::move(result);
         }
         m_is_running = false;
-        wake();
     });
 }
 

@@ -33,8 +33,8 @@ public:
     ConversionTask(const ConversionTask&) = delete;
     ConversionTask& operator=(const ConversionTask&) = delete;
 
-    /** Geometry first, then field files. Not while one is running. `wake` is called from its thread as it goes on. */
-    void start(std::vector<std::string> inputs, std::string output, std::function<void()> wake);
+    /** Geometry first, then field files. Not while one is running. */
+    void start(std::vector<std::string> inputs, std::string output);
     void cancel() { m_control.cancelled = true; }
     bool is_running() const { return m_is_running; }
     /** In [0, 1], or negative if unknown, and what is being done. */

@@ -4,8 +4,8 @@
 
 namespace elvis::view {
 
-FrameWorker::FrameWorker(std::unique_ptr<Session> session, std::function<void()> wake)
-    : m_session(std::move(session)), m_wake(std::move(wake)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
+FrameWorker::FrameWorker(std::unique_ptr<Session> session)
+    : m_session(std::move(session)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
 
 FrameWorker::~FrameWorker() {
     m_thread.request_stop();
@@ -16,6 +16,12 @@ FrameWorker::~FrameWorker() {
 void FrameWorker::post(std::string activity, Job job, std::function<void(const std::string&)> on_error) {
     const std::lock_guard lock(m_mutex);
     m_tasks.push_back({std::move(activity), std::move(job), std::move(on_error)});
+    m_changed.notify_all();
+}
+
+void FrameWorker::post_later(std::string activity, Job job, std::function<void(const std::string&)> on_error) {
+    const std::lock_guard lock(m_mutex);
+    m_later_tasks.push_back({std::move(activity), std::move(job), std::move(on_error)});
     m_changed.notify_all();
 }
 
@@ -30,7 +36,7 @@ void FrameWorker::draw(DrawRequest request) {
 
 bool FrameWorker::is_idle() const {
     const std::lock_guard lock(m_mutex);
-    return m_tasks.empty() && !m_wanted && m_activity.empty();
+    return m_tasks.empty() && m_later_tasks.empty() && !m_wanted && m_activity.empty();
 }
 
 std::string FrameWorker::activity() const {
@@ -74,14 +80,15 @@ DrawAnswer FrameWorker::drawn(const DrawRequest& request) {
 void FrameWorker::run(const std::stop_token& stop) {
     std::unique_lock lock(m_mutex);
     while (true) {
-        m_changed.wait(lock, stop, [this] { return !m_tasks.empty() || m_wanted; });
+        m_changed.wait(lock, stop, [this] { return !m_tasks.empty() || m_wanted || !m_later_tasks.empty(); });
         if (stop.stop_requested()) {
             return;
         }
         m_session->control().cancelled = false;
-        if (!m_tasks.empty()) {
-            const Task task = std::move(m_tasks.front());
-            m_tasks.pop_front();
+        if (!m_tasks.empty() || !m_wanted) {
+            std::deque<Task>& tasks = m_tasks.empty() ? m_later_tasks : m_tasks;
+            const Task task = std::move(tasks.front());
+            tasks.pop_front();
             m_activity = task.activity;
             lock.unlock();
             Answer answer;
@@ -114,7 +121,6 @@ void FrameWorker::run(const std::stop_token& stop) {
                 m_drawn = std::move(answer);
             }
         }
-        m_wake();
     }
 }
 

@@ -41,8 +41,7 @@ struct DrawAnswer {
  */
 class FrameWorker {
 public:
-    /** `wake` is called from the thread whenever there is an answer. */
-    FrameWorker(std::unique_ptr<Session> session, std::function<void()> wake);
+    explicit FrameWorker(std::unique_ptr<Session> session);
     /** Waits for what is being done. */
     ~FrameWorker();
     FrameWorker(const FrameWorker&) = delete;
@@ -53,6 +52,8 @@ public:
     using Job = std::function<Answer(Session&)>;
     /** A job that throws answers with `on_error`. `activity` says what is being done. */
     void post(std::string activity, Job job, std::function<void(const std::string&)> on_error);
+    /** The same, when there is nothing else to do. Jobs that take long should come in pieces. */
+    void post_later(std::string activity, Job job, std::function<void(const std::string&)> on_error);
 
     /** Takes the place of a picture that waits, and stops one that is being drawn, if the renderer can be stopped. */
     void draw(DrawRequest request);
@@ -62,8 +63,6 @@ public:
     std::string activity() const;
     /** A picture is being drawn, or waits: its revision and scale. */
     std::optional<std::pair<std::uint64_t, double>> drawing() const;
-
-    const std::function<void()>& wake() const { return m_wake; }
 
     /** Calls the answers that have come, and returns the last picture among them. */
     std::optional<DrawAnswer> collect();
@@ -78,10 +77,9 @@ private:
     DrawAnswer drawn(const DrawRequest& request);
 
     std::unique_ptr<Session> m_session;
-    std::function<void()> m_wake;
     mutable std::mutex m_mutex;
     std::condition_variable_any m_changed;
-    std::deque<Task> m_tasks;
+    std::deque<Task> m_tasks, m_later_tasks;
     std::optional<DrawRequest> m_wanted;
     std::optional<std::pair<std::uint64_t, double>> m_drawing;
     std::string m_activity;

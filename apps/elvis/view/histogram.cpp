@@ -5,12 +5,14 @@
 
 namespace elvis::view {
 
-Histogram::Histogram(std::vector<double> values, double lower, double upper)
-    : m_lower(lower), m_upper(upper), m_sorted(std::move(values)), m_bins(n_bins, 0.0f) {
+Histogram::Histogram(double lower, double upper) : m_lower(lower), m_upper(upper), m_bins(n_bins, 0.0f) {}
+
+void Histogram::add(std::span<const double> values) {
+    m_sorted.insert(m_sorted.end(), values.begin(), values.end());
     std::sort(m_sorted.begin(), m_sorted.end());
     std::vector<std::size_t> counts(n_bins, 0);
     for (const double value : m_sorted) {
-        const double part = upper > lower ? (value - lower) / (upper - lower) : 0.5;
+        const double part = m_upper > m_lower ? (value - m_lower) / (m_upper - m_lower) : 0.5;
         const auto bin = static_cast<std::size_t>(std::clamp(part * n_bins, 0.0, n_bins - 1.0));
         ++counts[bin];
     }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace elvis::view {
@@ -14,7 +15,9 @@ class Histogram {
 public:
     static constexpr std::size_t n_bins = 96;
 
-    Histogram(std::vector<double> values, double lower, double upper);
+    Histogram(double lower, double upper);
+
+    void add(std::span<const double> values);
 
     double lower() const { return m_lower; }
     double upper() const { return m_upper; }

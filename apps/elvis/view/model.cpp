@@ -44,7 +44,7 @@ void Model::changed() {
     m_is_changed = true;
 }
 
-void Model::edit(const std::string& what, Scene scene) {
+void Model::edit(const std::string& what, Scene&& scene) {
     if (m_gesture != what || m_undo.empty()) {
         m_undo.push_back({what, m_scene, m_selection});
         if (m_undo.size() > most_steps) {
@@ -75,8 +75,7 @@ void Model::set_size(const std::array<std::uint32_t, 2>& size) {
     }
 }
 
-Camera Model::camera() const {
-    const SceneCamera& own = m_scene.camera;
+Camera camera_of(const SceneCamera& own) {
     Camera camera;
     camera.orthographic = own.orthographic.value_or(false);
     camera.eye = own.eye.value_or(Vector3{0, 0, 1});
@@ -87,6 +86,8 @@ Camera Model::camera() const {
     camera.image_shift = own.image_shift;
     return camera;
 }
+
+Camera Model::camera() const { return camera_of(m_scene.camera); }
 
 std::optional<std::string> Model::undo_name() const {
     return m_undo.empty() ? std::nullopt : std::optional(m_undo.back().what);

@@ -37,7 +37,7 @@ public:
     void saved(std::string file);
 
     /** `what` names the step: "opacity", "remove plane". */
-    void edit(const std::string& what, Scene scene);
+    void edit(const std::string& what, Scene&& scene);
     /** What follows is a step of its own. */
     void end_gesture() { m_gesture.clear(); }
     /** An edit has been made since the last end_gesture(). */
@@ -76,6 +76,9 @@ private:
     std::vector<Step> m_undo, m_redo;
     std::optional<ItemId> m_selection;
 };
+
+/** Complete, with the usual values for what is left open. */
+Camera camera_of(const SceneCamera& camera);
 
 /** Steps of undo that are kept. */
 inline constexpr std::size_t most_steps = 200;

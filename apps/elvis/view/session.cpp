@@ -61,6 +61,24 @@ std::vector<std::uint8_t> shown_bytes(const Frame& frame) {
     return bytes;
 }
 
+/** Of a scene in which everything is hidden. */
+Picture blank(const Scene& scene, const Camera& camera) {
+    Frame frame;
+    frame.width = scene.size[0];
+    frame.height = scene.size[1];
+    frame.color.resize(std::size_t{4} * frame.width * frame.height);
+    for (std::size_t i = 0; i < frame.color.size(); ++i) {
+        frame.color[i] = scene.background[i % 4];
+    }
+    Picture picture;
+    picture.width = frame.width;
+    picture.height = frame.height;
+    picture.rgba = shown_bytes(frame);
+    picture.camera = camera;
+    picture.counts.pixels = std::uint64_t{frame.width} * frame.height;
+    return picture;
+}
+
 void write_annotation(const Scene& scene, const FrameRequest& request, Frame& frame, const RuntimeVolume& volume,
                       std::vector<std::string>& remarks) {
     if (!scene.annotation) {
@@ -85,7 +103,7 @@ VolumeFacts Session::open(const Scene& scene) {
         }
         auto volume = std::make_unique<RuntimeVolume>(
             commands::open_volume(m_registry, scene.volume, scene.plugin, scene.plugin_options));
-        auto renderer = std::make_unique<Renderer>(*m_device, *volume, precision, &m_control);
+        auto renderer = std::make_unique<Renderer>(*m_device, *volume, precision);
         m_prober.reset();
         m_renderer = std::move(renderer);
         m_volume = std::move(volume);
@@ -102,7 +120,7 @@ void Session::need_precision(const Scene& scene) {
     const Precision precision = scene.precision.value_or("float32") == "float64" ? Precision::float64 : Precision::float32;
     if (!m_renderer || precision != m_precision) {
         m_renderer.reset();
-        m_renderer = std::make_unique<Renderer>(*m_device, *m_volume, precision, &m_control);
+        m_renderer = std::make_unique<Renderer>(*m_device, *m_volume, precision);
         m_precision = precision;
     }
 }
@@ -116,6 +134,9 @@ Picture Session::draw(const Scene& scene, double scale) {
     }
     FrameRequest request = make_frame_request(smaller, *m_volume, *m_renderer);
     request.with_buffers = false;
+    if (request.surfaces.empty() && !request.volume) {
+        return blank(scene, request.camera);
+    }
     Frame frame = m_renderer->render(request);
     Picture picture;
     picture.milliseconds = milliseconds_since(start);
@@ -228,7 +249,8 @@ Picked Session::pick(const Scene& scene, const std::array<double, 2>& place) {
     return picked;
 }
 
-std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count) {
+std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count,
+                                     unsigned seed) {
     need_precision(scene);
     if (m_volume->dimension() == 2) {
         throw Error("only volumes of three dimensions can be sampled");
@@ -243,7 +265,7 @@ std::vector<double> Session::samples(const Scene& scene, const std::optional<std
         expressions.push_back(choice.expression);
     }
     const std::array<double, 6> bounds = m_renderer->bounds();
-    std::mt19937 random(1); // The same points each time.
+    std::mt19937 random(seed);
     std::vector<std::array<double, 3>> positions(count);
     for (auto& position : positions) {
         for (std::size_t axis = 0; axis < 3; ++axis) {

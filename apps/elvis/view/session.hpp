@@ -44,7 +44,7 @@ public:
 
     const Device& device() const { return *m_device; }
     const PluginRegistry& registry() const { return m_registry; }
-    /** Cancels what is being drawn, from any thread, as far as the renderer looks at it. */
+    /** Asks for an end of what is being drawn, from any thread. */
     TaskControl& control() { return m_control; }
 
     /** Opens the scene's volume, unless it is open. After an error the volume that was open before still is. */
@@ -66,8 +66,11 @@ public:
     FieldRange range(const Scene& scene, const std::optional<std::string>& field);
     /** What is seen at a place of the scene's picture. */
     Picked pick(const Scene& scene, const std::array<double, 2>& place);
-    /** Values of a field at points inside of elements, in no order: what histograms and percentiles are made of. */
-    std::vector<double> samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count);
+    /**
+     * Values of a field at so many points of the bounds, as far as they lie in elements: what histograms and percentiles are made
+     * of. Equal seeds give equal points.
+     */
+    std::vector<double> samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count, unsigned seed);
 
 private:
     struct Open;

@@ -16,6 +16,14 @@
 
 namespace elvis::view {
 
+/** A key that went down. */
+struct KeyPress {
+    /** What is written on it, capital, for letters and digits; else 0. */
+    char letter = 0;
+    bool is_delete = false, is_space = false, is_f1 = false;
+    bool with_control = false, with_shift = false;
+};
+
 /** Which dialog is open; each is drawn by its own file in panels/. */
 enum class Dialog { none, open, save_scene, save_picture, convert, shortcuts, quit };
 
@@ -45,6 +53,8 @@ struct Ui {
     bool is_playing = false;
     /** The hand is at work, outside of what ImGui knows. */
     bool is_dragging = false;
+    /** Since the last frame. ImGui 1.86 misses those that go up again before the next one. */
+    std::vector<KeyPress> keys{};
     /** Texts that are being written, by control, and when they last were. */
     struct Written {
         std::string text;

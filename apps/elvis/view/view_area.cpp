@@ -136,7 +136,7 @@ void ViewArea::draw_state(Ui& ui) const {
     const Workbench& bench = ui.bench;
     std::string words;
     ImU32 dot = rgba(230, 160, 30);
-    if (bench.state() == ShownState::full && bench.is_settled()) {
+    if (bench.state() == ShownState::full && bench.has_shown_present()) {
         words = "full";
         dot = rgba(60, 180, 75);
     } else if (bench.state() == ShownState::reduced) {
@@ -153,8 +153,7 @@ void ViewArea::draw_state(Ui& ui) const {
     }
     const float pad = 6 * ui.scale;
     const float height = ImGui::GetTextLineHeight();
-    const ImVec2 corner(static_cast<float>(m_box.x) / m_pixels + pad,
-                        static_cast<float>(m_box.y + m_box.height) / m_pixels - height - 3 * pad);
+    const ImVec2 corner(static_cast<float>(m_box.x) / m_pixels + pad, static_cast<float>(m_box.y) / m_pixels + pad);
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(corner, ImVec2(corner.x + size.x + height + 3 * pad, corner.y + height + 2 * pad), rgba(30, 30, 30, 200),
@@ -191,7 +190,7 @@ void ViewArea::draw(Ui& ui, float framebuffer_scale) {
         }
     }
     if (ImGui::IsItemDeactivated()) {
-        if (m_drag == Drag::orbit && m_dragged < click_distance) {
+        if ((m_drag == Drag::orbit || m_drag == Drag::handle) && m_dragged < click_distance) {
             ui.bench.pick(place);
         }
         m_drag = Drag::none;

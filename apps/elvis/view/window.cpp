@@ -8,6 +8,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -36,6 +37,23 @@ void load_font(float scale) {
     ImFontConfig config;
     config.SizePixels = size;
     atlas->AddFontDefault(&config);
+}
+
+/** By what is written on the key: its number in GLFW is that of the same place on an American keyboard. */
+KeyPress key_press(int key, int scancode, int modifiers) {
+    KeyPress press;
+    const char* name = glfwGetKeyName(key, scancode);
+    if (name != nullptr && name[0] != '\0' && name[1] == '\0' && std::isalnum(static_cast<unsigned char>(name[0])) != 0) {
+        press.letter = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+    } else if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
+        press.letter = static_cast<char>(key); // Where digits take Shift.
+    }
+    press.is_delete = key == GLFW_KEY_DELETE;
+    press.is_space = key == GLFW_KEY_SPACE;
+    press.is_f1 = key == GLFW_KEY_F1;
+    press.with_control = (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) != 0;
+    press.with_shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+    return press;
 }
 
 void set_style(float scale, bool is_dark) {
@@ -90,7 +108,13 @@ Window::Window(const Settings& settings, const std::string& device, bool validat
         glfwSetCursorPosCallback(m_window, [](GLFWwindow* window, double, double) { on_event(window); });
         glfwSetMouseButtonCallback(m_window, [](GLFWwindow* window, int, int, int) { on_event(window); });
         glfwSetScrollCallback(m_window, [](GLFWwindow* window, double, double) { on_event(window); });
-        glfwSetKeyCallback(m_window, [](GLFWwindow* window, int, int, int, int) { on_event(window); });
+        glfwSetKeyCallback(m_window, [](GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+            if (action == GLFW_PRESS) {
+                auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+                self->m_keys.push_back(key_press(key, scancode, modifiers));
+            }
+            on_event(window);
+        });
         glfwSetCharCallback(m_window, [](GLFWwindow* window, unsigned) { on_event(window); });
         glfwSetWindowFocusCallback(m_window, [](GLFWwindow* window, int) { on_event(window); });
         glfwSetFramebufferSizeCallback(m_window, [](GLFWwindow* window, int, int) { on_event(window); });
@@ -154,9 +178,9 @@ bool Window::wait(double seconds) {
     return std::exchange(m_has_events, false);
 }
 
-void Window::wake() { glfwPostEmptyEvent(); }
-
 std::vector<std::string> Window::dropped() { return std::exchange(m_dropped, {}); }
+
+std::vector<KeyPress> Window::pressed_keys() { return std::exchange(m_keys, {}); }
 
 void Window::begin_frame() {
     m_presenter->begin_frame();

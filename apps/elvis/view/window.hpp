@@ -6,6 +6,7 @@
 
 #include "presenter.hpp"
 #include "settings.hpp"
+#include "ui.hpp"
 
 #include <functional>
 #include <memory>
@@ -38,10 +39,11 @@ public:
     void keep_open();
     /** Waits for events, at most that long, and handles them. Returns whether there may have been some. */
     bool wait(double seconds);
-    /** May be called from any thread. */
-    static void wake();
     /** Files that were dropped onto it since the last call. */
     std::vector<std::string> dropped();
+
+    /** Keys that went down since the last call. */
+    std::vector<KeyPress> pressed_keys();
 
     void begin_frame();
     void end_frame(const PixelBox& picture);
@@ -53,6 +55,7 @@ private:
     float m_scale = 1;
     bool m_has_events = true;
     std::vector<std::string> m_dropped;
+    std::vector<KeyPress> m_keys;
     std::unique_ptr<Presenter> m_presenter;
 };
 

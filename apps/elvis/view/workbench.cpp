@@ -28,9 +28,9 @@ double MotionStatistics::frames_per_second() const {
     return sum > 0 ? static_cast<double>(frame_seconds.size()) / sum : 0;
 }
 
-Workbench::Workbench(std::unique_ptr<Session> session, std::function<void()> wake)
+Workbench::Workbench(std::unique_ptr<Session> session)
     : m_device_messages([device = &session->device()] { return device->validation_messages(); }),
-      m_worker(std::move(session), std::move(wake)) {}
+      m_worker(std::move(session)) {}
 
 void Workbench::say(Message::Kind kind, std::string text) {
     constexpr std::size_t most_messages = 500;
@@ -190,20 +190,30 @@ const Histogram* Workbench::histogram(const std::optional<std::string>& field) {
     const std::string key = field_key(field);
     const auto [found, is_new] = m_histograms.try_emplace(key);
     if (is_new) {
-        constexpr std::size_t n_points = 20000;
-        const Scene& scene = m_model.scene();
-        m_worker.post("sampling the field",
-                      [this, scene, field, key, ends, number = m_volume_number](Session& session) -> FrameWorker::Answer {
-                          Histogram histogram(session.samples(scene, field, n_points), ends->lower, ends->upper);
-                          return [this, histogram = std::move(histogram), key, number] {
-                              if (number == m_volume_number) {
-                                  m_histograms[key] = histogram;
-                              }
-                          };
-                      },
-                      [](const std::string&) {});
+        found->second.emplace(ends->lower, ends->upper);
+        sample(field, key, 0);
     }
-    return found->second ? &*found->second : nullptr;
+    return found->second->n_values() > 0 ? &*found->second : nullptr;
+}
+
+void Workbench::sample(const std::optional<std::string>& field, const std::string& key, unsigned piece) {
+    constexpr std::size_t n_points = 500;
+    constexpr unsigned n_pieces = 24;
+    const Scene& scene = m_model.scene();
+    m_worker.post_later("sampling the field",
+                        [this, scene, field, key, piece, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+                            return [this, values = session.samples(scene, field, n_points, piece + 1), field, key, piece, number] {
+                                const auto found = m_histograms.find(key);
+                                if (number != m_volume_number || found == m_histograms.end()) {
+                                    return;
+                                }
+                                found->second->add(values);
+                                if (piece + 1 < n_pieces) {
+                                    sample(field, key, piece + 1);
+                                }
+                            };
+                        },
+                        [](const std::string&) {});
 }
 
 void Workbench::convert(const std::string& input, const std::string& output) {
@@ -211,7 +221,7 @@ void Workbench::convert(const std::string& input, const std::string& output) {
         say(Message::Kind::error, "another conversion is still at work");
         return;
     }
-    m_conversion.start({input}, output, m_worker.wake());
+    m_conversion.start({input}, output);
 }
 
 void Workbench::take(DrawAnswer answer) {

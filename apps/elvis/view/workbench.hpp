@@ -47,7 +47,7 @@ class Workbench {
 public:
     using Clock = std::chrono::steady_clock;
 
-    Workbench(std::unique_ptr<Session> session, std::function<void()> wake);
+    explicit Workbench(std::unique_ptr<Session> session);
 
     Model& model() { return m_model; }
     const Model& model() const { return m_model; }
@@ -96,6 +96,8 @@ public:
     std::function<void(const std::string& path)> on_file;
 
 private:
+    /** Adds the values at some more points to a histogram, and then asks for more. */
+    void sample(const std::optional<std::string>& field, const std::string& key, unsigned piece);
     void open_scene(Scene scene, std::string file, std::string path);
     std::string field_key(const std::optional<std::string>& field) const;
     void take(DrawAnswer answer);

@@ -4,49 +4,48 @@ namespace elvis::view {
 
 namespace {
 
-/** Letters and digits as GLFW numbers them, which is by their capital ASCII. */
-bool pressed(char key) { return ImGui::IsKeyPressed(key, false); }
-
-void handle_control_keys(Ui& ui, bool has_shift) {
+void handle_with_control(Ui& ui, const KeyPress& key) {
     Model& model = ui.model();
     const bool has_volume = model.volume().has_value();
-    if (pressed('O')) {
+    const auto is = [&key](char letter) { return key.letter == letter; };
+    if (is('O')) {
         ui.next_dialog = Dialog::open;
-    } else if (pressed('Q')) {
+    } else if (is('Q')) {
         ui.wants_to_quit = true;
-    } else if (pressed('S') && has_volume) {
-        if (has_shift || model.file().empty()) {
+    } else if (is('S') && has_volume) {
+        if (key.with_shift || model.file().empty()) {
             ui.next_dialog = Dialog::save_scene;
         } else {
             ui.bench.save_scene(model.file());
         }
-    } else if (pressed('P') && has_volume) {
+    } else if (is('P') && has_volume) {
         ui.next_dialog = Dialog::save_picture;
-    } else if (pressed('Z')) {
-        if (has_shift) {
+    } else if (is('Z')) {
+        if (key.with_shift) {
             model.redo();
         } else {
             model.undo();
         }
-    } else if (pressed('Y')) {
+    } else if (is('Y')) {
         model.redo();
     }
 }
 
-void handle_plain_keys(Ui& ui) {
+void handle_alone(Ui& ui, const KeyPress& key) {
     Model& model = ui.model();
+    const auto is = [&key](char letter) { return key.letter == letter; };
     const double aspect = static_cast<double>(ui.scene().size[0]) / ui.scene().size[1];
     const auto& bounds = model.volume()->bounds;
     for (std::size_t i = 0; i < standard_views().size(); ++i) {
-        if (pressed(static_cast<char>('1' + i))) {
+        if (is(static_cast<char>('1' + i))) {
             model.set_camera(from_standard_view(model.camera(), standard_views()[i], bounds, aspect));
         }
     }
-    if (pressed('F')) {
+    if (is('F')) {
         model.set_camera(fitted(model.camera(), bounds, aspect));
-    } else if (pressed('O')) {
+    } else if (is('O')) {
         model.set_camera(with_projection(model.camera(), !model.camera().orthographic));
-    } else if (pressed('H')) {
+    } else if (is('H')) {
         if (const std::optional<ItemId> item = model.selection()) {
             Scene scene = ui.scene();
             const bool shown = !is_shown(scene, *item);
@@ -55,7 +54,7 @@ void handle_plain_keys(Ui& ui) {
             model.end_gesture();
             model.select(now);
         }
-    } else if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Delete), false)) {
+    } else if (key.is_delete) {
         if (const std::optional<ItemId> item = model.selection()) {
             Scene scene = ui.scene();
             const std::string what = "remove " + item_kind_name(scene, *item);
@@ -63,7 +62,7 @@ void handle_plain_keys(Ui& ui) {
             model.edit(what, std::move(scene));
             model.end_gesture();
         }
-    } else if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Space), false) && model.volume()->times.size() > 1) {
+    } else if (key.is_space && model.volume()->times.size() > 1) {
         ui.is_playing = !ui.is_playing;
     }
 }
@@ -96,18 +95,17 @@ const std::vector<std::pair<const char*, const char*>>& shortcut_texts() {
 }
 
 void handle_shortcuts(Ui& ui) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (ui.dialog != Dialog::none || io.WantTextInput) {
-        return;
-    }
-    constexpr int f1 = 290; // GLFW_KEY_F1; ImGui 1.86 has no name for it.
-    if (ImGui::IsKeyPressed(f1, false)) {
-        ui.next_dialog = Dialog::shortcuts;
-    }
-    if (io.KeyCtrl) {
-        handle_control_keys(ui, io.KeyShift);
-    } else if (ui.model().volume()) {
-        handle_plain_keys(ui);
+    for (const KeyPress& key : ui.keys) {
+        if (ui.dialog != Dialog::none || ImGui::GetIO().WantTextInput) {
+            return;
+        }
+        if (key.is_f1) {
+            ui.next_dialog = Dialog::shortcuts;
+        } else if (key.with_control) {
+            handle_with_control(ui, key);
+        } else if (ui.model().volume()) {
+            handle_alone(ui, key);
+        }
     }
 }
 

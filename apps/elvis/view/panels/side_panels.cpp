@@ -26,11 +26,7 @@ void saved_views(Ui& ui) {
         ImGui::PushID(static_cast<int>(i));
         const std::string name = "camera/view" + std::to_string(i);
         if (small_button(ui, name + "/go", "Go", "Moves the camera there")) {
-            Model shown = model;
-            Scene there = ui.scene();
-            there.camera = scene.views[i].camera;
-            shown.edit("", std::move(there));
-            model.set_camera(shown.camera());
+            model.set_camera(camera_of(scene.views[i].camera));
         }
         ImGui::SameLine();
         is_changed = text(ui, name, "##name", scene.views[i].name, "Its name") || is_changed;

@@ -1,0 +1,306 @@
+// What the window does to a scene and its camera, without a window.
+
+#include <apps/elvis/view/camera_motion.hpp>
+#include <apps/elvis/view/handles.hpp>
+#include <apps/elvis/view/histogram.hpp>
+#include <apps/elvis/view/model.hpp>
+#include <apps/elvis/view/resolution.hpp>
+#include <apps/elvis/view/settings.hpp>
+
+#include <core/scene/write_scene.hpp>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+using namespace elvis;
+using namespace elvis::view;
+
+namespace {
+
+VolumeFacts facts() {
+    VolumeFacts volume;
+    volume.path = "ball.h5";
+    volume.bounds = {-1, -2, -3, 3, 2, 1};
+    volume.fields.push_back({});
+    volume.times = {0};
+    volume.has_faces = true;
+    return volume;
+}
+
+Model opened() {
+    Model model;
+    Scene scene;
+    scene.volume = "ball.h5";
+    scene.surfaces.push_back({BoundaryFaces{}});
+    model.open(std::move(scene), facts(), "");
+    return model;
+}
+
+Camera camera(bool orthographic) {
+    Camera result;
+    result.orthographic = orthographic;
+    result.eye = {3, 4, 5};
+    result.look_at = {0.5, -0.2, 0.1};
+    result.up = {0.1, 1, 0};
+    result.field_of_view = 40;
+    result.height = 6;
+    return result;
+}
+
+void change_opacity(Model& model, double opacity) {
+    Scene scene = model.scene();
+    scene.surfaces[0].opacity = opacity;
+    model.edit("opacity", std::move(scene));
+}
+
+const PictureSize size{640, 480};
+
+double distance(const Vector& a, const Vector& b) { return length(minus(a, b)); }
+
+} // namespace
+
+TEST_CASE("Edits of one gesture are one step of undo") {
+    Model model = opened();
+    CHECK_FALSE(model.undo_name());
+    CHECK_FALSE(model.is_changed());
+    for (const double opacity : {0.9, 0.8, 0.7}) {
+        change_opacity(model, opacity);
+    }
+    model.end_gesture();
+    change_opacity(model, 0.2);
+    CHECK(model.is_changed());
+    model.undo();
+    CHECK(model.scene().surfaces[0].opacity == 0.7);
+    model.undo();
+    CHECK(model.scene().surfaces[0].opacity == 1);
+    CHECK_FALSE(model.undo_name());
+    model.redo();
+    model.redo();
+    CHECK(model.scene().surfaces[0].opacity == 0.2);
+    CHECK_FALSE(model.redo_name());
+    model.undo();
+    change_opacity(model, 0.5);
+    CHECK_FALSE(model.redo_name());
+}
+
+TEST_CASE("Undo leaves camera and size alone") {
+    Model model = opened();
+    change_opacity(model, 0.5);
+    model.set_camera(camera(true));
+    model.set_size({123, 45});
+    const std::uint64_t revision = model.revision();
+    model.undo();
+    CHECK(model.camera().eye == camera(true).eye);
+    CHECK(model.camera().orthographic);
+    CHECK(model.scene().size == std::array<std::uint32_t, 2>{123, 45});
+    CHECK(model.revision() > revision);
+}
+
+TEST_CASE("An opened scene has a camera that sees the whole volume") {
+    const Model model = opened();
+    const auto& b = facts().bounds;
+    const PictureSize picture{1024, 768};
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const auto place =
+            project(model.camera(), picture, {b[(corner & 1) ? 3 : 0], b[(corner & 2) ? 4 : 1], b[(corner & 4) ? 5 : 2]});
+        REQUIRE(place);
+        CHECK(((*place)[0] > 0 && (*place)[0] < 1024 && (*place)[1] > 0 && (*place)[1] < 768));
+    }
+}
+
+TEST_CASE("Rays and projections are inverse") {
+    std::mt19937 random(3);
+    for (const bool orthographic : {false, true}) {
+        Camera shifted = camera(orthographic);
+        shifted.image_shift = {0.25, -3};
+        for (int i = 0; i < 100; ++i) {
+            const PicturePoint place = {std::uniform_real_distribution<double>(0, 640)(random),
+                                        std::uniform_real_distribution<double>(0, 480)(random)};
+            const Vector point = ray_through(shifted, size, place).at(std::uniform_real_distribution<double>(0.1, 20)(random));
+            const auto back = project(shifted, size, point);
+            REQUIRE(back);
+            CHECK((*back)[0] == Approx(place[0]).margin(1e-9));
+            CHECK((*back)[1] == Approx(place[1]).margin(1e-9));
+        }
+    }
+}
+
+TEST_CASE("Zooming keeps what is below the cursor, panning follows it") {
+    for (const bool orthographic : {false, true}) {
+        const Camera before = camera(orthographic);
+        const PicturePoint place = {500.5, 100.5};
+        // The point below the cursor at the distance of what is looked at.
+        const ViewAxes axes = axes_of(before);
+        const Ray ray = ray_through(before, size, place);
+        const double depth = dot(minus(before.look_at, ray.origin), axes.forward) / dot(ray.direction, axes.forward);
+        const Vector point = ray.at(depth);
+        const Camera zoomed_in = zoomed(before, size, place, 0.5);
+        const auto after = project(zoomed_in, size, point);
+        REQUIRE(after);
+        CHECK((*after)[0] == Approx(place[0]));
+        CHECK((*after)[1] == Approx(place[1]));
+        CHECK(pixel_length(zoomed_in, size, point) == Approx(0.5 * pixel_length(before, size, point)));
+        const auto moved = project(panned(before, size, {30, -20}), size, point);
+        REQUIRE(moved);
+        CHECK((*moved)[0] == Approx(place[0] + 30));
+        CHECK((*moved)[1] == Approx(place[1] - 20));
+    }
+}
+
+TEST_CASE("Orbiting keeps the distance, and what is looked at in the middle") {
+    Camera turned_camera = camera(false);
+    for (int i = 0; i < 50; ++i) {
+        turned_camera = orbited(turned_camera, size, {13, 47});
+        CHECK(distance(turned_camera.eye, turned_camera.look_at) == Approx(distance(camera(false).eye, camera(false).look_at)));
+        CHECK(turned_camera.look_at == camera(false).look_at);
+        const ViewAxes axes = axes_of(turned_camera);
+        CHECK(std::abs(dot(axes.forward, turned_camera.up)) < 1e-9);
+    }
+    // A drag to the right turns the front of the volume to the right.
+    const Camera before = camera(false), after = orbited(before, size, {20, 0});
+    const Vector front = plus(before.look_at, scaled(axes_of(before).forward, -1));
+    CHECK((*project(after, size, front))[0] > (*project(before, size, front))[0]);
+}
+
+TEST_CASE("Another projection shows what is looked at as large") {
+    const Camera before = camera(false);
+    const Camera parallel = with_projection(before, true);
+    CHECK(pixel_length(parallel, size, before.look_at) == Approx(pixel_length(before, size, before.look_at)));
+    const Camera back = with_projection(parallel, false);
+    CHECK(distance(back.eye, before.eye) < 1e-9);
+}
+
+TEST_CASE("A plane's handles move and turn it") {
+    Model model = opened();
+    Scene scene = model.scene();
+    const ItemId item = add(scene, facts(), NewItem::cut_plane, 0);
+    const std::vector<Handle> handles = handles_of(scene, item, facts());
+    REQUIRE(handles.size() == 2);
+    const Camera seen = model.camera();
+    // Dragged to where it is seen a length along the normal, the plane is there.
+    const Vector there = plus(handles[0].position, scaled(handles[0].direction, 0.7));
+    const auto from = project(seen, size, handles[0].position), to = project(seen, size, there);
+    REQUIRE((from && to));
+    const Vector position = dragged_to(handles[0], seen, size, *from, *to);
+    CHECK(distance(position, there) < 1e-9);
+    const Scene moved = with_moved_handle(scene, item, facts(), 0, position);
+    CHECK(distance(handles_of(moved, item, facts())[0].position, there) < 1e-9);
+    const Vector aside = plus(handles[1].position, {0.3, 0.2, 0.1});
+    const Scene turned_scene = with_moved_handle(scene, item, facts(), 1, aside);
+    const Handle after = handles_of(turned_scene, item, facts())[0];
+    CHECK(distance(after.direction, unit(minus(aside, handles[0].position))) < 1e-9);
+    CHECK(distance(after.position, handles[0].position) < 1e-9);
+}
+
+TEST_CASE("Handles of shapes and lights take them where they go") {
+    for (const NewItem kind : {NewItem::sphere, NewItem::cylinder, NewItem::cone, NewItem::torus, NewItem::point_light}) {
+        Scene scene;
+        const ItemId item = add(scene, facts(), kind, 0);
+        const std::vector<Handle> handles = handles_of(scene, item, facts());
+        REQUIRE_FALSE(handles.empty());
+        for (std::size_t i = 0; i < handles.size(); ++i) {
+            const Vector by = handles[i].kind == Handle::Kind::along ? scaled(handles[i].direction, 0.2) : Vector{0.1, 0.2, 0.3};
+            const Vector to = plus(handles[i].position, by);
+            CHECK(distance(handles_of(with_moved_handle(scene, item, facts(), i, to), item, facts())[i].position, to) < 1e-9);
+        }
+    }
+}
+
+TEST_CASE("Everything that can be added can be hidden, copied, removed, and written") {
+    for (const NewItemInfo& info : new_items()) {
+        INFO(info.name);
+        Scene scene;
+        REQUIRE(can_add(scene, facts(), info.item));
+        const ItemId item = add(scene, facts(), info.item, 0.5);
+        REQUIRE(exists(scene, item));
+        CHECK(is_shown(scene, item));
+        CHECK_FALSE(item_label(scene, item).empty());
+        const ItemId hidden = set_shown(scene, item, false);
+        REQUIRE(exists(scene, hidden));
+        CHECK_FALSE(is_shown(scene, hidden));
+        const ItemId again = set_shown(scene, hidden, true);
+        CHECK(is_shown(scene, again));
+        const ItemId copy = duplicate(scene, again);
+        CHECK(exists(scene, copy));
+        CHECK(items_of(scene).size() == (info.item == NewItem::volume ? 1u : 2u));
+
+        const std::string path =
+            (std::filesystem::temp_directory_path() / ("elvis-model-" + std::to_string(::getpid()) + ".json")).string();
+        write_scene(scene, path);
+        CHECK(scene_json(read_scene(path), path) == scene_json(scene, path));
+        std::filesystem::remove(path);
+        remove(scene, copy);
+        CHECK(items_of(scene).size() == (info.item == NewItem::volume ? 0u : 1u));
+    }
+}
+
+TEST_CASE("The reduced resolution holds ten pictures a second, and settles") {
+    // Time as a sum of a fixed part and one by pixels, of machines from fast to slow.
+    for (const double full : {20.0, 150.0, 2000.0, 8000.0}) {
+        ResolutionChooser chooser;
+        const double fixed = 10;
+        const auto time = [&](double scale) { return fixed + full * scale * scale; };
+        for (int i = 0; i < 12; ++i) {
+            chooser.measured(chooser.scale(), time(chooser.scale()));
+        }
+        INFO(full);
+        const double settled = chooser.scale();
+        CHECK((time(settled) <= 100 || settled == ResolutionChooser::least_scale));
+        // It is no coarser than it must be.
+        CHECK((settled == 1 || time(settled) >= 40));
+        for (int i = 0; i < 10; ++i) {
+            chooser.measured(chooser.scale(), time(chooser.scale()));
+            CHECK(chooser.scale() == Approx(settled).epsilon(0.15));
+        }
+    }
+}
+
+TEST_CASE("A histogram counts values, and knows their percentiles") {
+    Histogram histogram(0, 1);
+    std::vector<double> values;
+    for (int i = 0; i <= 1000; ++i) {
+        values.push_back(i / 1000.0);
+    }
+    histogram.add(std::span(values).first(500));
+    histogram.add(std::span(values).subspan(500));
+    CHECK(histogram.n_values() == 1001);
+    CHECK(histogram.quantile(0.02) == Approx(0.02));
+    CHECK(histogram.quantile(0.98) == Approx(0.98));
+    for (const float bin : histogram.bins()) {
+        CHECK(bin > 0.8f);
+    }
+}
+
+TEST_CASE("Settings are kept, and no file of them can do harm") {
+    const auto file = std::filesystem::temp_directory_path() / ("elvis-settings-" + std::to_string(::getpid())) / "view.json";
+    Settings settings;
+    settings.window_size = {900, 700};
+    settings.is_dark = false;
+    settings.text_scale = 1.5;
+    for (int i = 0; i < 20; ++i) {
+        settings.add_recent("/data/" + std::to_string(i) + ".h5");
+    }
+    settings.add_recent("/data/15.h5");
+    REQUIRE(write_settings(settings, file));
+    const Settings read = read_settings(file);
+    CHECK(read.window_size == settings.window_size);
+    CHECK(read.is_dark == false);
+    CHECK(read.text_scale == 1.5f);
+    CHECK(read.recent_files == settings.recent_files);
+    CHECK(read.recent_files.size() == Settings::most_recent_files);
+    CHECK(read.recent_files[0] == "/data/15.h5");
+    CHECK(read.folder == "/data");
+    for (const char* text : {"", "{", "[1]", R"({"window_width": "wide", "recent_files": 3, "text_scale": 1e300})"}) {
+        std::ofstream(file) << text;
+        CHECK(read_settings(file).window_size[0] == Settings{}.window_size[0]);
+    }
+    CHECK(read_settings("/no/such/file").recent_files.empty());
+    std::filesystem::remove_all(file.parent_path());
+}

@@ -1,0 +1,211 @@
+"""What people do first in the window of ElVis, done by synthetic mouse and keys on a display of its own.
+
+usage: window_test.py ELVIS FOLDER
+"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+from driver import Display, Failure, Window, check_programs, pixels, require
+
+VOLUME = {"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [3, 3, 3], "geometry_order": 2, "order": 4,
+          "fields": ["waves", "taylor-green"]}
+
+
+def run(elvis, folder, *arguments):
+    done = subprocess.run([elvis] + list(arguments), cwd=folder, capture_output=True, text=True)
+    require(done.returncode == 0, f"elvis {' '.join(arguments)}: {done.stderr}")
+    return done.stdout
+
+
+def plane_of(screen):
+    return screen["scene"]["surfaces"][1]["plane"]
+
+
+def says_that_there_is_no_display(elvis, folder):
+    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    done = subprocess.run([elvis, "view"], cwd=folder, env=environment, capture_output=True, text=True)
+    require(done.returncode == 1, f"without a display the status is {done.returncode}")
+    require("there is no display" in done.stderr, f"without a display it says: {done.stderr}")
+
+
+def opens_by_dialog(window):
+    window.key("ctrl+o")
+    window.wait_for(lambda screen: screen["dialog"] == 1, "the dialog")
+    window.write(os.path.join(window.folder, "ball.h5"))
+    window.key("Return")
+    window.wait_for(lambda screen: screen["volume"].endswith("ball.h5"), "the volume")
+    screen = window.settle()
+    require(screen["items"] == ["Boundary"], f"the items are {screen['items']}")
+    window.picture("opened.png")
+    left, top, right, bottom = (int(x) for x in screen["places"]["view"])
+    width, height, colors = pixels("opened.png", (left, top, right - left, bottom - top))
+    middle = 3 * (height // 2 * width + width // 2)
+    corner = 3 * ((height - 3) * width + width - 3)
+    require(colors[corner:corner + 3] == b"\xff\xff\xff", "the background is not white")
+    require(colors[middle:middle + 3] != b"\xff\xff\xff", "there is no ball in the middle")
+
+
+def orbits(window):
+    before = window.screen()["scene"]["camera"]
+    states = set()
+    window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: states.add(screen["state"]))
+    window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != before["eye"], "the camera to move")
+    screen = window.settle()
+    after = screen["scene"]["camera"]
+    distance = [sum((a - b) ** 2 for a, b in zip(camera["eye"], camera["look_at"])) for camera in (before, after)]
+    require(abs(distance[0] - distance[1]) < 1e-6 * distance[0], f"the distance has changed: {distance}")
+    require("reduced" in states, f"no reduced picture was shown while moving, only {states}")
+    require(screen["state"] == "full", "at rest the picture is not full")
+    print(f"while orbiting: {screen['frames_per_second']:.1f} pictures a second; "
+          f"from rest to the full picture: {screen['rest_to_full_seconds']:.2f} s")
+
+
+def zooms_to_the_cursor(window):
+    before = window.screen()["scene"]["camera"]
+    window.wheel(window.place("view", 0.6, 0.4), 3)
+    window.wait_for(lambda screen: screen["scene"]["camera"]["look_at"] != before["look_at"], "what is looked at to move")
+    window.key("f")
+    window.wait_for(lambda screen: abs(screen["scene"]["camera"]["look_at"][0] - before["look_at"][0]) < 1e-9, "all to be seen")
+    window.settle()
+
+
+def adds_a_cut_plane(window):
+    window.click("items/add")
+    window.click("add/Cut plane")
+    window.wait_for(lambda screen: len(screen["items"]) == 2 and screen["items"][1].startswith("Cut plane"), "the plane")
+    window.click("item/0/shown")
+    window.wait_for(lambda screen: screen["scene"]["surfaces"][0].get("visible") is False, "the boundary to be hidden")
+    window.settle()
+
+
+def moves_it(window):
+    """Returns the plane before, after it was moved, and after it was turned, too."""
+    before = plane_of(window.screen())
+    window.drag(window.place("handle/move"), (60, 25))
+    window.wait_for(lambda screen: plane_of(screen) != before, "the plane to move")
+    screen = window.settle()
+    moved = plane_of(screen)
+    require(before[:3] == moved[:3], f"the plane went from {before} to {moved}")
+    require(screen["undo"] == "move cut plane", f"to undo is '{screen['undo']}'")
+    window.drag(window.place("handle/turn"), (30, 60))
+    window.wait_for(lambda screen: plane_of(screen)[:3] != moved[:3], "the plane to turn")
+    return before, moved, plane_of(window.settle())
+
+
+def picks(window, elvis):
+    eye = window.screen()["scene"]["camera"]["eye"]
+    window.key("1")  # From +x, which is nearly across the plane.
+    window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != eye, "the view from +x")
+    window.settle()
+    window.click("view", 0.45, 0.6)
+    screen = window.wait_for(lambda screen: "element" in screen["picked"], "a point")
+    picked = screen["picked"]
+    place = re.search(r"x = \(([^)]*)\)", picked).group(1)
+    value = float(re.search(r"waves = ([^ ,]*), gradient", picked).group(1))
+    drawn = float(re.search(r"drawn: .* = (.*)", picked).group(1)) if "drawn:" in picked else value
+    answer = json.loads(run(elvis, window.folder, "probe", "ball.h5", "--point", place.replace(" ", ""), "--json"))
+    exact = answer["points"][0]["fields"]["waves"][0]
+    require(abs(value - exact) < 1e-6, f"picked {value}, probed {exact}")
+    require(abs(drawn - exact) < 1e-3, f"drawn {drawn}, probed {exact}")
+    for word in ("xi =", "order", "Jacobian", "gradient", "velocity[2]"):
+        require(word in picked, f"'{word}' is not in\n{picked}")
+    window.picture("picked.png")
+
+
+def undoes(window, first, moved, turned):
+    for key, plane in (("ctrl+z", moved), ("ctrl+z", first), ("ctrl+y", moved), ("ctrl+y", turned)):
+        window.key(key)
+        window.wait_for(lambda screen: plane_of(screen) == plane, f"{key} to make the plane {plane}", 30)
+    require(window.settle()["redo"] == "", "there is more to be done again")
+
+
+def saves(window, elvis):
+    window.key("ctrl+s")
+    window.wait_for(lambda screen: screen["dialog"] == 2, "the dialog")
+    window.write(os.path.join(window.folder, "saved.json"))
+    window.key("Return")
+    window.wait_for(lambda screen: os.path.exists("saved.json"), "the scene")
+    window.wait_for(lambda screen: screen["dialog"] == 0, "the dialog to close")
+    window.key("ctrl+p")
+    window.wait_for(lambda screen: screen["dialog"] == 3, "the dialog")
+    window.write(os.path.join(window.folder, "window.png"))
+    window.key("Return")
+    window.wait_for(lambda screen: any("saved the picture" in message for message in screen["messages"]), "the picture")
+    window.settle()
+    run(elvis, window.folder, "render", "saved.json", "-o", "rendered.png")
+    with open("window.png", "rb") as one, open("rendered.png", "rb") as other:
+        require(one.read() == other.read(), "elvis render draws another picture than the window saves")
+    # And it is the one on the screen, but for what the window draws above it: a part without marks and handles.
+    screen = window.picture("saved.png")
+    left, top, right, bottom = (int(x) for x in screen["places"]["view"])
+    part = (0, 3 * (bottom - top) // 4, right - left, (bottom - top) // 4)
+    shown = pixels("saved.png", (left + part[0], top + part[1], part[2], part[3]))
+    require(shown == pixels("rendered.png", part), "the screen shows another picture than elvis render draws")
+
+
+def converts(window):
+    """A foreign file is converted after asking."""
+    window.key("ctrl+o")
+    window.wait_for(lambda screen: screen["dialog"] == 1, "the dialog")
+    window.write(os.path.join(window.folder, "foreign.json"))
+    window.key("Return")
+    window.wait_for(lambda screen: screen["dialog"] == 4, "the offer to convert")
+    window.picture("convert.png")
+    window.click("dialog/do")
+    screen = window.wait_for(lambda screen: screen["volume"].endswith("foreign.h5"), "the converted volume")
+    require(any("residual" in message for message in screen["messages"]), f"no report: {screen['messages']}")
+    window.settle()
+
+
+def quits(window):
+    window.key("ctrl+q")
+    try:
+        status = window.process.wait(timeout=30)
+    except subprocess.TimeoutExpired:
+        raise Failure("Ctrl+Q does not close the window")
+    with open(os.path.join(window.folder, "view.log")) as file:
+        log = file.read()
+    require(status == 0, f"it ends with status {status}: {log}")
+    require("alidation" not in log, f"the validation layer says: {log}")
+
+
+def main(elvis, folder):
+    check_programs()
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    os.chdir(folder)
+    says_that_there_is_no_display(elvis, folder)
+    with open("ball.json", "w") as file:
+        json.dump(VOLUME, file)
+    shutil.copy("ball.json", "foreign.json")
+    run(elvis, folder, "convert", "ball.json", "-o", "ball.h5")
+    display = Display()
+    window = None
+    try:
+        window = Window(elvis, display, folder, ["--size", "1280x800", "--validation"])
+        opens_by_dialog(window)
+        orbits(window)
+        zooms_to_the_cursor(window)
+        adds_a_cut_plane(window)
+        planes = moves_it(window)
+        picks(window, elvis)
+        undoes(window, *planes)
+        saves(window, elvis)
+        converts(window)
+        quits(window)
+    finally:
+        if window:
+            window.close()
+        display.close()
+    print("all of it worked")
+
+
+if __name__ == "__main__":
+    try:
+        main(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]))
+    except Failure as failure:
+        sys.exit(f"window_test: {failure}")
