@@ -2,6 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/bench/bench.hpp>
+#include <core/bench/combined.hpp>
 #include <core/bench/projection.hpp>
 #include <core/bench/roots.hpp>
 #include <core/bench/surfaces.hpp>
@@ -360,6 +361,32 @@ nlohmann::ordered_json run_projection(const Arguments& arguments, const Device& 
     return list;
 }
 
+nlohmann::ordered_json run_combined(const Arguments& arguments, const Device& device, const PluginRegistry& registry,
+                                    const BenchFolder& folder) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    const std::uint32_t size = arguments.names_sizes ? arguments.sizes.front() : 1024;
+    bench_combined(device, registry, folder, arguments.volume, size, [&](const CombinedRow& row) {
+        list.push_back({{"name", row.name},
+                        {"milliseconds", row.milliseconds},
+                        {"wall_milliseconds", row.wall_milliseconds},
+                        {"field_evaluations", row.counts.field_evaluations},
+                        {"volume_segments", row.counts.volume_segments},
+                        {"hidden_pixels", row.counts.hidden_pixels},
+                        {"spared_rows", row.counts.spared_rows},
+                        {"difference", row.difference}});
+        if (!arguments.json) {
+            std::printf("%-24s %8.1f ms  wall %8.1f ms  %9llu values  %9llu segments  %8llu pixels hidden  %6llu rows spared  off by %.1e\n",
+                        row.name.c_str(), row.milliseconds, row.wall_milliseconds,
+                        static_cast<unsigned long long>(row.counts.field_evaluations),
+                        static_cast<unsigned long long>(row.counts.volume_segments),
+                        static_cast<unsigned long long>(row.counts.hidden_pixels),
+                        static_cast<unsigned long long>(row.counts.spared_rows), row.difference);
+            std::fflush(stdout);
+        }
+    });
+    return list;
+}
+
 void run(const Arguments& arguments) {
     nlohmann::ordered_json root;
     const bool all = arguments.suite == "all";
@@ -384,7 +411,7 @@ void run(const Arguments& arguments) {
     if (all || arguments.suite == "unit" || arguments.suite == "cut-plane" || arguments.suite == "boundary" ||
         arguments.suite == "isosurface" || arguments.suite == "segments" || arguments.suite == "surfaces" ||
         arguments.suite == "projection" || arguments.suite == "volume" ||
-        arguments.suite == "volume-convergence") {
+        arguments.suite == "volume-convergence" || arguments.suite == "combined") {
         const PluginRegistry registry;
         const BenchFolder folder(arguments.data);
         const Device device(arguments.device);
@@ -423,6 +450,9 @@ void run(const Arguments& arguments) {
             root["volume"] = run_volume(arguments, device, registry, folder, unit);
         }
         // Minutes, and no part of "all".
+        if (arguments.suite == "combined") {
+            root["combined"] = run_combined(arguments, device, registry, folder);
+        }
         if (arguments.suite == "projection") {
             root["projection"] = run_projection(arguments, device, registry, folder);
         }
@@ -445,10 +475,10 @@ void add_bench(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     command
         ->add_option("suite", arguments->suite,
-                     "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces, projection or "
-                     "volume-convergence")
+                     "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces, projection, "
+                     "volume-convergence or combined")
         ->check(CLI::IsMember({"unit", "cut-plane", "boundary", "isosurface", "segments", "volume", "hierarchy", "jacobian", "roots",
-                               "surfaces", "projection", "volume-convergence", "all"}))
+                               "surfaces", "projection", "volume-convergence", "combined", "all"}))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
@@ -459,7 +489,7 @@ void add_bench(CLI::App& app) {
     command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->add_option("--volume", arguments->volume, "A native volume for the suites projection, in place of the waves, and volume-convergence");
+    command->add_option("--volume", arguments->volume, "A native volume for the suites projection, in place of the waves, combined, and volume-convergence");
     command->add_option("--isovalue", arguments->isovalue, "Of the suite projection; by default the middle of the field's range");
     command->add_option("--integrators", arguments->integrators, "Of the suite volume: riemann, trapezoid, categories, adaptive-trapezoid, exact")
         ->delimiter(',');
