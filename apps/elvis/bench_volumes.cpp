@@ -1,5 +1,6 @@
 #include "bench_suites.hpp"
 
+#include <core/bench/combined.hpp>
 #include <core/bench/volume.hpp>
 #include <core/bench/volume_convergence.hpp>
 
@@ -36,6 +37,30 @@ nlohmann::ordered_json run_volume(const Bench& bench) {
                         result.milliseconds, 1e6 * result.milliseconds / bench.unit, result.ratio_to_prototype, result.evaluations_a_pixel,
                         result.mappings_a_pixel, result.segments_a_pixel, result.empty_segments_a_pixel, result.steps_a_pixel,
                         result.breakpoints_a_pixel, result.inexact_share);
+    });
+    return list;
+}
+
+nlohmann::ordered_json run_combined(const Bench& bench) {
+    const BenchArguments& arguments = bench.arguments;
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    const std::uint32_t size = arguments.names_sizes ? arguments.sizes.front() : 1024;
+    bench_combined(bench.device, bench.registry, bench.folder, arguments.volume, size, [&](const CombinedRow& row) {
+        list.push_back({{"name", row.name},
+                        {"milliseconds", row.milliseconds},
+                        {"wall_milliseconds", row.wall_milliseconds},
+                        {"field_evaluations", row.counts.field_evaluations},
+                        {"volume_segments", row.counts.volume_segments},
+                        {"hidden_pixels", row.counts.hidden_pixels},
+                        {"spared_rows", row.counts.spared_rows},
+                        {"difference", row.difference}});
+        say(arguments,
+            "%-24s %8.1f ms  wall %8.1f ms  %9llu values  %9llu segments  %8llu pixels hidden  %6llu rows spared  off by %.1e\n",
+            row.name.c_str(), row.milliseconds, row.wall_milliseconds,
+            static_cast<unsigned long long>(row.counts.field_evaluations),
+            static_cast<unsigned long long>(row.counts.volume_segments),
+            static_cast<unsigned long long>(row.counts.hidden_pixels),
+            static_cast<unsigned long long>(row.counts.spared_rows), row.difference);
     });
     return list;
 }

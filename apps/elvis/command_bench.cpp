@@ -33,6 +33,7 @@ const std::vector<Suite>& drawing_suites() {
         {"segments", "segments", run_segments},
         {"volume", "volume", run_volume},
         {"projection", "projection", run_projection, false},
+        {"combined", "combined", run_combined, false},
         {"volume-convergence", "volume_convergence", run_volume_convergence, false},
         {"surfaces", "surfaces", run_surfaces, false},
     };
@@ -107,7 +108,7 @@ void add_bench(CLI::App& app) {
     command
         ->add_option("suite", arguments->suite,
                      "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces, projection, "
-                     "volume-convergence or accuracy")
+                     "combined, volume-convergence or accuracy")
         ->check(CLI::IsMember(std::move(suites)))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");

@@ -104,6 +104,7 @@ void render_animation(const RenderArguments& arguments, const Scene& scene, cons
         control.progress(static_cast<double>(number) / static_cast<double>(frames.size()), path.filename().string());
         FrameRequest request = requests.of(frames[number].time_step);
         request.camera = frames[number].camera;
+        request.sharing = sharing_of(arguments);
         Frame frame = renderer.render(request, &control);
         if (scene.annotation) {
             const AnnotationRequest annotation = make_annotation_request(*scene.annotation, request, frame, volume);

@@ -150,6 +150,23 @@ void apply_animation(const RenderArguments& arguments, Scene& scene) {
 
 } // namespace
 
+Sharing sharing_of(const RenderArguments& arguments) {
+    if (arguments.share.empty() || arguments.share == "all") {
+        return {};
+    }
+    if (arguments.share == "none") {
+        return Sharing::none();
+    }
+    std::string names;
+    for (const auto& [name, sharing] : Sharing::each()) {
+        if (name == arguments.share) {
+            return sharing;
+        }
+        names += ", " + name;
+    }
+    throw UsageError("--share", "'" + arguments.share + "' is none of all, none" + names);
+}
+
 void apply_options(const RenderArguments& arguments, Scene& scene) {
     if (!arguments.field.empty()) {
         scene.field = arguments.field;

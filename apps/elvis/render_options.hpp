@@ -45,6 +45,7 @@ struct RenderArguments {
     std::string device;
     std::string buffers;
     std::string stats;
+    std::string share;
     int time_step = -1;
     int repeat = 0;
     int bits = 8;
@@ -54,5 +55,8 @@ struct RenderArguments {
 
 /** What the command line says goes before what the file says. */
 void apply_options(const RenderArguments& arguments, Scene& scene);
+
+/** What passes share, by --share; all of it by default. */
+Sharing sharing_of(const RenderArguments& arguments);
 
 } // namespace elvis::commands

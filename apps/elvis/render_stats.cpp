@@ -36,7 +36,9 @@ nlohmann::ordered_json counts_json(const FrameCounts& counts) {
             {"volume_segments", counts.volume_segments},
             {"empty_segments", counts.empty_segments},
             {"volume_steps", counts.volume_steps},
-            {"volume_breakpoints", counts.volume_breakpoints}};
+            {"volume_breakpoints", counts.volume_breakpoints},
+            {"hidden_pixels", counts.hidden_pixels},
+            {"spared_rows", counts.spared_rows}};
 }
 
 nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,

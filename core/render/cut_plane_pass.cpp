@@ -130,6 +130,9 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
     for (ClassKernels& kernels : m_kernels) {
         draw_pixels(kernels, surface, component, n_isovalues, target);
     }
+    if (target.after_samples) {
+        target.after_samples();
+    }
     if (m_with_lines) {
         for (const ClassKernels& kernels : m_kernels) {
             draw_lines(kernels, component, lines, target, counts);

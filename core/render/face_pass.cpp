@@ -109,6 +109,7 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
     const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
+    const TileRows wanted = target.tile_rows(tile_height);
     const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const Buffer& list = provide(m_list, m_device, std::uint64_t{layer.width} * layer.height * sizeof(std::uint32_t));
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
@@ -138,10 +139,10 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
         const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts + 1];
         const auto draw_tiles = [&](Draws what) {
             const ComposedKernel& kernel = kernels.provide(m_device, what);
-            for (std::uint32_t row = 0; row < tile_rows; row += rows_a_dispatch) {
+            for (std::uint32_t row = wanted.first; row < wanted.end; row += rows_a_dispatch) {
                 parameters.first = row;
                 kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
-                                std::min(rows_a_dispatch, tile_rows - row));
+                                std::min(rows_a_dispatch, wanted.end - row));
             }
         };
         if (n_deep_tiles < n_tiles) {

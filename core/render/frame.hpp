@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -33,6 +34,21 @@ struct Camera {
     std::array<double, 2> image_shift{};
 };
 
+/** What passes of one picture take from each other. Pictures are the same without, but for time; each can be turned off to see that. */
+struct Sharing {
+    /**
+     * Of surfaces, what opaque ones drawn before hide is not evaluated and not looked at for lines; isosurfaces are looked for only
+     * in front of them. Volume rendering always ends at them.
+     */
+    bool depths = true;
+    /** What is drawn in several rounds is drawn in the rows of the picture that still want more. */
+    bool rows = true;
+
+    static Sharing none() { return {false, false}; }
+    /** Each alone, by the names of `elvis render --share`. */
+    static std::vector<std::pair<std::string, Sharing>> each() { return {{"depths", {true, false}}, {"rows", {false, true}}}; }
+};
+
 struct FrameRequest {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -47,6 +63,7 @@ struct FrameRequest {
     std::optional<Lighting> lighting;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
     bool with_buffers = true;
+    Sharing sharing;
 };
 
 /** Bits of Frame::flags; the same numbers in `--buffers` files. */
@@ -109,10 +126,12 @@ struct FrameCounts {
     std::uint64_t volume_steps = 0, volume_breakpoints = 0;
     /** Pixels that had to be looked at more closely for lines. */
     std::uint64_t refined_pixels = 0;
+    /** What sharing saved: pixels of surfaces behind which nothing was looked for; rows of pictures that were not drawn again. */
+    std::uint64_t hidden_pixels = 0, spared_rows = 0;
 };
 
 /**
- * Which values beyond the points of its colour table one surface shows, hidden pixels included. Those that are outside by less than
+ * Which values beyond the points of its colour table one surface shows, pixels included that surfaces drawn later hide. Those that are outside by less than
  * 1e-4 of the table's extent do not count: the end of a range may be missed by rounding.
  */
 struct SpecialValues {

@@ -161,6 +161,7 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
     const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
+    const TileRows wanted = target.tile_rows(tile_height);
     const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
     // The beyond buffer is not read without depths: anything of reals.
@@ -189,10 +190,10 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
         const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[inner_tiles];
         const auto draw_tiles = [&](Role role) {
             const ComposedKernel& kernel = kernels.provide(m_device, role, m_values.size() == 1);
-            for (std::uint32_t row = 0; row < tile_rows; row += rows_a_dispatch) {
+            for (std::uint32_t row = wanted.first; row < wanted.end; row += rows_a_dispatch) {
                 parameters.first_tile_row = row;
                 kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
-                                std::min(rows_a_dispatch, tile_rows - row) * (tile_height / rows_an_invocation));
+                                std::min(rows_a_dispatch, wanted.end - row) * (tile_height / rows_an_invocation));
             }
         };
         if (n_deep_tiles < n_tiles) {

@@ -7,7 +7,9 @@
 #include <core/render/real_array.hpp>
 #include <core/vulkan/buffer.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 
 namespace elvis {
 
@@ -53,6 +55,11 @@ struct Layer {
     std::uint64_t n_pixels() const { return std::uint64_t{width} * height; }
 };
 
+/** Some of the rows of a picture's tiles. */
+struct TileRows {
+    std::uint32_t first, end;
+};
+
 /** Where a pass draws a surface. */
 struct LayerTarget {
     const Layer& layer;
@@ -62,6 +69,14 @@ struct LayerTarget {
     bool wants_normals = true;
     /** One core_place a pixel (shaders/library/place.glsl), of passes other than of planes. Null: not wanted. */
     const Buffer* places = nullptr;
+    /** Rows of pixels from which on, and before which, something is wanted. */
+    std::uint32_t first_row = 0, end_row = 0xffffffffu;
+    /** To be called when samples and marks are drawn, before they are looked at for lines. */
+    std::function<void()> after_samples{};
+
+    TileRows tile_rows(std::uint32_t tile_height) const {
+        return {first_row / tile_height, (std::min(end_row, layer.height) + tile_height - 1) / tile_height};
+    }
 };
 
 /** The component of the field that is drawn, or -1 for the length of the vector, and how many there are. */

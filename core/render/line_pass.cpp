@@ -211,10 +211,11 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
     if (bending != nullptr) {
         bindings.push_back(bending);
     }
-    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width), tile_rows = divided_up(layer.height, tile_height);
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
+    const TileRows wanted = target.tile_rows(tile_height);
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
     for (const ClassKernels& of_class : kernels) {
-        for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
+        for (std::uint32_t first_row = wanted.first; first_row < wanted.end; first_row += rows_a_dispatch) {
             const SettleParameters parameters{layer.width,
                                               layer.height,
                                               first_row,
@@ -225,7 +226,7 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
                                               n_isovalues,
                                               lines.mesh_lines ? 1u : 0u};
             of_class.settle->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
-                                      std::min(rows_a_dispatch, tile_rows - first_row));
+                                      std::min(rows_a_dispatch, wanted.end - first_row));
         }
     }
     const std::uint32_t n_listed = n_of(1);

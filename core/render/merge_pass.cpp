@@ -1,6 +1,8 @@
 #include <core/render/merge_pass.hpp>
 #include <core/render/pixel_kernel.hpp>
 
+#include <array>
+
 namespace elvis {
 
 namespace {
@@ -11,6 +13,7 @@ struct MergeParameters {
     std::uint32_t has_normals;
     std::uint32_t is_first;
     float red, green, blue, alpha;
+    std::uint32_t width;
 };
 
 struct PixelParameters {
@@ -33,7 +36,7 @@ MergePass::MergePass(const Device& device, Precision precision)
       m_merge(storage_kernel(device, precision, "merge", 11, sizeof(MergeParameters))),
       m_take(storage_kernel(device, precision, "take_layer", 5, sizeof(PixelParameters))),
       m_order(storage_kernel(device, precision, "order_layers", 4, sizeof(PixelParameters))),
-      m_blend(storage_kernel(device, precision, "blend", 4, sizeof(PixelParameters))), m_counts(device, sizeof(std::uint32_t)) {}
+      m_blend(storage_kernel(device, precision, "blend", 4, sizeof(PixelParameters))), m_counts(device, 3 * sizeof(std::uint32_t)) {}
 
 void MergePass::begin(std::uint32_t width, std::uint32_t height, const Color& background) {
     if (!m_picture || m_picture->width != width || m_picture->height != height) {
@@ -47,7 +50,7 @@ void MergePass::begin(std::uint32_t width, std::uint32_t height, const Color& ba
     m_is_empty = true;
 }
 
-std::uint32_t MergePass::merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through) {
+MergePass::Wanted MergePass::merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through) {
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const auto channel = [this](std::size_t i) { return static_cast<float>(m_background[i]); };
     const MergeParameters parameters{n_pixels,
@@ -58,18 +61,21 @@ std::uint32_t MergePass::merge(const Layer& layer, std::uint32_t surface, bool h
                                      channel(0),
                                      channel(1),
                                      channel(2),
-                                     channel(3)};
+                                     channel(3),
+                                     layer.width};
     m_is_empty = false;
-    m_counts.fill(0);
+    constexpr std::array<std::uint32_t, 3> no_rows = {0, 0xffffffffu, 0};
+    m_counts.write_items(std::span<const std::uint32_t>(no_rows));
     dispatch_pixels(m_merge,
                     {&layer.samples, &layer.marks, &layer.normals, &layer.colors, &m_picture->samples, &m_picture->marks,
                      &m_picture->normals, &m_picture->colors, m_depths.get(), m_beyond.get(), &m_counts},
                     std::as_bytes(std::span(&parameters, 1)), n_pixels);
     if (!is_see_through) {
-        return 0;
+        return {};
     }
     keep(layer);
-    return m_counts.read_items<std::uint32_t>(1)[0];
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(3);
+    return {found[0], found[1], found[2]};
 }
 
 void MergePass::keep(const Layer& layer) {

@@ -25,11 +25,13 @@ public:
     /** Starts an empty picture of this size. */
     void begin(std::uint32_t width, std::uint32_t height, const Color& background);
 
-    /**
-     * Merges the coloured layer of surface number `surface`, counted from 1. Returns how many of its pixels want to see what of
-     * the same surface is behind; beyond() tells where.
-     */
-    std::uint32_t merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through);
+    /** Pixels that want to see what of a surface is behind, how many they are and between which rows. */
+    struct Wanted {
+        std::uint32_t n_pixels = 0, first_row = 0, end_row = 0;
+    };
+
+    /** Merges the coloured layer of surface number `surface`, counted from 1. beyond() tells where what is wanted is. */
+    Wanted merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through);
 
     /** Depths behind which the layer merged last is wanted, one real a pixel. */
     const Buffer& beyond() const { return *m_beyond; }

@@ -8,6 +8,7 @@
 #include <core/render/layer.hpp>
 #include <core/render/line_pass.hpp>
 #include <core/render/merge_pass.hpp>
+#include <core/render/occlusion_pass.hpp>
 #include <core/render/point_value_pass.hpp>
 #include <core/render/renderer.hpp>
 #include <core/render/shown_field.hpp>
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -72,6 +74,14 @@ struct FieldPasses {
     std::optional<VolumePass> volume;
 };
 
+/** Opaque ones first: they hide parts of the others. */
+std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
+    std::vector<std::size_t> order(surfaces.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t index) { return !surfaces[index].is_see_through(); });
+    return order;
+}
+
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
 
 /** Solvers kept for later frames: some hold large meshes. */
@@ -90,6 +100,7 @@ struct Renderer::Impl {
     DeviceVolume data;
     ColorPass color_pass;
     MergePass merge_pass;
+    OcclusionPass occlusion_pass;
     ShownFields fields;
     /** Of the geometry that has this version. */
     std::map<FaceGeometry, FaceSet> face_sets;
@@ -111,7 +122,7 @@ struct Renderer::Impl {
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
         : device(on), volume(of), precision(with), control(task), data(on, of, with, task), color_pass(on, with),
-          merge_pass(on, with), fields(on, of, data) {
+          merge_pass(on, with), occlusion_pass(on, with), fields(on, of, data) {
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
     }
 
@@ -370,6 +381,7 @@ void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface
     const CutPlaneGeometry rays = view(request, surface.geometry);
     IsosurfacePass& pass = *passes.at(ShownFields::key(wanted.field)).isosurfaces;
     pass.draw(rays, first, target, counts);
+    target.after_samples();
     const ShownComponent component = fields.component(surface.field);
     if (surface.field != wanted.field) {
         current->point_values->draw(component, target, counts);
@@ -405,7 +417,7 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, FrameCounts& count
         start.direction = Vector3{along[0] / size, along[1] / size, along[2] / size};
     }
     merge_pass.fill_empty();
-    current->volume->draw(view(request, BoundaryFaces{}), start, merge_pass, counts);
+    current->volume->draw(view(request, BoundaryFaces{}), start, merge_pass, request.sharing.rows, counts);
 }
 
 void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target,
@@ -420,6 +432,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
     } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
         current->cut_shapes->draw(rays, solvers.at(solver_key(*shape)), *shape, first, component, surface.outside.has_value(),
                                   target, counts);
+        target.after_samples();
         if (surface.has_lines()) {
             line_pass(surface).draw(rays, component, lines, &current->cut_shapes->bending(),
                                     &solvers.at(solver_key(*shape)).rows(), target, counts);
@@ -433,6 +446,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
         edge_pass->draw(edge_set(wires->faces), request.camera, wires->width, -offset_of(surface), first, target);
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
+        target.after_samples();
         if (surface.has_lines()) {
             line_pass(surface).draw(rays, component, lines, nullptr, nullptr, target, counts);
         }
@@ -445,31 +459,52 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     const double offset = offset_of(surface);
     const CutPlaneGeometry rays = view(request, surface.geometry);
     const bool is_plane = std::holds_alternative<CutPlane>(surface.geometry);
-    facts.push_back({offset, is_plane ? std::optional<Vector3>(rays.normal) : std::nullopt});
+    facts[index] = {offset, is_plane ? std::optional<Vector3>(rays.normal) : std::nullopt};
     const std::uint32_t common_flags = flags_of_range(surface, request.time_step, offset);
+    const bool is_wire_frame = std::holds_alternative<WireFrame>(surface.geometry);
+    const bool wants_places =
+        (surface.has_lines() && !is_plane) || std::holds_alternative<Isosurfaces>(surface.geometry);
+    if (wants_places && (!places || places->bytes() != layer->n_pixels() * place_bytes(precision))) {
+        places.reset();
+        places.emplace(device, layer->n_pixels() * place_bytes(precision));
+    }
+    // Edges are nothing behind which much would be hidden from them.
+    const Buffer* const opaque = is_alone || is_wire_frame ? nullptr : merge_pass.depths();
+    const bool is_occluded = opaque != nullptr && request.sharing.depths;
     const Buffer* beyond = nullptr;
-    std::uint32_t n_wanted = 1;
-    for (std::uint32_t round = 0; n_wanted > 0 && round < max_rounds; ++round) {
+    MergePass::Wanted wanted{1, 0, layer->height};
+    for (std::uint32_t round = 0; wanted.n_pixels > 0 && round < max_rounds; ++round) {
         layer->marks.fill(0);
-        const bool wants_places =
-            (surface.has_lines() && !is_plane) || std::holds_alternative<Isosurfaces>(surface.geometry);
-        if (wants_places && (!places || places->bytes() != layer->n_pixels() * place_bytes(precision))) {
-            places.reset();
-            places.emplace(device, layer->n_pixels() * place_bytes(precision));
+        if (is_occluded) {
+            occlusion_pass.begin(*layer, *opaque);
         }
+        const auto after_samples = [&] {
+            frame.counts.hidden_pixels += is_occluded ? occlusion_pass.end(*layer, *opaque) : 0;
+        };
+        const bool wants_normals = request.with_buffers || is_lit(request, surface) || surface.has_lines();
         draw_geometry(request, surface,
-                      {*layer, beyond, request.with_buffers || is_lit(request, surface) || surface.has_lines(),
-                       wants_places ? &*places : nullptr},
+                      {*layer, beyond, wants_normals, wants_places ? &*places : nullptr, wanted.first_row, wanted.end_row,
+                       after_samples},
                       frame.counts);
+        if (opaque != nullptr) {
+            occlusion_pass.hide(*layer, *opaque);
+        }
         color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags,
                         is_lit(request, surface) ? &*request.lighting : nullptr);
-        n_wanted =
-            is_alone ? 0 : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane, surface.is_see_through());
+        wanted = is_alone ? MergePass::Wanted{}
+                          : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane, surface.is_see_through());
         // A plane is met once, and what edges hide of others is nothing.
-        n_wanted = is_plane || std::holds_alternative<WireFrame>(surface.geometry) ? 0 : n_wanted;
+        if (is_plane || is_wire_frame) {
+            wanted = {};
+        }
+        if (wanted.n_pixels > 0 && request.sharing.rows) {
+            frame.counts.spared_rows += layer->height - (wanted.end_row - wanted.first_row);
+        } else {
+            wanted = {wanted.n_pixels, 0, layer->height};
+        }
         beyond = &merge_pass.beyond();
     }
-    frame.counts.work_limit_pixels += n_wanted;
+    frame.counts.work_limit_pixels += wanted.n_pixels;
 }
 
 template <class Real>
@@ -559,9 +594,9 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     }
     impl.keep_fields(request);
     impl.color_pass.begin(request.surfaces.size());
-    std::vector<SurfaceFacts> facts;
+    std::vector<SurfaceFacts> facts(request.surfaces.size());
     double wall = 0, device = 0;
-    for (std::size_t index = 0; index < request.surfaces.size(); ++index) {
+    for (const std::size_t index : drawing_order(request.surfaces)) {
         impl.select(request.surfaces[index].field, request.time_step);
         impl.provide_passes(request, request.surfaces[index]);
         const DeviceTimer timer(impl.device);

@@ -112,6 +112,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     const std::uint32_t tile_width = surface_tile_width(m_device);
     const std::uint32_t tiles_a_row = divided_up(width, tile_width);
     const std::uint32_t tile_rows = divided_up(height, surface_tile_height);
+    const TileRows wanted = target.tile_rows(surface_tile_height);
     provide_buffers(std::uint64_t{width} * height, std::uint64_t{tiles_a_row} * tile_rows, solver.n_parts());
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     const double most_error = most_error_along_ray * diagonal_of(m_data.bounds());
@@ -138,10 +139,10 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     std::uint32_t n_found_before = 0;
     for (std::uint32_t round = 0; round < most_rounds; ++round) {
         m_hit_counts.fill(0);
-        for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
+        for (std::uint32_t first_row = wanted.first; first_row < wanted.end; first_row += rows_a_dispatch) {
             const HitsParameters hits{width, height, first_row, surface, round, target.beyond != nullptr ? 1u : 0u};
             solver.find(m_frame, hits_bindings, std::as_bytes(std::span(&hits, 1)), tiles_a_row,
-                        std::min(rows_a_dispatch, tile_rows - first_row));
+                        std::min(rows_a_dispatch, wanted.end - first_row));
         }
         const std::uint32_t n_hits = m_hit_counts.read_items<std::uint32_t>(1)[0];
         if (n_hits == 0) {
@@ -151,7 +152,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
             const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows, solver.n_parts()};
             kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
                                     divided_up(tiles.n_tiles, tiles_group_size));
-            for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
+            for (std::uint32_t first_row = wanted.first; first_row < wanted.end; first_row += rows_a_dispatch) {
                 const PixelsParameters pixels{width,
                                               height,
                                               first_row,
@@ -162,7 +163,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                                               static_cast<float>(most_error),
                                               target.places != nullptr ? 1u : 0u};
                 kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
-                                         std::min(rows_a_dispatch, tile_rows - first_row));
+                                         std::min(rows_a_dispatch, wanted.end - first_row));
             }
         }
         if (shows_outside) {

@@ -105,6 +105,7 @@ struct VolumePass::Picture {
     /** Of opaque surfaces, and of the next transparent one; null if there is none. */
     const Buffer *depths, *stops;
     std::uint32_t tiles_a_row, n_tiles, rows_a_dispatch;
+    bool by_rows;
 };
 
 VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
@@ -233,22 +234,22 @@ void VolumePass::list_starts(ClassKernels& kernels, const Picture& picture) {
     kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(picture.n_tiles, group_size));
 }
 
-bool VolumePass::seek(const ClassKernels& kernels, const Picture& picture, FrameCounts& counts) {
+bool VolumePass::seek(const ClassKernels& kernels, const Picture& picture, const Rows& rows, FrameCounts& counts) {
     m_counts.fill(0);
     SeekParameters parameters{picture.layer.width, picture.layer.height, picture.tiles_a_row, 0,
                               static_cast<std::uint32_t>(kernels.first_element), 0, static_cast<float>(m_extent)};
     const std::array<const Buffer*, 4> bindings = {&m_frame, &*m_states, &*kernels.tile_lists, &m_counts};
-    for (std::uint32_t row = 0; row < picture.layer.height; row += picture.rows_a_dispatch) {
+    for (std::uint32_t row = rows.first; row < rows.end; row += picture.rows_a_dispatch) {
         parameters.first_row = row;
         kernels.seek->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), picture.tiles_a_row,
-                               std::min(picture.rows_a_dispatch, picture.layer.height - row));
+                               std::min(picture.rows_a_dispatch, rows.end - row));
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.mapping_evaluations += found[seek_evaluations];
     return found[seeking] > 0;
 }
 
-bool VolumePass::march(ClassKernels& kernels, const Picture& picture, FrameCounts& counts) {
+bool VolumePass::march(ClassKernels& kernels, const Picture& picture, const Rows& rows, FrameCounts& counts) {
     m_counts.fill(0);
     MarchParameters parameters{picture.layer.width,
                                picture.layer.height,
@@ -271,10 +272,10 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, FrameCount
     const Buffer& stops = picture.stops ? *picture.stops : picture.layer.normals;
     const std::array<const Buffer*, 7> bindings = {&m_frame, &*m_states, &depths, &*m_breakpoints, &*m_pieces, &m_counts, &stops};
     const ComposedKernel& kernel = march_kernel(kernels);
-    for (std::uint32_t row = 0; row < picture.layer.height; row += picture.rows_a_dispatch) {
+    for (std::uint32_t row = rows.first; row < rows.end; row += picture.rows_a_dispatch) {
         parameters.first_row = row;
         kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), picture.tiles_a_row,
-                        std::min(picture.rows_a_dispatch, picture.layer.height - row));
+                        std::min(picture.rows_a_dispatch, rows.end - row));
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.field_evaluations += found[evaluations];
@@ -288,20 +289,29 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, FrameCount
 }
 
 void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
-    bool is_open = true;
-    for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
-        bool is_seeking = false;
-        for (const ClassKernels& kernels : m_kernels) {
-            is_seeking = seek(kernels, picture, counts) || is_seeking;
+    const std::uint32_t rows_at_once = picture.by_rows ? picture.rows_a_dispatch : picture.layer.height;
+    std::uint32_t most = 0, n_all = 0;
+    for (std::uint32_t first = 0; first < picture.layer.height; first += rows_at_once) {
+        const Rows rows{first, std::min(first + rows_at_once, picture.layer.height)};
+        std::uint32_t round = 0;
+        for (bool is_open = true; is_open && round < most_rounds; ++round) {
+            bool is_seeking = false;
+            for (const ClassKernels& kernels : m_kernels) {
+                is_seeking = seek(kernels, picture, rows, counts) || is_seeking;
+            }
+            is_open = is_seeking;
+            for (ClassKernels& kernels : m_kernels) {
+                is_open = march(kernels, picture, rows, counts) || is_open;
+            }
         }
-        is_open = is_seeking;
-        for (ClassKernels& kernels : m_kernels) {
-            is_open = march(kernels, picture, counts) || is_open;
-        }
+        most = std::max(most, round);
+        n_all += round * (rows.end - rows.first);
     }
+    counts.spared_rows += std::uint64_t{most} * picture.layer.height - n_all;
 }
 
-void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, FrameCounts& counts) {
+void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool by_rows,
+                      FrameCounts& counts) {
     const Layer& layer = merged.picture();
     const Buffer& states = provide(m_states, m_device, layer.n_pixels() * state_bytes(m_precision));
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
@@ -312,7 +322,8 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
                     nullptr,
                     tiles_a_row,
                     tiles_a_row * divided_up(layer.height, tile_height),
-                    std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width))};
+                    std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width)),
+                    by_rows};
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance)};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));

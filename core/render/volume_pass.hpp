@@ -31,9 +31,10 @@ public:
 
     /**
      * Draws in front of the opaque surfaces of a picture, and between its transparent ones, which are not put over it before. `view` is the
-     * geometry of any plane: only its rays matter.
+     * geometry of any plane: only its rays matter. `by_rows`: some rows after the others, so that those whose rays are done wait for
+     * no others.
      */
-    void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, FrameCounts& counts);
+    void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool by_rows, FrameCounts& counts);
 
 private:
     struct ClassKernels {
@@ -45,11 +46,15 @@ private:
         std::optional<Buffer> tile_lists;
     };
     struct Picture;
+    /** Of pixels. */
+    struct Rows {
+        std::uint32_t first, end;
+    };
     KernelRequest request_of(const ClassKernels& kernels, const char* name) const;
     const ComposedKernel& march_kernel(ClassKernels& kernels);
     void list_starts(ClassKernels& kernels, const Picture& picture);
-    bool seek(const ClassKernels& kernels, const Picture& picture, FrameCounts& counts);
-    bool march(ClassKernels& kernels, const Picture& picture, FrameCounts& counts);
+    bool seek(const ClassKernels& kernels, const Picture& picture, const Rows& rows, FrameCounts& counts);
+    bool march(ClassKernels& kernels, const Picture& picture, const Rows& rows, FrameCounts& counts);
     void march_all(const Picture& picture, FrameCounts& counts);
 
     const Device& m_device;

@@ -18,7 +18,7 @@ layout(set = 0, binding = 7, std430) writeonly buffer core_colors_block { elvis_
 layout(set = 0, binding = 8, std430) buffer core_depths_block { elvis_real core_depths[]; };
 // What is left to be seen of this surface: the depth behind which its next crossing is wanted; CORE_FAR if none is.
 layout(set = 0, binding = 9, std430) writeonly buffer core_beyond_block { elvis_real core_beyond[]; };
-// How many pixels want one.
+// How many pixels want one, and between which rows these are: the first, and one more than the last.
 layout(set = 0, binding = 10, std430) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
@@ -30,6 +30,7 @@ layout(push_constant) uniform core_parameters {
     // The picture is empty, with this colour.
     uint core_is_first;
     float core_red, core_green, core_blue, core_alpha;
+    uint core_width;
 };
 
 void main() {
@@ -87,7 +88,11 @@ void main() {
         core_beyond[pixel] = is_wanted ? depth : CORE_FAR;
     }
     const uint n_wanted = subgroupAdd(is_wanted ? 1u : 0u);
+    const uint row = safe / core_width;
+    const uint first_row = subgroupMin(is_wanted ? row : 0xffffffffu), end_row = subgroupMax(is_wanted ? row + 1u : 0u);
     if (subgroupElect() && n_wanted > 0u) {
         atomicAdd(core_counts[0], n_wanted);
+        atomicMin(core_counts[1], first_row);
+        atomicMax(core_counts[2], end_row);
     }
 }

@@ -40,13 +40,14 @@ Surface isosurface(IsosurfaceMethod method) {
     isosurfaces.method = method;
     Surface surface = lined(isosurfaces, 0.5);
     surface.contours.reset();
+    surface.mesh_lines.reset();
     return surface;
 }
 
 std::vector<std::pair<std::string, FrameRequest>> scenes() {
     FrameRequest request;
-    request.width = 72;
-    request.height = 54;
+    request.width = 56;
+    request.height = 42;
     request.camera.eye = {2.3, 1.9, 1.6};
     request.camera.up = {0, 0, 1};
     request.camera.field_of_view = 42;
@@ -109,7 +110,7 @@ TEST_CASE("after a cancelled picture the next one is the same as ever") {
         const Frame expected = reference.render(request);
         // From the start, while nothing is there yet.
         Renderer renderer(device(), volume, Precision::float32);
-        for (const double after : {0.0, 10.0, 100.0}) {
+        for (const double after : {0.0, 30.0}) {
             n_cancelled += cancel(renderer, request, after) ? 1 : 0;
         }
         check_same(renderer.render(request), expected);
@@ -117,7 +118,7 @@ TEST_CASE("after a cancelled picture the next one is the same as ever") {
         renderer.render(request);
         const double whole = milliseconds_since(start);
         double longest = 0;
-        for (const double share : {0.15, 0.5, 0.8}) {
+        for (const double share : {0.2, 0.6}) {
             const std::optional<double> latency = cancel(renderer, request, share * whole);
             n_cancelled += latency ? 1 : 0;
             longest = std::max(longest, latency.value_or(0));
@@ -128,7 +129,7 @@ TEST_CASE("after a cancelled picture the next one is the same as ever") {
         // Far more than parts take, for machines that do other work.
         CHECK(longest < 1000);
     }
-    CHECK(n_cancelled >= 25);
+    CHECK(n_cancelled >= 20);
 }
 
 TEST_CASE("a picture cancelled for another step, value or field does not mix them") {
@@ -145,7 +146,7 @@ TEST_CASE("a picture cancelled for another step, value or field does not mix the
     const Frame expected_second = Renderer(device(), volume, Precision::float32).render(second);
     Renderer renderer(device(), volume, Precision::float32);
     renderer.render(first);
-    for (const double after : {0.0, 5.0, 15.0}) {
+    for (const double after : {0.0, 10.0}) {
         cancel(renderer, second, after);
         check_same(renderer.render(first), expected_first);
     }

@@ -183,4 +183,60 @@ TEST_CASE("boundary, cut plane, isosurfaces and volume lie in each other as alon
     }
 }
 
+TEST_CASE("what passes share changes no picture") {
+    const TemporaryFile file("shared.h5");
+    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 3, "order": 4, "geometry_order": 3, "field": "waves"})",
+             file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request;
+    request.width = 80;
+    request.height = 60;
+    request.camera.eye = {2.3, 1.9, 1.6};
+    request.camera.up = {0, 0, 1};
+    request.camera.field_of_view = 42;
+    request.background = {0, 0, 1, 1};
+    const auto colored = [](const SurfaceGeometry& geometry, double opacity) {
+        Surface surface;
+        surface.geometry = geometry;
+        surface.colors.points = {{-1, {0, 0, 1}}, {1, {1, 0, 0}}};
+        surface.opacity = opacity;
+        return surface;
+    };
+    Surface plane = colored(CutPlane{{0.3, 0.25, 1, -0.05}}, 1), behind = colored(CutPlane{{1, 0, 0.1, 0.1}}, 1);
+    plane.contours = behind.contours = Contours{{-0.5, 0, 0.5}, {}};
+    plane.mesh_lines = behind.mesh_lines = MeshLines{};
+    Surface boundary = colored(BoundaryFaces{}, 0.3), sphere = colored(Sphere{{0.1, 0, 0}, 0.6}, 0.5);
+    boundary.mesh_lines = MeshLines{};
+    Isosurfaces isosurfaces;
+    isosurfaces.values = {-0.2, 0.4};
+    request.surfaces = {boundary, colored(isosurfaces, 0.5), plane, sphere, behind};
+    request.volume.emplace();
+    request.volume->transfer = {{{-1, 0}, {0, 1}, {0.2, 0}, {1, 3}}, {{-1, {1, 0, 0}}, {1, {1, 1, 0}}}};
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        Renderer renderer(device(), volume, precision);
+        request.sharing = Sharing::none();
+        const Frame unshared = renderer.render(request);
+        CHECK(unshared.counts.hidden_pixels == 0);
+        CHECK(unshared.counts.spared_rows == 0);
+        std::vector<std::pair<std::string, Sharing>> ways = Sharing::each();
+        ways.emplace_back("everything", Sharing{});
+        for (const auto& [name, sharing] : ways) {
+            request.sharing = sharing;
+            const Frame frame = renderer.render(request);
+            CAPTURE(name);
+            CHECK(frame.color == unshared.color);
+            CHECK(frame.element == unshared.element);
+            CHECK((frame.counts.hidden_pixels > 0) == sharing.depths);
+            CHECK((frame.counts.spared_rows > 0) == sharing.rows);
+            if (sharing.depths) {
+                CHECK(frame.counts.field_evaluations < unshared.counts.field_evaluations);
+            }
+            for (std::size_t i = 0; i < frame.special_values.size(); ++i) {
+                CHECK(frame.special_values[i].above == unshared.special_values[i].above);
+                CHECK(frame.special_values[i].below == unshared.special_values[i].below);
+            }
+        }
+    }
+}
+
 } // namespace elvis::oracle

@@ -1,0 +1,37 @@
+#include <core/render/occlusion_pass.hpp>
+#include <core/render/pixel_kernel.hpp>
+
+namespace elvis {
+
+namespace {
+
+struct Parameters {
+    std::uint32_t n_pixels, groups_x, step;
+};
+
+} // namespace
+
+OcclusionPass::OcclusionPass(const Device& device, Precision precision)
+    : m_kernel(device, pixel_kernel("occlude", precision,
+                                    {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
+                                     BindingType::storage_buffer},
+                                    sizeof(Parameters))),
+      m_counts(device, sizeof(std::uint32_t)) {}
+
+void OcclusionPass::run(const Layer& layer, const Buffer& depths, Step step) const {
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const Parameters parameters{n_pixels, pixel_groups_x, static_cast<std::uint32_t>(step)};
+    dispatch_pixels(m_kernel, {&layer.samples, &layer.marks, &depths, &m_counts}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
+}
+
+void OcclusionPass::begin(const Layer& layer, const Buffer& depths) const { run(layer, depths, Step::put); }
+
+std::uint32_t OcclusionPass::end(const Layer& layer, const Buffer& depths) const {
+    m_counts.fill(0);
+    run(layer, depths, Step::take);
+    return m_counts.read_items<std::uint32_t>(1)[0];
+}
+
+void OcclusionPass::hide(const Layer& layer, const Buffer& depths) const { run(layer, depths, Step::hide); }
+
+} // namespace elvis
