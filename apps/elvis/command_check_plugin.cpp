@@ -67,9 +67,10 @@ void print_result(const CheckResult& result) {
 }
 
 ordered_json to_json(const CheckResult& result) {
-    return {{"name", result.check->name},     {"about", result.check->about}, {"outcome", conformance::outcome_name(result.outcome)},
-            {"findings", result.findings},    {"notes", result.notes},        {"last_progress", result.progress},
-            {"seconds", result.seconds}};
+    return {
+        {"name", result.check->name},  {"about", result.check->about}, {"outcome", conformance::outcome_name(result.outcome)},
+        {"findings", result.findings}, {"notes", result.notes},        {"last_progress", result.progress},
+        {"seconds", result.seconds}};
 }
 
 void run(const Arguments& arguments) {
@@ -104,30 +105,41 @@ void run(const Arguments& arguments) {
     const auto count = [&](Outcome outcome) { return counts[static_cast<std::size_t>(outcome)]; };
     const std::size_t n_bad = count(Outcome::failed) + count(Outcome::crashed) + count(Outcome::timed_out);
     if (arguments.json) {
-        const ordered_json root{{"library", subject.library}, {"volume", subject.files}, {"seed", subject.seed},
-                                {"passed", count(Outcome::passed)}, {"failed", n_bad}, {"skipped", count(Outcome::skipped)},
-                                {"seconds", seconds}, {"checks", checks}};
+        const ordered_json root{{"library", subject.library},
+                                {"volume", subject.files},
+                                {"seed", subject.seed},
+                                {"passed", count(Outcome::passed)},
+                                {"failed", n_bad},
+                                {"skipped", count(Outcome::skipped)},
+                                {"seconds", seconds},
+                                {"checks", checks}};
         std::printf("%s\n", root.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
     } else {
         std::printf("%zu passed, %zu failed, %zu skipped in %.1f s (seed %llu)\n", count(Outcome::passed), n_bad,
                     count(Outcome::skipped), seconds, static_cast<unsigned long long>(subject.seed));
     }
     if (n_bad > 0) {
-        throw Error(arguments.subject.library, std::to_string(n_bad) + " of " + std::to_string(wanted.size()) + " checks failed");
+        throw Error(arguments.subject.library,
+                    std::to_string(n_bad) + " of " + std::to_string(wanted.size()) + " checks failed");
     }
 }
 
 } // namespace
 
 void add_check_plugin(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("check-plugin", "Check a plugin against the contract, each check in a process of its own");
+    CLI::App* command =
+        app.add_subcommand("check-plugin", "Check a plugin against the contract, each check in a process of its own");
     auto a = std::make_shared<Arguments>();
     command->add_option("library", a->subject.library, "Shared library of the plugin");
-    command->add_option("--volume", a->subject.files, "A file that the plugin opens; for sources of several files, repeat it in order");
+    command->add_option("--volume", a->subject.files,
+                        "A file that the plugin opens; for sources of several files, repeat it in order");
     command->add_option("--options", a->subject.options, "Options of the plugin, a JSON object");
     command->add_option("--check", a->checks, "Only this check; repeatable");
-    command->add_option("--seed", a->subject.seed, "Of damaged files and points: the same seed repeats a run")->capture_default_str();
-    command->add_option("--timeout", a->timeout, "Seconds after which a check counts as hanging")->check(CLI::PositiveNumber)->capture_default_str();
+    command->add_option("--seed", a->subject.seed, "Of damaged files and points: the same seed repeats a run")
+        ->capture_default_str();
+    command->add_option("--timeout", a->timeout, "Seconds after which a check counts as hanging")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command->add_option("--device", a->subject.device, "Vulkan device (name or index)");
     command->add_flag("--list", a->list, "List the checks");
     command->add_flag("--json", a->json, "Answer in JSON");

@@ -84,7 +84,8 @@ void run(Arguments arguments) {
 } // namespace
 
 void add_compile_snippet(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("compile-snippet", "Compile a plugin's GLSL from its file, errors with file and line");
+    CLI::App* command =
+        app.add_subcommand("compile-snippet", "Compile a plugin's GLSL from its file, errors with file and line");
     auto a = std::make_shared<Arguments>();
     command->add_option("file", a->file, "The snippet's first source; #include reaches files beside it")->required();
     command->add_option("--plugin", a->subject.library, "Library of the plugin: classes, constants and buffers come from it");
@@ -92,13 +93,16 @@ void add_compile_snippet(CLI::App& app) {
     command->add_option("--options", a->subject.options, "Options of the plugin, a JSON object");
     command->add_option("--device", a->subject.device, "Vulkan device (name or index)");
     command->add_option("--shape", a->shape, "Without a plugin: ELVIS_SHAPE")->capture_default_str();
-    command->add_option("--components", a->surroundings.n_components, "Without a plugin: ELVIS_N_COMPONENTS")->capture_default_str();
+    command->add_option("--components", a->surroundings.n_components, "Without a plugin: ELVIS_N_COMPONENTS")
+        ->capture_default_str();
     command->add_option("--prefix", a->prefix, "Without a plugin: the snippet's prefix (default: what most names begin with)");
     command->add_option("--define", a->defines, "Without a plugin: a constant NAME=INTEGER; repeatable (default: 1)");
-    command->add_option("--uint-buffer", a->surroundings.uint_buffers, "Without a plugin: this buffer is of kind UINT; repeatable");
+    command->add_option("--uint-buffer", a->surroundings.uint_buffers,
+                        "Without a plugin: this buffer is of kind UINT; repeatable");
     command
         ->add_option("--at", a->at,
-                     "With a plugin: ELEMENT,X,Y,Z, a reference point at which to evaluate; shows what elvis_debug(NUMBER) was given there")
+                     "With a plugin: ELEMENT,X,Y,Z, a reference point at which to evaluate; shows what elvis_debug(NUMBER) was "
+                     "given there")
         ->delimiter(',')
         ->expected(4);
     command->add_flag("--float32", a->in_float32, "With --at: in single precision");

@@ -26,12 +26,12 @@ struct Arguments {
 
 /** The name is that of a folder, a library, a C++ namespace and the prefix of GLSL functions at once. */
 void check_name(const std::string& name) {
-    const bool characters = std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-    });
+    const bool characters = std::all_of(name.begin(), name.end(),
+                                        [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
     if (name.empty() || !characters || name.front() < 'a' || name.front() > 'z' || name.back() == '_' ||
         name.find("__") != std::string::npos) {
-        throw UsageError(name, "cannot be a plugin's name, which has lower-case letters, digits and single '_', as in my_solver");
+        throw UsageError(name,
+                         "cannot be a plugin's name, which has lower-case letters, digits and single '_', as in my_solver");
     }
     if (name == "elvis" || name == "core" || name == "gl" || name == "std" || name.rfind("gl_", 0) == 0) {
         throw UsageError(name, "is taken; name the plugin after your solver");
@@ -89,18 +89,19 @@ void run(const Arguments& arguments) {
     }
     write_template(arguments, id, "common", folder);
     write_template(arguments, id, arguments.kind, folder);
-    std::printf("%s: a %s plugin. Build it, test it and draw %s/build/picture.png:\n    cd %s && %scmake --workflow --preset default\n",
-                folder.c_str(), arguments.kind.c_str(), folder.c_str(), folder.c_str(), where_elvis_is().c_str());
+    std::printf(
+        "%s: a %s plugin. Build it, test it and draw %s/build/picture.png:\n    cd %s && %scmake --workflow --preset default\n",
+        folder.c_str(), arguments.kind.c_str(), folder.c_str(), folder.c_str(), where_elvis_is().c_str());
 }
 
 } // namespace
 
 void add_new_plugin(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("new-plugin", "Write a small plugin project that builds, passes its tests and draws");
+    CLI::App* command =
+        app.add_subcommand("new-plugin", "Write a small plugin project that builds, passes its tests and draws");
     auto a = std::make_shared<Arguments>();
     command->add_option("name", a->name, "Name of the plugin: a lower-case identifier such as my_solver")->required();
-    command
-        ->add_option("--kind", a->kind, "runtime (draws volumes in their own basis) or converter (for the native volume)")
+    command->add_option("--kind", a->kind, "runtime (draws volumes in their own basis) or converter (for the native volume)")
         ->check(CLI::IsMember({"runtime", "converter"}))
         ->capture_default_str();
     command->add_option("--output", a->output, "Folder to write, new or empty (default: NAME)");

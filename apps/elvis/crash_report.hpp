@@ -7,8 +7,8 @@
 namespace elvis {
 
 /**
- * From now on, a crash (bad memory access, abort, ...) within a plugin's function is announced on stderr with the plugin's id and the
- * function, before the process ends as it would have.
+ * From now on, a crash (bad memory access, abort, ...) within a plugin's function is announced on stderr with the plugin's id
+ * and the function, before the process ends as it would have.
  */
 void report_crashes();
 

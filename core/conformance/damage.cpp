@@ -36,7 +36,8 @@ Damaged damage(const std::string& content, std::uint64_t seed, std::uint64_t ind
         return damaged;
     }
     // Half of the damage goes to the first kilobyte, where headers and counts are.
-    const std::size_t place = random.below(2) == 0 ? random.below(std::min<std::size_t>(text.size(), 1024)) : random.below(text.size());
+    const std::size_t place =
+        random.below(2) == 0 ? random.below(std::min<std::size_t>(text.size(), 1024)) : random.below(text.size());
     switch (random.below(6)) {
     case 0:
         text.resize(place);
@@ -69,8 +70,8 @@ Damaged damage(const std::string& content, std::uint64_t seed, std::uint64_t ind
         break;
     }
     default: {
-        constexpr std::array<const char*, 8> numbers{"-1", "0", "4294967295", "4294967296", "99999999999999999999", "1e400", "nan",
-                                                     "-9223372036854775808"};
+        constexpr std::array<const char*, 8> numbers{
+            "-1", "0", "4294967295", "4294967296", "99999999999999999999", "1e400", "nan", "-9223372036854775808"};
         const auto [begin, length] = find_number(text, place);
         const char* number = numbers[random.below(numbers.size())];
         text.replace(std::min(begin, text.size()), length, number);

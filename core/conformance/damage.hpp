@@ -15,7 +15,8 @@ struct Damaged {
     std::string what;
 };
 
-/** Damage number `index` of the seed: cut off, bytes changed, zeroed, repeated or left out, or a number replaced by a nonsensical one. */
+/** Damage number `index` of the seed: cut off, bytes changed, zeroed, repeated or left out, or a number replaced by a
+ * nonsensical one. */
 Damaged damage(const std::string& content, std::uint64_t seed, std::uint64_t index);
 
 } // namespace elvis::conformance

@@ -49,7 +49,8 @@ struct Sample {
     std::array<Matrix, 3> mapping_hessians;
     /** 1 if a loop of the snippet went on beyond reason; found only with poisons_outputs. */
     double is_endless;
-    /** How many numbers elvis_debug was given by elvis_field_value and elvis_mapping, and the first of them; with poisons_outputs. */
+    /** How many numbers elvis_debug was given by elvis_field_value and elvis_mapping, and the first of them; with
+     * poisons_outputs. */
     double n_debug;
     std::array<double, 15> debug;
 };

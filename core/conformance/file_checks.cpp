@@ -100,7 +100,8 @@ void check_bad_files(Context& context) {
             }
             check_failure(context, where, opening.result(), host.take_error());
             if (std::find(file.codes.begin(), file.codes.end(), opening.result()) == file.codes.end()) {
-                context.fail(where + " returned " + result_name(opening.result()) + " instead of " + result_name(file.codes.front()));
+                context.fail(where + " returned " + result_name(opening.result()) + " instead of " +
+                             result_name(file.codes.front()));
             }
         }
     }
@@ -130,9 +131,9 @@ void check_damaged(Context& context) {
             const Damaged damaged = damage(contents[which], seed, index);
             std::vector<std::string> files = originals;
             files[which] = scratch.write(fs::path(originals[which]).filename().string(), damaged.content);
-            const std::string where = std::string(interface_name(interface)) + ", damage " + std::to_string(index) + " of seed " +
-                                      std::to_string(seed) + " (" + fs::path(originals[which]).filename().string() + ": " +
-                                      damaged.what + ")";
+            const std::string where = std::string(interface_name(interface)) + ", damage " + std::to_string(index) +
+                                      " of seed " + std::to_string(seed) + " (" +
+                                      fs::path(originals[which]).filename().string() + ": " + damaged.what + ")";
             context.progress(where);
             ++n_done;
             bool opens = false;
@@ -162,8 +163,16 @@ void check_damaged(Context& context) {
 
 void check_options(Context& context) {
     Random random(context.subject().seed);
-    std::vector<std::string> texts{"{}", "", "{", "null", "[]", "3", "{\"no-such-option\": 1}", "{\"a\": {\"a\": {\"a\": []}}}",
-                                   std::string(10000, '['), "{\"\xff\xfe\": \"\x01\"}"};
+    std::vector<std::string> texts{"{}",
+                                   "",
+                                   "{",
+                                   "null",
+                                   "[]",
+                                   "3",
+                                   "{\"no-such-option\": 1}",
+                                   "{\"a\": {\"a\": {\"a\": []}}}",
+                                   std::string(10000, '['),
+                                   "{\"\xff\xfe\": \"\x01\"}"};
     for (int i = 0; i < 20; ++i) {
         std::string text = random_bytes(1 + random.below(40), random.next());
         std::replace(text.begin(), text.end(), '\0', '0');
@@ -171,8 +180,8 @@ void check_options(Context& context) {
     }
     for (const Interface interface : claiming(context)) {
         for (const std::string& text : texts) {
-            const std::string where =
-                std::string(interface_name(interface)) + ": open with options '" + (text.size() > 60 ? text.substr(0, 60) + "..." : text) + "'";
+            const std::string where = std::string(interface_name(interface)) + ": open with options '" +
+                                      (text.size() > 60 ? text.substr(0, 60) + "..." : text) + "'";
             context.progress(where);
             TestHost host;
             const Opening opening(*context.plugin(), interface, host, context.subject().files, text.c_str());
@@ -223,8 +232,8 @@ void check_repeated_opening(Context& context) {
             after = heap_in_use();
             growth.push_back(static_cast<double>(after) - static_cast<double>(before));
         }
-        // What leaks does so every time; caches of libraries grow now and then, and stop. The allocator's own caches are off (see
-        // runner.cpp).
+        // What leaks does so every time; caches of libraries grow now and then, and stop. The allocator's own caches are off
+        // (see runner.cpp).
         std::nth_element(growth.begin(), growth.begin() + static_cast<std::ptrdiff_t>(growth.size() / 2), growth.end());
         if (const double median = growth[growth.size() / 2]; median > 0) {
             context.fail(name + ": every opening and closing leaves about " + std::to_string(std::llround(median)) +

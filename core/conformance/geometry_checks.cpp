@@ -1,6 +1,7 @@
 /**
  * @file geometry_checks.cpp
- * Checks that bounds and ranges hold what the plugin evaluates: by its functions for the CPU and, where it has none, on the device.
+ * Checks that bounds and ranges hold what the plugin evaluates: by its functions for the CPU and, where it has none, on the
+ * device.
  */
 #include <core/base/error.hpp>
 #include <core/conformance/check.hpp>
@@ -68,7 +69,8 @@ public:
     }
 
     /** Value and gradient of a component of the selected field. */
-    std::vector<std::pair<double, Point>> values(std::uint64_t element, const std::vector<Point>& xi, std::uint32_t component) const {
+    std::vector<std::pair<double, Point>> values(std::uint64_t element, const std::vector<Point>& xi,
+                                                 std::uint32_t component) const {
         std::vector<std::pair<double, Point>> found(xi.size());
         if (!m_device) {
             const std::uint32_t n = m_volume.fields()[m_field].n_components;
@@ -130,9 +132,9 @@ void check_bounds(Context& context) {
                 high[axis] = std::max(high[axis], x);
                 if (!(x >= box[axis] && x <= box[3 + axis]) && n_complaints < 5) {
                     ++n_complaints;
-                    context.fail("get_bounds: " + at_text(element, xi[i]) + ": coordinate " + std::to_string(axis) + " is " + text_of(x) +
-                                 " by " + evaluator.name() + ", the bounds are [" + text_of(box[axis]) + ", " + text_of(box[3 + axis]) +
-                                 "]; elements vanish from pictures where bounds are too small");
+                    context.fail("get_bounds: " + at_text(element, xi[i]) + ": coordinate " + std::to_string(axis) + " is " +
+                                 text_of(x) + " by " + evaluator.name() + ", the bounds are [" + text_of(box[axis]) + ", " +
+                                 text_of(box[3 + axis]) + "]; elements vanish from pictures where bounds are too small");
                 }
             }
         }
@@ -219,12 +221,14 @@ void check_derivative_bounds(Context& context) {
                         "get_field_derivative_bounds: field " + volume.fields()[field].name + ", " + at_text(element, xi[i]);
                     if (slope > bounds[component].first * (1 + 1e-12) && n_complaints < 5) {
                         ++n_complaints;
-                        context.fail(where + ": first derivatives sum to " + text_of(slope) + ", L is " + text_of(bounds[component].first));
+                        context.fail(where + ": first derivatives sum to " + text_of(slope) + ", L is " +
+                                     text_of(bounds[component].first));
                     }
                     // Differences of gradients are good to about 1e-8 of the gradients.
                     if (bend[i] > bounds[component].second + 1e-7 * (slope + bounds[component].second) && n_complaints < 5) {
                         ++n_complaints;
-                        context.fail(where + ": second derivatives sum to " + text_of(bend[i]) + ", H is " + text_of(bounds[component].second));
+                        context.fail(where + ": second derivatives sum to " + text_of(bend[i]) + ", H is " +
+                                     text_of(bounds[component].second));
                     }
                 }
             }
@@ -273,8 +277,8 @@ void check_jacobian_signs(Context& context) {
             const double found = determinant(&jacobians[9 * (xi.size() - 1)]);
             if (!(found < 0) || std::abs(found - check.determinant) > 1e-9 * largest) {
                 ++n_complaints;
-                context.fail("check_jacobians: " + at_text(element, check.xi) + ": the determinant is " + text_of(found) + ", said to be " +
-                             text_of(check.determinant));
+                context.fail("check_jacobians: " + at_text(element, check.xi) + ": the determinant is " + text_of(found) +
+                             ", said to be " + text_of(check.determinant));
             }
         }
     }
@@ -292,7 +296,8 @@ void check_cpu_derivatives(Context& context) {
         worst = std::max(worst, scale > 0 ? error / scale : 0.0);
         if (!(error <= 1e-7 * scale) && n_complaints < 5) {
             ++n_complaints;
-            context.fail(what + " at xi " + text_of(xi) + ": " + text_of(given) + " is given, differences say " + text_of(expected));
+            context.fail(what + " at xi " + text_of(xi) + ": " + text_of(given) + " is given, differences say " +
+                         text_of(expected));
         }
     };
     for (const std::uint64_t element : some_elements(volume, n_elements_a_class / 2, context.subject().seed)) {
@@ -337,7 +342,8 @@ void check_cpu_derivatives(Context& context) {
                 });
                 for (std::size_t i = 0; i < xi.size(); ++i) {
                     for (std::uint32_t component = 0; component < n; ++component) {
-                        compare("evaluate_field: derivative by xi_" + std::to_string(j) + " of " + volume.fields()[field].name + " " + which,
+                        compare("evaluate_field: derivative by xi_" + std::to_string(j) + " of " + volume.fields()[field].name +
+                                    " " + which,
                                 xi[i], gradients[3 * (n * i + component) + j], expected[i][component], size);
                     }
                 }
@@ -353,9 +359,12 @@ std::vector<Check> geometry_checks() {
     return {
         {"bounds", "every element lies inside its bounds", check_bounds},
         {"field-ranges", "the field in every element lies within its range", check_ranges},
-        {"derivative-bounds", "first and second derivatives of the field are no larger than their bounds", check_derivative_bounds},
-        {"jacobian-signs", "signs and lower bounds of Jacobian determinants hold, and witnesses are negative", check_jacobian_signs},
-        {"cpu-derivatives", "Jacobians and gradients of the evaluation on the CPU are the derivatives of its positions and values",
+        {"derivative-bounds", "first and second derivatives of the field are no larger than their bounds",
+         check_derivative_bounds},
+        {"jacobian-signs", "signs and lower bounds of Jacobian determinants hold, and witnesses are negative",
+         check_jacobian_signs},
+        {"cpu-derivatives",
+         "Jacobians and gradients of the evaluation on the CPU are the derivatives of its positions and values",
          check_cpu_derivatives},
     };
 }

@@ -76,7 +76,8 @@ void check_threads(Context& context, const std::vector<Query>& queries) {
                 const std::uint64_t count = 1 + random.below(std::min<std::uint64_t>(query.n_items - first, 40));
                 if (!is_piece(expected[which], query.ask(first, count), query.n_items, first, count)) {
                     const std::lock_guard lock(mutex);
-                    complaint = query.name + ": " + range_text(first, count) + " differ when other threads ask at the same time";
+                    complaint =
+                        query.name + ": " + range_text(first, count) + " differ when other threads ask at the same time";
                     return;
                 }
             }

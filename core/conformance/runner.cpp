@@ -43,8 +43,11 @@ void write_line(int descriptor, char mark, std::string text) {
 }
 
 std::vector<std::string> arguments_of(const Check& check, const Subject& subject, int descriptor) {
-    std::vector<std::string> arguments{"elvis", "--quiet", "check-plugin", subject.library, "--in-process", check.name, "--answer",
-                                       std::to_string(descriptor), "--seed", std::to_string(subject.seed)};
+    std::vector<std::string> arguments{"elvis",        "--quiet",
+                                       "check-plugin", subject.library,
+                                       "--in-process", check.name,
+                                       "--answer",     std::to_string(descriptor),
+                                       "--seed",       std::to_string(subject.seed)};
     for (const std::string& file : subject.files) {
         arguments.insert(arguments.end(), {"--volume", file});
     }
@@ -62,7 +65,8 @@ std::vector<std::string> arguments_of(const Check& check, const Subject& subject
  * they would hide what leaks.
  */
 std::vector<std::string> environment_of(const std::string& temporary_folder) {
-    std::vector<std::string> variables{"TMPDIR=" + temporary_folder, "GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.mxfast=0"};
+    std::vector<std::string> variables{"TMPDIR=" + temporary_folder,
+                                       "GLIBC_TUNABLES=glibc.malloc.tcache_count=0:glibc.malloc.mxfast=0"};
     for (char** variable = environ; *variable; ++variable) {
         const std::string text = *variable;
         if (text.rfind("TMPDIR=", 0) != 0 && text.rfind("GLIBC_TUNABLES=", 0) != 0) {
@@ -211,7 +215,8 @@ CheckResult run_in_process(const Check& check, const Subject& subject, double ti
     result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     if (!in_time) {
         result.outcome = Outcome::timed_out;
-        result.findings.push_back("no end after " + std::to_string(static_cast<int>(timeout_seconds)) + " s; last: " + result.progress);
+        result.findings.push_back("no end after " + std::to_string(static_cast<int>(timeout_seconds)) +
+                                  " s; last: " + result.progress);
     } else if (!is_done) {
         result.outcome = Outcome::crashed;
         result.findings.push_back(how_it_ended(status) + "; last: " + result.progress);
@@ -232,7 +237,10 @@ void run_here(const Check& check, const Subject& subject, int answer_descriptor)
     const Reporter reporter{[&](Reporter::Kind kind, const std::string& text) {
         const std::lock_guard lock(mutex);
         write_line(answer_descriptor,
-                   kind == Reporter::Kind::failure ? failure_mark : kind == Reporter::Kind::note ? note_mark : progress_mark, text);
+                   kind == Reporter::Kind::failure ? failure_mark
+                   : kind == Reporter::Kind::note  ? note_mark
+                                                   : progress_mark,
+                   text);
     }};
     Context context(subject, reporter);
     try {

@@ -35,9 +35,7 @@ public:
     std::uint64_t next();
     /** 0 .. n-1 (n > 0); the bias of the remainder is of no matter here. */
     std::uint64_t below(std::uint64_t n) { return next() % n; }
-    double uniform(double low, double high) {
-        return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
-    }
+    double uniform(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
 
 private:
     std::uint64_t m_state;

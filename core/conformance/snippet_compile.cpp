@@ -30,7 +30,8 @@ std::vector<std::string> included_names(const std::string& text) {
         const std::size_t hash = line.find_first_not_of(" \t");
         const std::size_t open = line.find('"');
         const std::size_t close = open == std::string::npos ? open : line.find('"', open + 1);
-        if (hash != std::string::npos && line[hash] == '#' && line.find("include") != std::string::npos && close != std::string::npos) {
+        if (hash != std::string::npos && line[hash] == '#' && line.find("include") != std::string::npos &&
+            close != std::string::npos) {
             names.push_back(line.substr(open + 1, close - open - 1));
         }
     }
@@ -73,7 +74,8 @@ std::string guess_prefix(const AllNames& names) {
     std::map<std::string, std::size_t> counts;
     for (const GlslDefinition& definition : names.definitions) {
         const std::string name = lower(definition.name);
-        for (std::size_t at = name.find('_'); at != std::string::npos && name.rfind("elvis_", 0) != 0; at = name.find('_', at + 1)) {
+        for (std::size_t at = name.find('_'); at != std::string::npos && name.rfind("elvis_", 0) != 0;
+             at = name.find('_', at + 1)) {
             ++counts[name.substr(0, at)];
         }
     }
@@ -99,7 +101,8 @@ std::vector<std::pair<std::string, std::string>> stand_ins(const AllNames& names
             }
             const auto& uints = surroundings.uint_buffers;
             const bool is_uint = std::find(uints.begin(), uints.end(), name.substr(start.size())) != uints.end();
-            const std::string type = start == "elvis_fetch_" ? (is_uint ? "uint" : "elvis_real") : (is_uint ? "uvec4" : "elvis_vec4");
+            const std::string type =
+                start == "elvis_fetch_" ? (is_uint ? "uint" : "elvis_real") : (is_uint ? "uvec4" : "elvis_vec4");
             macros.emplace_back(name + "(record, index)", type + "(uint(record) + uint(index))");
         }
     }
@@ -242,7 +245,8 @@ std::vector<std::string> evaluate_at(const std::string& path, const Subject& sub
         for (std::uint32_t component = 0; component < info.n_components; ++component) {
             const Sample sample = sampler.sample({{element, xi, component}}, options).front();
             if (field == 0 && component == 0) {
-                lines.push_back("elvis_mapping = " + text_of(sample.position) + ", relative to " + text_of(sampler.origin(element)));
+                lines.push_back("elvis_mapping = " + text_of(sample.position) + ", relative to " +
+                                text_of(sampler.origin(element)));
                 for (std::size_t j = 0; j < 3; ++j) {
                     const Point column{sample.jacobian[3 * j], sample.jacobian[3 * j + 1], sample.jacobian[3 * j + 2]};
                     lines.push_back("elvis_jacobian[" + std::to_string(j) + "] = " + text_of(column));

@@ -109,8 +109,8 @@ void check_corners(Context& context) {
             if (!is_new && !(distance <= 1e-4 * size)) {
                 ++n_complaints;
                 context.fail("get_elements: corner id " + std::to_string(described.corners[corner]) + " of element " +
-                             std::to_string(element) + " lies at " + text_of(here) + ", in an earlier element at " + text_of(there) +
-                             " (corners are in the order of element.h)");
+                             std::to_string(element) + " lies at " + text_of(here) + ", in an earlier element at " +
+                             text_of(there) + " (corners are in the order of element.h)");
             }
         }
     }
@@ -144,14 +144,16 @@ void check_sampling(Context& context) {
                                           std::to_string(n) + " of the point";
                 if (value == 0x1p900) {
                     ++n_complaints;
-                    context.fail("sample: " + which + " is not written; all components of all fields are wanted for every point");
+                    context.fail("sample: " + which +
+                                 " is not written; all components of all fields are wanted for every point");
                     break;
                 }
                 const bool is_same = value == alone[n] || (std::isnan(value) && std::isnan(alone[n])) ||
                                      std::abs(value - alone[n]) <= 1e-12 * size;
                 if (!is_same) {
                     ++n_complaints;
-                    context.fail("sample: " + which + " is " + text_of(value) + " among others and " + text_of(alone[n]) + " alone");
+                    context.fail("sample: " + which + " is " + text_of(value) + " among others and " + text_of(alone[n]) +
+                                 " alone");
                     break;
                 }
             }
@@ -178,10 +180,13 @@ void check_exactness(Context& context) {
     for (std::uint32_t field = 0; field < source.fields().size(); ++field) {
         std::vector<elvis_source_space> spaces(n);
         source.spaces(field, 0, n, spaces);
-        const bool claims = std::all_of(spaces.begin(), spaces.end(), [](const auto& space) { return space.is_contained != 0; });
+        const bool claims =
+            std::all_of(spaces.begin(), spaces.end(), [](const auto& space) { return space.is_contained != 0; });
         const FieldReport& found = report.fields[field];
         context.note("field " + found.name + ": residual " + short_text(found.residual) + " of its range, " +
-                     (found.exact ? "exact" : claims ? "said to be exact" : "not said to be exact"));
+                     (found.exact ? "exact"
+                      : claims    ? "said to be exact"
+                                  : "not said to be exact"));
         // Rounding in the source, a few bits more in the projection; the report decides the same way.
         const double rounding = std::ldexp(1.0, -static_cast<int>(std::min(source.info().mantissa_bits, 53u)) + 12);
         if (claims && !found.exact && !(found.residual <= rounding)) {
@@ -252,7 +257,8 @@ std::vector<Check> source_checks() {
         {"source-threads", "elements, mapping and samples are the same when asked from several threads", check_source_threads},
         {"source-corners", "corners with the same id lie in the same place", check_corners},
         {"source-sampling", "samples inside and on the boundary are complete and the same alone and together", check_sampling},
-        {"source-exactness", "conversion is exact where get_spaces says so, and geometry has the order it states", check_exactness},
+        {"source-exactness", "conversion is exact where get_spaces says so, and geometry has the order it states",
+         check_exactness},
         {"source-conversion", "repeated conversions agree, and stopped ones leave nothing behind", check_conversion_repeated},
     };
 }

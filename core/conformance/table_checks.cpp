@@ -138,7 +138,8 @@ void check_source_structs(Context& context) {
         context, "get_elements", count, [&](auto* out) { return table.get_elements(source, 0, count, out); },
         [](const elvis_source_element& a, const elvis_source_element& b) {
             return a.shape == b.shape && std::equal(a.geometry_order, a.geometry_order + 3, b.geometry_order) &&
-                   std::equal(a.corners, a.corners + 3, b.corners) && std::equal(a.face_groups, a.face_groups + 4, b.face_groups);
+                   std::equal(a.corners, a.corners + 3, b.corners) &&
+                   std::equal(a.face_groups, a.face_groups + 4, b.face_groups);
         });
 }
 
@@ -147,7 +148,8 @@ void check_source_structs(Context& context) {
 std::vector<Check> table_checks() {
     return {
         {"struct-sizes", "functions of the runtime interface honour the struct sizes of a later host", check_runtime_structs},
-        {"source-struct-sizes", "functions of the converter interface honour the struct sizes of a later host", check_source_structs},
+        {"source-struct-sizes", "functions of the converter interface honour the struct sizes of a later host",
+         check_source_structs},
     };
 }
 

@@ -71,9 +71,9 @@ void check_buffers(Context& context) {
         for (std::uint32_t buffer = 0; buffer < volume.n_buffers(); ++buffer) {
             const BufferInfo info = volume.buffer(buffer, field);
             auto& classes = users[info.name];
-            const bool clashes = !classes.empty() &&
-                                 (info.element_class == ELVIS_ALL_CLASSES || classes.count(ELVIS_ALL_CLASSES) != 0 ||
-                                  classes.count(info.element_class) != 0);
+            const bool clashes =
+                !classes.empty() && (info.element_class == ELVIS_ALL_CLASSES || classes.count(ELVIS_ALL_CLASSES) != 0 ||
+                                     classes.count(info.element_class) != 0);
             if (clashes) {
                 context.fail("get_buffer: two buffers named '" + info.name + "' in one class");
             }
@@ -97,7 +97,8 @@ void check_buffers(Context& context) {
                 context.fail("fill_buffer of '" + info.name + "' gives other numbers when asked again");
             }
             if ((info.depends & ELVIS_DEPENDS_ON_TIME) == 0 && !std::equal(begin.begin(), begin.end(), end.begin(), same)) {
-                context.fail("fill_buffer of '" + info.name + "' gives other numbers at another time step, but get_buffer does "
+                context.fail("fill_buffer of '" + info.name +
+                             "' gives other numbers at another time step, but get_buffer does "
                              "not say that it depends on time");
             }
             if ((info.depends & ELVIS_DEPENDS_ON_FIELD) == 0 && field > 0) {
@@ -186,8 +187,9 @@ void check_faces(Context& context) {
                 // Sources round corners to as few as five digits.
                 const double distance = std::max(corner_distance(here, there), corner_distance(there, here));
                 if (here.size() != there.size() || !(distance <= 1e-4 * size)) {
-                    context.fail("get_faces: elements " + std::to_string(face.element) + " and " + std::to_string(face.neighbour) +
-                                 " are said to share a face, but its corners are " + std::to_string(distance) + " apart");
+                    context.fail("get_faces: elements " + std::to_string(face.element) + " and " +
+                                 std::to_string(face.neighbour) + " are said to share a face, but its corners are " +
+                                 std::to_string(distance) + " apart");
                     is_sound = false;
                 }
             }

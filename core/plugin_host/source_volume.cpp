@@ -207,8 +207,8 @@ void SourceVolume::sample(std::uint32_t time_step, std::uint64_t element, std::s
     const std::size_t n_points = xi.size() / 3;
     assert(values.size() == n_points * m_impl->n_values);
     if (m_impl->table->sample) {
-            m_impl->services->begin("sample");
-            m_impl->check(m_impl->table->sample(m_impl->source, time_step, element, n_points, xi.data(), values.data()), "sample");
+        m_impl->services->begin("sample");
+        m_impl->check(m_impl->table->sample(m_impl->source, time_step, element, n_points, xi.data(), values.data()), "sample");
         return;
     }
     std::vector<double> positions(xi.size());

@@ -379,8 +379,8 @@ std::string snippet_names(const KernelRequest& request) {
 } // namespace
 
 ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request)
-    : m_kernel(make_kernel(device, request)), m_snippets(snippet_names(request)), m_records(record_bindings(request, Records(request))),
-      m_n_bindings(request.bindings.size()) {}
+    : m_kernel(make_kernel(device, request)), m_snippets(snippet_names(request)),
+      m_records(record_bindings(request, Records(request))), m_n_bindings(request.bindings.size()) {}
 
 void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
                               std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {

@@ -52,8 +52,8 @@ bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 |
 /** Places behind the opening braces of loops' bodies. */
 std::vector<std::size_t> loop_bodies(std::string_view text) {
     std::vector<std::size_t> bodies;
-    bool is_loop = false;    // `for`, `while` or `do` was met, its body not yet
-    int depth = 0;           // of parentheses since then
+    bool is_loop = false; // `for`, `while` or `do` was met, its body not yet
+    int depth = 0;        // of parentheses since then
     for (std::size_t i = 0; i < text.size();) {
         if (text.substr(i, 2) == "//") {
             i = std::min(text.find('\n', i), text.size());
@@ -89,8 +89,9 @@ std::string poison_outputs(std::string_view text, const GlslNames& names) {
     std::vector<std::pair<std::size_t, std::string>> insertions;
     for (const GlslDefinition& definition : names.definitions) {
         const auto& functions = snippet_functions();
-        const bool is_interface = std::any_of(functions.begin(), functions.end(),
-                                              [&](const SnippetFunction& function) { return definition.name == function.name; });
+        const bool is_interface = std::any_of(functions.begin(), functions.end(), [&](const SnippetFunction& function) {
+            return definition.name == function.name;
+        });
         if (definition.kind != GlslDefinition::Kind::function || !is_interface) {
             continue;
         }

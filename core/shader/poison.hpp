@@ -15,10 +15,10 @@ namespace elvis {
 constexpr double poison = 0x1p100;
 
 /**
- * The text with an assignment of `poison` to every `out` parameter of type elvis_real, elvis_vec3 or elvis_mat3 at the beginning
- * of every interface function that it defines, and with a count of turns in every loop with braces: a loop that takes more than
- * 50000 turns within one call of the interface is left, and core_is_endless set. Lines keep their numbers. `names`: scan_glsl of
- * the text. The variables that it needs are in poison_declarations.
+ * The text with an assignment of `poison` to every `out` parameter of type elvis_real, elvis_vec3 or elvis_mat3 at the
+ * beginning of every interface function that it defines, and with a count of turns in every loop with braces: a loop that takes
+ * more than 50000 turns within one call of the interface is left, and core_is_endless set. Lines keep their numbers. `names`:
+ * scan_glsl of the text. The variables that it needs are in poison_declarations.
  */
 std::string poison_outputs(std::string_view text, const GlslNames& names);
 

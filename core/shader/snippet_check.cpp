@@ -26,8 +26,9 @@ bool is_plain_type(std::string type) {
     if (const std::size_t blank = type.find(' '); blank != std::string::npos) {
         type.erase(0, blank + 1);
     }
-    static const std::set<std::string> types{"elvis_real", "elvis_vec2", "elvis_vec3", "elvis_vec4", "elvis_mat3", "uint", "int",
-                                             "bool", "float", "double", "vec2", "vec3", "vec4", "mat3", "dvec3", "dmat3", "void"};
+    static const std::set<std::string> types{"elvis_real", "elvis_vec2", "elvis_vec3", "elvis_vec4", "elvis_mat3", "uint",
+                                             "int",        "bool",       "float",      "double",     "vec2",       "vec3",
+                                             "vec4",       "mat3",       "dvec3",      "dmat3",      "void"};
     return types.count(type) != 0;
 }
 
@@ -45,8 +46,9 @@ bool differs(const GlslDefinition& definition, const SnippetFunction& function) 
 /** What snippets may name besides the functions that they define. */
 const std::vector<std::string>& interface_names() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> all{"elvis_real", "elvis_vec2", "elvis_vec3", "elvis_vec4", "elvis_mat3", "elvis_sin",  "elvis_cos",
-                                     "elvis_exp",  "elvis_log",  "elvis_pow",  "elvis_atan", "elvis_acos", "elvis_asin", "elvis_origin"};
+        std::vector<std::string> all{"elvis_real", "elvis_vec2", "elvis_vec3", "elvis_vec4",  "elvis_mat3",
+                                     "elvis_sin",  "elvis_cos",  "elvis_exp",  "elvis_log",   "elvis_pow",
+                                     "elvis_atan", "elvis_acos", "elvis_asin", "elvis_origin"};
         for (const SnippetFunction& function : snippet_functions()) {
             all.emplace_back(function.name);
         }

@@ -25,14 +25,14 @@ const std::vector<SnippetFunction>& snippet_functions();
 std::string macro_prefix(const Snippet& snippet);
 
 /**
- * An Error at the source's "file:line" if the snippet lacks a function that is required or announced, gives one other parameters,
- * defines one that it does not announce or a name outside its prefix, or contains what snippets may not contain.
+ * An Error at the source's "file:line" if the snippet lacks a function that is required or announced, gives one other
+ * parameters, defines one that it does not announce or a name outside its prefix, or contains what snippets may not contain.
  */
 void check_snippet(const Snippet& snippet);
 
 /**
- * Messages of the compiler, one a line, with what helps where they are about the interface: the expected signature of a function
- * called or defined wrongly, the nearest name for an unknown elvis_... one.
+ * Messages of the compiler, one a line, with what helps where they are about the interface: the expected signature of a
+ * function called or defined wrongly, the nearest name for an unknown elvis_... one.
  */
 std::string explain_errors(const std::string& messages);
 

@@ -103,7 +103,8 @@ std::vector<double> read_knots(Words& words, int degree) {
         }
         // At most degree times inside, and degree + 1 times at the ends: the function is continuous.
         const std::size_t most = knots.front() == knots[i] ? p + 1 : p;
-        if (i >= most && knots[i - most] == knots[i] && !(i == n - 1 && most == p && (i < p + 1 || knots[i - p - 1] != knots[i]))) {
+        if (i >= most && knots[i - most] == knots[i] &&
+            !(i == n - 1 && most == p && (i < p + 1 || knots[i - p - 1] != knots[i]))) {
             words.fail("a knot comes too often");
         }
     }
@@ -160,7 +161,8 @@ File read_file(const std::string& path) {
     while (words.word() == "field") {
         Field field;
         field.name = words.next();
-        if (field.name.empty() || std::any_of(file.fields.begin(), file.fields.end(), [&](const Field& f) { return f.name == field.name; })) {
+        if (field.name.empty() ||
+            std::any_of(file.fields.begin(), file.fields.end(), [&](const Field& f) { return f.name == field.name; })) {
             words.fail("a field needs a name of its own");
         }
         field.n_components = words.count("the number of components", 1, max_components);

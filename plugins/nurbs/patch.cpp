@@ -18,8 +18,9 @@ std::vector<std::size_t> spans_of(const std::vector<double>& knots) {
 }
 
 /**
- * Row i: weights of the control points k-p .. k in Bezier coefficient i of span k. Coefficient i is the blossom of the spline at p - i
- * copies of the span's begin and i of its end (Ramshaw 1989), which de Boor's recursion gives with another argument in every step.
+ * Row i: weights of the control points k-p .. k in Bezier coefficient i of span k. Coefficient i is the blossom of the spline
+ * at p - i copies of the span's begin and i of its end (Ramshaw 1989), which de Boor's recursion gives with another argument in
+ * every step.
  */
 std::vector<double> extraction_rows(const std::vector<double>& knots, std::size_t k, std::size_t p) {
     const double begin = knots[k];
@@ -108,8 +109,8 @@ std::vector<Element> extract_elements(const PatchData& patch, std::uint32_t numb
     return elements;
 }
 
-void evaluate_bezier(const Element& element, const std::array<int, 3>& degree, std::size_t width, std::size_t first, std::size_t count,
-                     const double* xi, double* out) {
+void evaluate_bezier(const Element& element, const std::array<int, 3>& degree, std::size_t width, std::size_t first,
+                     std::size_t count, const double* xi, double* out) {
     std::array<std::array<double, 16>, 3> values{};
     std::array<std::array<double, 16>, 3> derivatives{};
     for (std::size_t direction = 0; direction < 3; ++direction) {
@@ -120,9 +121,9 @@ void evaluate_bezier(const Element& element, const std::array<int, 3>& degree, s
     for (std::size_t k = 0; k <= static_cast<std::size_t>(degree[2]); ++k) {
         for (std::size_t j = 0; j <= static_cast<std::size_t>(degree[1]); ++j) {
             for (std::size_t i = 0; i <= static_cast<std::size_t>(degree[0]); ++i, point += width) {
-                const double weights[4] = {values[0][i] * values[1][j] * values[2][k], derivatives[0][i] * values[1][j] * values[2][k],
-                                           values[0][i] * derivatives[1][j] * values[2][k],
-                                           values[0][i] * values[1][j] * derivatives[2][k]};
+                const double weights[4] = {
+                    values[0][i] * values[1][j] * values[2][k], derivatives[0][i] * values[1][j] * values[2][k],
+                    values[0][i] * derivatives[1][j] * values[2][k], values[0][i] * values[1][j] * derivatives[2][k]};
                 for (std::size_t n = 0; n < count; ++n) {
                     for (std::size_t d = 0; d < 4; ++d) {
                         out[4 * n + d] += weights[d] * point[n];

@@ -27,10 +27,10 @@ struct Element {
 std::vector<Element> extract_elements(const PatchData& patch, std::uint32_t number, std::size_t width);
 
 /**
- * The sum of Bernstein polynomials of given degrees over [-1,1]^3 and its derivatives, for the numbers first .. first+count-1 of each
- * coefficient: four numbers each (value, then by xi1, xi2, xi3).
+ * The sum of Bernstein polynomials of given degrees over [-1,1]^3 and its derivatives, for the numbers first .. first+count-1
+ * of each coefficient: four numbers each (value, then by xi1, xi2, xi3).
  */
-void evaluate_bezier(const Element& element, const std::array<int, 3>& degree, std::size_t width, std::size_t first, std::size_t count,
-                     const double* xi, double* out);
+void evaluate_bezier(const Element& element, const std::array<int, 3>& degree, std::size_t width, std::size_t first,
+                     std::size_t count, const double* xi, double* out);
 
 } // namespace elvis::nurbs

@@ -16,7 +16,8 @@ namespace {
 
 /** Corners of the local faces of a hexahedron, and places of corners (elvis/element.h). */
 constexpr unsigned face_corners[6][4] = {{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {3, 2, 6, 7}, {0, 3, 7, 4}, {4, 5, 6, 7}};
-constexpr double corner_places[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+constexpr double corner_places[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                        {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
 double binomial(int n, int k) {
     double value = 1;
@@ -33,9 +34,7 @@ struct Class {
     std::uint64_t count = 0;
     std::array<elvis_constant, 3> constants{};
 
-    std::size_t n_points() const {
-        return static_cast<std::size_t>((degree[0] + 1) * (degree[1] + 1) * (degree[2] + 1));
-    }
+    std::size_t n_points() const { return static_cast<std::size_t>((degree[0] + 1) * (degree[1] + 1) * (degree[2] + 1)); }
 };
 
 class Volume : public api::RuntimeVolume {
@@ -58,7 +57,8 @@ public:
                 std::move(some.begin(), some.end(), std::back_inserter(m_elements));
             }
             c.count = m_elements.size() - c.first;
-            c.constants = {api::constant("NURBS_P", degree[0]), api::constant("NURBS_Q", degree[1]), api::constant("NURBS_R", degree[2])};
+            c.constants = {api::constant("NURBS_P", degree[0]), api::constant("NURBS_Q", degree[1]),
+                           api::constant("NURBS_R", degree[2])};
             m_classes.push_back(c);
         }
         std::size_t channel = 4;
@@ -142,8 +142,8 @@ public:
 
     void get_snippet(std::uint32_t, elvis_snippet& out) override {
         static const elvis_text source = api::text(snippet::files[0].name, snippet::files[0].text);
-        out.capabilities =
-            ELVIS_SNIPPET_FIELD_GRADIENT | ELVIS_SNIPPET_MAPPING_JACOBIAN | ELVIS_SNIPPET_FIELD_OFFSET | ELVIS_SNIPPET_LOCAL_ORIGIN;
+        out.capabilities = ELVIS_SNIPPET_FIELD_GRADIENT | ELVIS_SNIPPET_MAPPING_JACOBIAN | ELVIS_SNIPPET_FIELD_OFFSET |
+                           ELVIS_SNIPPET_LOCAL_ORIGIN;
         out.prefix = "nurbs";
         out.n_sources = 1;
         out.sources = &source;
@@ -208,7 +208,8 @@ public:
                     values[n * point + component] = f;
                 }
                 for (std::size_t j = 0; gradients && j < 3; ++j) {
-                    gradients[3 * (n * point + component) + j] = (numbers[4 * component + 1 + j] - f * weight[1 + j]) / weight[0];
+                    gradients[3 * (n * point + component) + j] =
+                        (numbers[4 * component + 1 + j] - f * weight[1 + j]) / weight[0];
                 }
             }
         }

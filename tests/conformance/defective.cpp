@@ -1,6 +1,6 @@
 /*
- * A plugin that keeps the whole contract, but for the one defect that $ELVIS_DEFECT names: what `elvis check-plugin` must catch.
- * It is written against the C interface, because the C++ wrapper makes many of these mistakes impossible.
+ * A plugin that keeps the whole contract, but for the one defect that $ELVIS_DEFECT names: what `elvis check-plugin` must
+ * catch. It is written against the C interface, because the C++ wrapper makes many of these mistakes impossible.
  *
  * Its file is "defective 1" and a line with a number s > 0. As a runtime plugin it is two hexahedra with everything optional
  * (defective.glsl); as a converter the same.
@@ -32,10 +32,11 @@ bool has(std::string_view defect) {
 }
 
 /** Those of the snippet, by number from 1. */
-constexpr const char* glsl_defects[] = {"glsl-syntax",   "glsl-name",     "glsl-float-only", "glsl-single",        "glsl-shift",
-                                        "glsl-transposed", "glsl-pair",   "glsl-gradient",   "glsl-hessian",        "glsl-mapping-hessian",
-                                        "glsl-inverse",  "glsl-inverse-false", "glsl-newton", "glsl-cancellation", "glsl-nan-outside",
-                                        "glsl-jump-outside", "glsl-endless", "glsl-unset",    "glsl-no-offset"};
+constexpr const char* glsl_defects[] = {
+    "glsl-syntax",       "glsl-name",          "glsl-float-only", "glsl-single",       "glsl-shift",
+    "glsl-transposed",   "glsl-pair",          "glsl-gradient",   "glsl-hessian",      "glsl-mapping-hessian",
+    "glsl-inverse",      "glsl-inverse-false", "glsl-newton",     "glsl-cancellation", "glsl-nan-outside",
+    "glsl-jump-outside", "glsl-endless",       "glsl-unset",      "glsl-no-offset"};
 
 std::int64_t glsl_defect() {
     for (std::size_t i = 0; i < std::size(glsl_defects); ++i) {
@@ -301,7 +302,8 @@ elvis_result get_snippet(elvis_volume*, std::uint32_t, elvis_snippet* out) {
     return ELVIS_OK;
 }
 
-elvis_result get_bounds(elvis_volume* volume, std::uint64_t first, std::uint64_t count, double* bounds, elvis_certainty* certainty) {
+elvis_result get_bounds(elvis_volume* volume, std::uint64_t first, std::uint64_t count, double* bounds,
+                        elvis_certainty* certainty) {
     const double nonsense = volume->data.scale > 0 && volume->data.scale < 1e6 ? 0 : std::nan("");
     for (std::uint64_t i = 0; i < count; ++i) {
         const double x = 2 * static_cast<double>(has("piece-first") ? i : first + i) + nonsense;
@@ -342,8 +344,8 @@ elvis_result get_faces(elvis_volume*, std::uint64_t first, std::uint64_t count, 
     return ELVIS_OK;
 }
 
-elvis_result get_field_ranges(elvis_volume* volume, std::uint32_t, std::uint32_t, std::uint64_t, std::uint64_t count, double* ranges,
-                              elvis_certainty* certainty) {
+elvis_result get_field_ranges(elvis_volume* volume, std::uint32_t, std::uint32_t, std::uint64_t, std::uint64_t count,
+                              double* ranges, elvis_certainty* certainty) {
     for (std::uint64_t i = 0; i < count; ++i) {
         ranges[2 * i] = -1.001 * volume->data.scale;
         ranges[2 * i + 1] = (has("small-range") ? 1.9 : 2.001) * volume->data.scale;
@@ -380,8 +382,8 @@ elvis_result evaluate_mapping(elvis_volume*, std::uint64_t element, std::uint64_
     return ELVIS_OK;
 }
 
-elvis_result evaluate_field(elvis_volume* volume, std::uint32_t, std::uint32_t, std::uint64_t, std::uint64_t n_points, const double* xi,
-                            double* values, double* gradients) {
+elvis_result evaluate_field(elvis_volume* volume, std::uint32_t, std::uint32_t, std::uint64_t, std::uint64_t n_points,
+                            const double* xi, double* values, double* gradients) {
     const Inside inside(has("threads"));
     const double s = volume->data.scale;
     for (std::uint64_t i = 0; i < n_points; ++i, xi += 3) {
@@ -478,7 +480,8 @@ elvis_result get_spaces(elvis_source_volume*, std::uint32_t, std::uint64_t, std:
     return ELVIS_OK;
 }
 
-elvis_result map_source(elvis_source_volume*, std::uint64_t element, std::uint64_t n_points, const double* xi, double* positions) {
+elvis_result map_source(elvis_source_volume*, std::uint64_t element, std::uint64_t n_points, const double* xi,
+                        double* positions) {
     for (std::uint64_t i = 0; i < n_points; ++i) {
         position(element, xi + 3 * i, positions + 3 * i);
     }
@@ -499,12 +502,43 @@ elvis_result sample(elvis_source_volume* source, std::uint32_t, std::uint64_t, s
 }
 
 const void* get_interface(const char* id) {
-    static const elvis_runtime runtime = {has("table-size") ? 1000001u : static_cast<std::uint32_t>(sizeof(elvis_runtime)), 0, probe,
-                                          open_volume, close_volume, get_info, get_class, get_field, get_class_field, get_time, get_buffer,
-                                          get_snippet, get_bounds, fill_buffer, get_element_numbers, get_faces, nullptr, get_field_ranges,
-                                          nullptr, evaluate_mapping, evaluate_field, get_derivative_bounds, check_jacobians};
-    static const elvis_converter converter = {sizeof(elvis_converter), 0, probe, open_source, close_source, get_source_info,
-                                              get_source_field, get_elements, get_spaces, map_source, sample, nullptr, nullptr, nullptr};
+    static const elvis_runtime runtime = {has("table-size") ? 1000001u : static_cast<std::uint32_t>(sizeof(elvis_runtime)),
+                                          0,
+                                          probe,
+                                          open_volume,
+                                          close_volume,
+                                          get_info,
+                                          get_class,
+                                          get_field,
+                                          get_class_field,
+                                          get_time,
+                                          get_buffer,
+                                          get_snippet,
+                                          get_bounds,
+                                          fill_buffer,
+                                          get_element_numbers,
+                                          get_faces,
+                                          nullptr,
+                                          get_field_ranges,
+                                          nullptr,
+                                          evaluate_mapping,
+                                          evaluate_field,
+                                          get_derivative_bounds,
+                                          check_jacobians};
+    static const elvis_converter converter = {sizeof(elvis_converter),
+                                              0,
+                                              probe,
+                                              open_source,
+                                              close_source,
+                                              get_source_info,
+                                              get_source_field,
+                                              get_elements,
+                                              get_spaces,
+                                              map_source,
+                                              sample,
+                                              nullptr,
+                                              nullptr,
+                                              nullptr};
     if (std::strcmp(id, ELVIS_CONVERTER_INTERFACE) == 0) {
         return &converter;
     }
@@ -520,7 +554,13 @@ const elvis_plugin_descriptor* elvis_plugin_get_descriptor(void) {
     static elvis_plugin_descriptor descriptors[16];
     static int next = 0;
     elvis_plugin_descriptor& descriptor = descriptors[has("fresh-descriptor") ? next++ % 16 : 0];
-    descriptor = {sizeof descriptor, ELVIS_ABI_VERSION, "org.elvis.test.defective", has("nameless") ? nullptr : "Defective", "1.0.0",
-                  nullptr, nullptr, get_interface};
+    descriptor = {sizeof descriptor,
+                  ELVIS_ABI_VERSION,
+                  "org.elvis.test.defective",
+                  has("nameless") ? nullptr : "Defective",
+                  "1.0.0",
+                  nullptr,
+                  nullptr,
+                  get_interface};
     return &descriptor;
 }

@@ -118,8 +118,10 @@ public:
 
     /** The JSON answer of a run with a defect; exit status in `status`. */
     nlohmann::json check(const std::string& defect, const std::string& arguments, int& status) const {
-        const std::string command = "cd '" + m_folder.string() + "' && ELVIS_DEFECT='" + defect + "' '" ELVIS_PROGRAM "' check-plugin '" DEFECTIVE_PLUGIN
-                                    "' --volume volume.defective --json " + arguments + " >out.json 2>err.txt";
+        const std::string command = "cd '" + m_folder.string() + "' && ELVIS_DEFECT='" + defect +
+                                    "' '" ELVIS_PROGRAM "' check-plugin '" DEFECTIVE_PLUGIN
+                                    "' --volume volume.defective --json " +
+                                    arguments + " >out.json 2>err.txt";
         const int result = std::system(command.c_str());
         status = WIFEXITED(result) ? WEXITSTATUS(result) : -1;
         std::stringstream text;
@@ -151,7 +153,8 @@ TEST_CASE("Every planted defect is caught by the check that is made for it") {
         const std::string timeout = std::string(planted.outcome) == "timed-out" ? " --timeout 3" : "";
         const auto answer = place.check(planted.defect, std::string("--check ") + planted.check + timeout, status);
         INFO(planted.check << " with defect " << planted.defect << ": " << answer.dump(2));
-        const bool is_caught = status == 1 && answer["checks"][0]["outcome"] == planted.outcome && !answer["checks"][0]["findings"].empty();
+        const bool is_caught =
+            status == 1 && answer["checks"][0]["outcome"] == planted.outcome && !answer["checks"][0]["findings"].empty();
         n_caught += is_caught ? 1 : 0;
         CHECK(is_caught);
     }
@@ -168,6 +171,7 @@ TEST_CASE("Every check has a planted defect") {
     for (const auto& check : nlohmann::json::parse(text.str())) {
         const std::string name = check["name"];
         INFO(name);
-        CHECK(std::any_of(std::begin(all_planted), std::end(all_planted), [&](const Planted& planted) { return name == planted.check; }));
+        CHECK(std::any_of(std::begin(all_planted), std::end(all_planted),
+                          [&](const Planted& planted) { return name == planted.check; }));
     }
 }

@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 
 class Workplace {
 public:
-    Workplace() : m_folder(fs::temp_directory_path() / ("elvis-own-" + std::to_string(::getpid()))) { fs::create_directories(m_folder); }
+    Workplace() : m_folder(fs::temp_directory_path() / ("elvis-own-" + std::to_string(::getpid()))) {
+        fs::create_directories(m_folder);
+    }
     ~Workplace() {
         std::error_code ignored;
         fs::remove_all(m_folder, ignored);
@@ -53,8 +55,9 @@ private:
 };
 
 const std::string data = ELVIS_TEST_DATA;
-const std::string ball = R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,)"
-                         R"( "fields": ["sphere", "taylor-green"]})";
+const std::string ball =
+    R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,)"
+    R"( "fields": ["sphere", "taylor-green"]})";
 
 } // namespace
 
@@ -74,7 +77,8 @@ TEST_CASE("The conversion plugins pass every check") {
     place.write("ball.json", ball);
     place.check("elvis_generator", "--volume ball.json");
     place.check("elvis_dat", "--volume '" + data + "/elvis/bulletH1P2.dat'");
-    place.check("elvis_nektarpp", "--volume '" + data + "/nektarpp/CubeAllElements.xml' --volume '" + data + "/nektarpp/CubeAllElements.fld'");
+    place.check("elvis_nektarpp",
+                "--volume '" + data + "/nektarpp/CubeAllElements.xml' --volume '" + data + "/nektarpp/CubeAllElements.fld'");
     place.check("elvis_mfem", "--volume '" + data + "/mfem/poisson-inline-tet-p6/mesh.mesh' --volume '" + data +
                                   "/mfem/poisson-inline-tet-p6/sol.gf'");
     place.check("elvis_vtk", "--volume '" ELVIS_SOURCES "/tests/data/vtk/cells3.vtu'");

@@ -26,16 +26,20 @@ Outcome render(const std::string& defect, const std::string& scale = "0.75") {
     const fs::path folder = fs::temp_directory_path() / ("elvis-safety-" + std::to_string(::getpid()));
     fs::create_directories(folder);
     std::ofstream(folder / "volume.defective") << "defective 1\n" << scale << "\n";
-    const std::string command = "cd '" + folder.string() + "' && ulimit -c 0 && ELVIS_DEFECT='" + defect + "' ELVIS_PLUGIN_PATH='" +
-                                fs::path(DEFECTIVE_PLUGIN).parent_path().string() +
-                                "' '" ELVIS_PROGRAM "' render volume.defective --cut-plane 0,0,1,0 --size 32x32 -o out.png 2>err.txt; exit $?";
-    const int status = std::system(("bash -c '" + [&] {
-        std::string quoted;
-        for (const char c : command) {
-            quoted += c == '\'' ? "'\\''" : std::string(1, c);
-        }
-        return quoted;
-    }() + "' 2>/dev/null").c_str());
+    const std::string command = "cd '" + folder.string() + "' && ulimit -c 0 && ELVIS_DEFECT='" + defect +
+                                "' ELVIS_PLUGIN_PATH='" + fs::path(DEFECTIVE_PLUGIN).parent_path().string() +
+                                "' '" ELVIS_PROGRAM
+                                "' render volume.defective --cut-plane 0,0,1,0 --size 32x32 -o out.png 2>err.txt; exit $?";
+    const int status = std::system(("bash -c '" +
+                                    [&] {
+                                        std::string quoted;
+                                        for (const char c : command) {
+                                            quoted += c == '\'' ? "'\\''" : std::string(1, c);
+                                        }
+                                        return quoted;
+                                    }() +
+                                    "' 2>/dev/null")
+                                       .c_str());
     std::stringstream text;
     text << std::ifstream(folder / "err.txt").rdbuf();
     fs::remove_all(folder);

@@ -22,7 +22,9 @@ const std::string pipe_file = NURBS_SAMPLES "/pipe.nurbs";
 
 class Workplace {
 public:
-    Workplace() : m_folder(fs::temp_directory_path() / ("elvis-nurbs-" + std::to_string(::getpid()))) { fs::create_directories(m_folder); }
+    Workplace() : m_folder(fs::temp_directory_path() / ("elvis-nurbs-" + std::to_string(::getpid()))) {
+        fs::create_directories(m_folder);
+    }
     ~Workplace() {
         std::error_code ignored;
         fs::remove_all(m_folder, ignored);
@@ -49,11 +51,13 @@ private:
 /** A straight quarter of a pipe with radii 1 and 2, one span: x = r cos a, y = r sin a exactly. */
 std::string quarter_annulus() {
     std::ostringstream text;
-    text << std::setprecision(17) << "elvis-nurbs 1\nfield square 1\npatch\ndegree 2 1 1\nknots 6 0 0 0 1 1 1\nknots 4 0 0 1 1\n"
+    text << std::setprecision(17)
+         << "elvis-nurbs 1\nfield square 1\npatch\ndegree 2 1 1\nknots 6 0 0 0 1 1 1\nknots 4 0 0 1 1\n"
          << "knots 4 0 0 1 1\npoints\n";
     for (const double z : {0.0, 1.0}) {
         for (const double r : {1.0, 2.0}) {
-            text << r << " 0 " << z << " 1 0\n" << r << " " << r << " " << z << " " << std::sqrt(0.5) << " 0\n0 " << r << " " << z << " 1 0\n";
+            text << r << " 0 " << z << " 1 0\n"
+                 << r << " " << r << " " << z << " " << std::sqrt(0.5) << " 0\n0 " << r << " " << z << " 1 0\n";
         }
     }
     return text.str();
@@ -115,8 +119,9 @@ TEST_CASE("A field with the coordinate's coefficients is the coordinate, derivat
 TEST_CASE("Every visualization draws a NURBS volume") {
     const Workplace place;
     place.write("transfer.json", R"({"color": [[290, 0, 0, 1], [320, 1, 0, 0]], "density": [[290, 0], [320, 2]]})");
-    for (const char* options : {"--cut-plane 0,0,1,-1.5 --contours 300,305 --mesh-lines", "--boundary --contours 300,310 --mesh-lines",
-                                "--isosurface 305", "--volume transfer.json", "--boundary --field \"norm(grad(temperature))\""}) {
+    for (const char* options :
+         {"--cut-plane 0,0,1,-1.5 --contours 300,305 --mesh-lines", "--boundary --contours 300,310 --mesh-lines",
+          "--isosurface 305", "--volume transfer.json", "--boundary --field \"norm(grad(temperature))\""}) {
         INFO(options);
         const int status = place.run("render '" + pipe_file + "' " + options + " --size 48x48 -o out.png --stats stats.json");
         INFO(place.read("err.txt"));

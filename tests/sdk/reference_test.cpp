@@ -88,7 +88,8 @@ TEST_CASE("Every function of the GLSL interface has an entry in the reference an
         check_entry(entries, function.name);
         CHECK(page.find(function.name) != std::string::npos);
     }
-    for (const char* name : {"elvis_fetch_NAME", "elvis_fetch4_NAME", "elvis_origin", "elvis_sin", "elvis_pow", "elvis_debug"}) {
+    for (const char* name :
+         {"elvis_fetch_NAME", "elvis_fetch4_NAME", "elvis_origin", "elvis_sin", "elvis_pow", "elvis_debug"}) {
         check_entry(entries, name);
     }
 }

@@ -1,5 +1,5 @@
-// The tutorial cannot rot: its commands are run in order on a new project, with the files of each step, and its listings are parts of
-// those files.
+// The tutorial cannot rot: its commands are run in order on a new project, with the files of each step, and its listings are
+// parts of those files.
 
 #include <catch2/catch.hpp>
 
@@ -85,7 +85,8 @@ TEST_CASE("Every command of the tutorial works, with the files of its step") {
     const fs::path work = fs::path(ELVIS_WORK) / "tutorial";
     fs::remove_all(work);
     fs::create_directories(work);
-    REQUIRE(run("'" CMAKE_PROGRAM "' --install '" ELVIS_BUILD "' --prefix '" + (work / "prefix").string() + "' >/dev/null") == 0);
+    REQUIRE(run("'" CMAKE_PROGRAM "' --install '" ELVIS_BUILD "' --prefix '" + (work / "prefix").string() + "' >/dev/null") ==
+            0);
     const std::string environment = "export HOME='" + work.string() + "' PATH='" + (work / "prefix/bin").string() +
                                     "':\"$PATH\"; unset XDG_DATA_HOME ELVIS_PLUGIN_PATH; ";
     const fs::path project = work / "my_solver";

@@ -1,4 +1,5 @@
-// What helps people who write snippets: signatures, hints, and the debug build that finds outputs never written and endless loops.
+// What helps people who write snippets: signatures, hints, and the debug build that finds outputs never written and endless
+// loops.
 #include "fixture.hpp"
 
 #include <core/base/error.hpp>
@@ -46,7 +47,8 @@ TEST_CASE("Functions with other parameters or another type than the interface's 
                                   "elvis_vec3 elvis_field_value(uint element, elvis_vec3 xi, uint component)",
                                   "elvis_real elvis_field_value(uint element, out elvis_vec3 xi, uint component)"}) {
         INFO(signature);
-        const Snippet bad = changed(good, "elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component)", signature);
+        const Snippet bad =
+            changed(good, "elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component)", signature);
         CHECK(contains(complaint(bad), "elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component)"));
         CHECK(contains(complaint(bad), good.sources.front().name + ":"));
     }
@@ -80,7 +82,8 @@ TEST_CASE("The debug build poisons every output and counts every loop with brace
     CHECK(contains(poisoned, " gradient = elvis_vec3("));
     CHECK(std::count(poisoned.begin(), poisoned.end(), '\n') == std::count(text.begin(), text.end(), '\n'));
     std::size_t n_counts = 0;
-    for (std::size_t at = poisoned.find("++core_loop_turns"); at != std::string::npos; at = poisoned.find("++core_loop_turns", at + 1)) {
+    for (std::size_t at = poisoned.find("++core_loop_turns"); at != std::string::npos;
+         at = poisoned.find("++core_loop_turns", at + 1)) {
         ++n_counts;
     }
     CHECK(n_counts == 3);

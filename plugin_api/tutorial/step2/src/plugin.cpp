@@ -189,5 +189,5 @@ private:
 } // namespace
 } // namespace my_solver
 
-ELVIS_PLUGIN(.id = "org.example.my_solver", .name = "my_solver", .version = "0.1.0", .description = "Draws volumes of my_solver",
-             .runtime = elvis::api::runtime_table<my_solver::Volume>());
+ELVIS_PLUGIN(.id = "org.example.my_solver", .name = "my_solver", .version = "0.1.0",
+             .description = "Draws volumes of my_solver", .runtime = elvis::api::runtime_table<my_solver::Volume>());
