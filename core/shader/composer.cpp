@@ -364,12 +364,21 @@ ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& reques
 
 void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
                               std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
+    m_kernel.dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z);
+}
+
+void ComposedKernel::dispatch_from(std::uint32_t first_x, std::span<const Buffer* const> bindings,
+                                   std::span<const std::byte> push_constants, std::uint32_t groups_x, std::uint32_t groups_y) const {
+    m_kernel.dispatch_from({first_x, 0, 0}, bound(bindings), push_constants, {groups_x, groups_y, 1});
+}
+
+std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {
     assert(bindings.size() == m_n_bindings);
-    std::vector<BoundBuffer> bound = m_records;
+    std::vector<BoundBuffer> all = m_records;
     for (std::uint32_t binding = 0; binding < bindings.size(); ++binding) {
-        bound.push_back({binding, bindings[binding], nullptr, 0});
+        all.push_back({binding, bindings[binding], nullptr, 0});
     }
-    m_kernel.dispatch(bound, push_constants, groups_x, groups_y, groups_z);
+    return all;
 }
 
 std::string compose_text(const Device& device, const KernelRequest& request) {
