@@ -52,15 +52,15 @@ nlohmann::ordered_json run_combined(const Bench& bench) {
                         {"field_evaluations", row.counts.field_evaluations},
                         {"volume_segments", row.counts.volume_segments},
                         {"hidden_pixels", row.counts.hidden_pixels},
-                        {"spared_rows", row.counts.spared_rows},
+                        {"spared_pixels", row.counts.spared_rows},
                         {"difference", row.difference}});
         say(arguments,
-            "%-24s %8.1f ms  wall %8.1f ms  %9llu values  %9llu segments  %8llu pixels hidden  %6llu rows spared  off by %.1e\n",
+            "%-24s %8.1f ms  wall %8.1f ms  %9llu values  %9llu segments  %8llu pixels hidden  %9llu spared  off by %.1e\n",
             row.name.c_str(), row.milliseconds, row.wall_milliseconds,
             static_cast<unsigned long long>(row.counts.field_evaluations),
             static_cast<unsigned long long>(row.counts.volume_segments),
             static_cast<unsigned long long>(row.counts.hidden_pixels),
-            static_cast<unsigned long long>(row.counts.spared_rows), row.difference);
+            static_cast<unsigned long long>(row.counts.spared_pixels), row.difference);
     });
     return list;
 }

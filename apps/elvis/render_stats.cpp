@@ -38,7 +38,7 @@ nlohmann::ordered_json counts_json(const FrameCounts& counts) {
             {"volume_steps", counts.volume_steps},
             {"volume_breakpoints", counts.volume_breakpoints},
             {"hidden_pixels", counts.hidden_pixels},
-            {"spared_rows", counts.spared_rows}};
+            {"spared_pixels", counts.spared_pixels}};
 }
 
 nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,

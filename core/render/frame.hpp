@@ -41,12 +41,12 @@ struct Sharing {
      * in front of them. Volume rendering always ends at them.
      */
     bool depths = true;
-    /** What is drawn in several rounds is drawn in the rows of the picture that still want more. */
-    bool rows = true;
+    /** What is drawn in several rounds is drawn only in the parts of the picture that still want more. */
+    bool parts = true;
 
     static Sharing none() { return {false, false}; }
     /** Each alone, by the names of `elvis render --share`. */
-    static std::vector<std::pair<std::string, Sharing>> each() { return {{"depths", {true, false}}, {"rows", {false, true}}}; }
+    static std::vector<std::pair<std::string, Sharing>> each() { return {{"depths", {true, false}}, {"parts", {false, true}}}; }
 };
 
 struct FrameRequest {
@@ -126,8 +126,11 @@ struct FrameCounts {
     std::uint64_t volume_steps = 0, volume_breakpoints = 0;
     /** Pixels that had to be looked at more closely for lines. */
     std::uint64_t refined_pixels = 0;
-    /** What sharing saved: pixels of surfaces behind which nothing was looked for; rows of pictures that were not drawn again. */
-    std::uint64_t hidden_pixels = 0, spared_rows = 0;
+    /**
+     * What sharing saved: pixels of surfaces behind which nothing was looked for; pixels times the rounds in
+     * which they were not drawn again, by surfaces and by each kernel of volume rendering.
+     */
+    std::uint64_t hidden_pixels = 0, spared_pixels = 0;
 };
 
 /**

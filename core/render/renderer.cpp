@@ -417,7 +417,7 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, FrameCounts& count
         start.direction = Vector3{along[0] / size, along[1] / size, along[2] / size};
     }
     merge_pass.fill_empty();
-    current->volume->draw(view(request, BoundaryFaces{}), start, merge_pass, request.sharing.rows, counts);
+    current->volume->draw(view(request, BoundaryFaces{}), start, merge_pass, request.sharing.parts, counts);
 }
 
 void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target,
@@ -497,8 +497,8 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
         if (is_plane || is_wire_frame) {
             wanted = {};
         }
-        if (wanted.n_pixels > 0 && request.sharing.rows) {
-            frame.counts.spared_rows += layer->height - (wanted.end_row - wanted.first_row);
+        if (wanted.n_pixels > 0 && request.sharing.parts) {
+            frame.counts.spared_pixels += std::uint64_t{layer->width} * (layer->height - (wanted.end_row - wanted.first_row));
         } else {
             wanted = {wanted.n_pixels, 0, layer->height};
         }

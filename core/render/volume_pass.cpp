@@ -19,8 +19,6 @@ constexpr int step_degree = 5;
 /** Where shaders/library/kronrod.glsl samples. */
 constexpr std::array<double, 7> kronrod_points = {0.0197543656459898582, 0.112701665379258311, 0.282878125326598721, 0.5,
                                                   0.717121874673401279,  0.887298334620741689, 0.980245634354010142};
-/** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 15;
 /** A ray has no more chains, and chains no more parts in different classes: far more than there are elements along a ray. */
 constexpr std::uint32_t most_rounds = 4096;
 /** Of m_counts. */
@@ -104,8 +102,8 @@ struct VolumePass::Picture {
     const Layer& layer;
     /** Of opaque surfaces, and of the next transparent one; null if there is none. */
     const Buffer *depths, *stops;
-    std::uint32_t tiles_a_row, n_tiles, rows_a_dispatch;
-    bool by_rows;
+    std::uint32_t tiles_a_row, n_tiles;
+    bool only_live;
 };
 
 VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
@@ -120,6 +118,7 @@ VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const 
                                     {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
                                      BindingType::storage_buffer},
                                     sizeof(PixelParameters))),
+      m_live(device, data.precision(), m_tile_width, tile_height),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     double square = 0;
@@ -234,22 +233,22 @@ void VolumePass::list_starts(ClassKernels& kernels, const Picture& picture) {
     kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(picture.n_tiles, group_size));
 }
 
-bool VolumePass::seek(const ClassKernels& kernels, const Picture& picture, const Rows& rows, FrameCounts& counts) {
+bool VolumePass::seek(const ClassKernels& kernels, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts) {
     m_counts.fill(0);
     SeekParameters parameters{picture.layer.width, picture.layer.height, picture.tiles_a_row, 0,
                               static_cast<std::uint32_t>(kernels.first_element), 0, static_cast<float>(m_extent)};
     const std::array<const Buffer*, 4> bindings = {&m_frame, &*m_states, &*kernels.tile_lists, &m_counts};
-    for (std::uint32_t row = rows.first; row < rows.end; row += picture.rows_a_dispatch) {
-        parameters.first_row = row;
-        kernels.seek->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), picture.tiles_a_row,
-                               std::min(picture.rows_a_dispatch, rows.end - row));
+    for (const RayBox& box : boxes) {
+        parameters.first_row = box.first_row;
+        kernels.seek->dispatch_from(box.first, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
+                                    box.end_row - box.first_row);
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.mapping_evaluations += found[seek_evaluations];
     return found[seeking] > 0;
 }
 
-bool VolumePass::march(ClassKernels& kernels, const Picture& picture, const Rows& rows, FrameCounts& counts) {
+bool VolumePass::march(ClassKernels& kernels, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts) {
     m_counts.fill(0);
     MarchParameters parameters{picture.layer.width,
                                picture.layer.height,
@@ -272,10 +271,10 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, const Rows
     const Buffer& stops = picture.stops ? *picture.stops : picture.layer.normals;
     const std::array<const Buffer*, 7> bindings = {&m_frame, &*m_states, &depths, &*m_breakpoints, &*m_pieces, &m_counts, &stops};
     const ComposedKernel& kernel = march_kernel(kernels);
-    for (std::uint32_t row = rows.first; row < rows.end; row += picture.rows_a_dispatch) {
-        parameters.first_row = row;
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), picture.tiles_a_row,
-                        std::min(picture.rows_a_dispatch, rows.end - row));
+    for (const RayBox& box : boxes) {
+        parameters.first_row = box.first_row;
+        kernel.dispatch_from(box.first, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
+                             box.end_row - box.first_row);
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.field_evaluations += found[evaluations];
@@ -289,28 +288,39 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, const Rows
 }
 
 void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
-    const std::uint32_t rows_at_once = picture.by_rows ? picture.rows_a_dispatch : picture.layer.height;
-    std::uint32_t most = 0, n_all = 0;
-    for (std::uint32_t first = 0; first < picture.layer.height; first += rows_at_once) {
-        const Rows rows{first, std::min(first + rows_at_once, picture.layer.height)};
-        std::uint32_t round = 0;
-        for (bool is_open = true; is_open && round < most_rounds; ++round) {
-            bool is_seeking = false;
-            for (const ClassKernels& kernels : m_kernels) {
-                is_seeking = seek(kernels, picture, rows, counts) || is_seeking;
-            }
-            is_open = is_seeking;
-            for (ClassKernels& kernels : m_kernels) {
-                is_open = march(kernels, picture, rows, counts) || is_open;
-            }
+    const std::uint32_t width = picture.layer.width, height = picture.layer.height;
+    const std::array<RayBox, 1> whole = {RayBox{0, picture.tiles_a_row, 0, height}};
+    const auto spare = [&](const std::vector<RayBox>& live) {
+        std::uint64_t tiles = whole[0].area();
+        for (const RayBox& box : live) {
+            tiles -= box.area();
         }
-        most = std::max(most, round);
-        n_all += round * (rows.end - rows.first);
+        counts.spared_pixels += tiles * m_tile_width;
+    };
+    std::vector<RayBox> live(whole.begin(), whole.end());
+    bool is_open = true;
+    for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
+        bool is_seeking = false;
+        if (picture.only_live) {
+            live = m_live.seeking(*m_states, width, height);
+        }
+        for (const ClassKernels& kernels : m_kernels) {
+            spare(live);
+            is_seeking = seek(kernels, picture, live, counts) || is_seeking;
+        }
+        is_open = is_seeking;
+        for (ClassKernels& kernels : m_kernels) {
+            if (picture.only_live) {
+                live = m_live.going(*m_states, width, height, static_cast<std::uint32_t>(kernels.first_element),
+                                    static_cast<std::uint32_t>(kernels.n_elements));
+            }
+            spare(live);
+            is_open = march(kernels, picture, live, counts) || is_open;
+        }
     }
-    counts.spared_rows += std::uint64_t{most} * picture.layer.height - n_all;
 }
 
-void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool by_rows,
+void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
                       FrameCounts& counts) {
     const Layer& layer = merged.picture();
     const Buffer& states = provide(m_states, m_device, layer.n_pixels() * state_bytes(m_precision));
@@ -322,8 +332,7 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
                     nullptr,
                     tiles_a_row,
                     tiles_a_row * divided_up(layer.height, tile_height),
-                    std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width)),
-                    by_rows};
+                    only_live};
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance)};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));

@@ -7,6 +7,7 @@
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
 #include <core/render/layer.hpp>
+#include <core/render/live_rays.hpp>
 #include <core/render/merge_pass.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/element_chains.hpp>
@@ -16,6 +17,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace elvis {
@@ -31,10 +33,9 @@ public:
 
     /**
      * Draws in front of the opaque surfaces of a picture, and between its transparent ones, which are not put over it before. `view` is the
-     * geometry of any plane: only its rays matter. `by_rows`: some rows after the others, so that those whose rays are done wait for
-     * no others.
+     * geometry of any plane: only its rays matter. `only_live`: not where no ray has anything to do.
      */
-    void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool by_rows, FrameCounts& counts);
+    void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live, FrameCounts& counts);
 
 private:
     struct ClassKernels {
@@ -46,15 +47,11 @@ private:
         std::optional<Buffer> tile_lists;
     };
     struct Picture;
-    /** Of pixels. */
-    struct Rows {
-        std::uint32_t first, end;
-    };
     KernelRequest request_of(const ClassKernels& kernels, const char* name) const;
     const ComposedKernel& march_kernel(ClassKernels& kernels);
     void list_starts(ClassKernels& kernels, const Picture& picture);
-    bool seek(const ClassKernels& kernels, const Picture& picture, const Rows& rows, FrameCounts& counts);
-    bool march(ClassKernels& kernels, const Picture& picture, const Rows& rows, FrameCounts& counts);
+    bool seek(const ClassKernels& kernels, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts);
+    bool march(ClassKernels& kernels, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts);
     void march_all(const Picture& picture, FrameCounts& counts);
 
     const Device& m_device;
@@ -66,6 +63,7 @@ private:
     LevelModels m_models;
     std::vector<ClassKernels> m_kernels;
     ComposedKernel m_begin, m_veil, m_finish;
+    LiveRays m_live;
     Buffer m_frame, m_counts;
     VolumeRendering m_wanted;
     ShownComponent m_component;

@@ -382,15 +382,11 @@ ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& reques
     : m_kernel(make_kernel(device, request)), m_snippets(snippet_names(request)),
       m_records(record_bindings(request, Records(request))), m_n_bindings(request.bindings.size()) {}
 
-void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
-                              std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
-    assert(bindings.size() == m_n_bindings);
-    std::vector<BoundBuffer> bound = m_records;
-    for (std::uint32_t binding = 0; binding < bindings.size(); ++binding) {
-        bound.push_back({binding, bindings[binding], nullptr, 0});
-    }
+template <class Call> void ComposedKernel::naming_snippets(const Call& call) const {
     try {
-        m_kernel.dispatch(bound, push_constants, groups_x, groups_y, groups_z);
+        call();
+    } catch (const Cancelled&) {
+        throw;
     } catch (const Error& error) {
         // A lost device is most often a snippet's endless loop or a fetch beyond a record.
         if (m_snippets.empty()) {
@@ -399,6 +395,25 @@ void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span
         throw Error(error.place(), error.cause() + " [the kernel evaluates the plugin's " + m_snippets +
                                        "; elvis check-plugin looks for endless loops there]");
     }
+}
+
+void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
+                              std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
+    naming_snippets([&] { m_kernel.dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
+}
+
+void ComposedKernel::dispatch_from(std::uint32_t first_x, std::span<const Buffer* const> bindings,
+                                   std::span<const std::byte> push_constants, std::uint32_t groups_x, std::uint32_t groups_y) const {
+    naming_snippets([&] { m_kernel.dispatch_from({first_x, 0, 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
+}
+
+std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {
+    assert(bindings.size() == m_n_bindings);
+    std::vector<BoundBuffer> all = m_records;
+    for (std::uint32_t binding = 0; binding < bindings.size(); ++binding) {
+        all.push_back({binding, bindings[binding], nullptr, 0});
+    }
+    return all;
 }
 
 std::string compose_text(const Device& device, const KernelRequest& request) {

@@ -99,8 +99,15 @@ public:
     /** The kernel's own bindings, in the order 0 .. n-1. */
     void dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;
+    /** Groups from `first_x` on, to which gl_WorkGroupID.x counts up from there. */
+    void dispatch_from(std::uint32_t first_x, std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
+                       std::uint32_t groups_x, std::uint32_t groups_y) const;
 
 private:
+    std::vector<BoundBuffer> bound(std::span<const Buffer* const> bindings) const;
+    /** Runs a call; an Error that it throws, but for Cancelled, is given the names of the snippets. */
+    template <class Call> void naming_snippets(const Call& call) const;
+
     Kernel m_kernel;
     /** The snippets in it, for messages: their texts' names. */
     std::string m_snippets;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -250,22 +251,27 @@ Kernel& Kernel::operator=(Kernel&&) noexcept = default;
 
 void Kernel::dispatch(std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
                       std::uint32_t groups_y, std::uint32_t groups_z) const {
+    dispatch_from({0, 0, 0}, bindings, push_constants, {groups_x, groups_y, groups_z});
+}
+
+void Kernel::dispatch_from(const Groups& first, std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants,
+                           const Groups& groups) const {
     Impl& impl = *m_impl;
     assert(push_constants.size() == impl.push_constant_bytes);
-    if (groups_x == 0 || groups_y == 0 || groups_z == 0) {
+    if (groups[0] == 0 || groups[1] == 0 || groups[2] == 0) {
         return;
     }
-    const Groups groups{groups_x, groups_y, groups_z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        check_limit(groups[axis], impl.device.limits().maxComputeWorkGroupCount[axis], impl.place,
+        check_limit(std::size_t{first[axis]} + groups[axis], impl.device.limits().maxComputeWorkGroupCount[axis], impl.place,
                     "work groups in one direction");
     }
     const std::lock_guard lock(impl.mutex);
     impl.update_set(bindings);
-    const std::uint64_t n_groups = std::uint64_t{groups_x} * groups_y * groups_z;
+    const std::uint64_t n_groups = std::uint64_t{groups[0]} * groups[1] * groups[2];
     for (std::uint64_t done = 0; done < n_groups;) {
         impl.device.check_task();
-        const DispatchPart part = next_part(groups, done, impl.pace.next(n_groups - done));
+        DispatchPart part = next_part(groups, done, impl.pace.next(n_groups - done));
+        std::transform(first.begin(), first.end(), part.first.begin(), part.first.begin(), std::plus<>());
         const auto start = std::chrono::steady_clock::now();
         impl.run(part, push_constants);
         const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;

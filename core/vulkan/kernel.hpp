@@ -6,6 +6,7 @@
 
 #include <core/vulkan/buffer.hpp>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <variant>
@@ -46,6 +47,9 @@ public:
      */
     void dispatch(std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;
+    /** The same for a box of groups: gl_WorkGroupID counts from `first`. */
+    void dispatch_from(const std::array<std::uint32_t, 3>& first, std::span<const BoundBuffer> bindings,
+                       std::span<const std::byte> push_constants, const std::array<std::uint32_t, 3>& groups) const;
 
 private:
     struct Impl;
