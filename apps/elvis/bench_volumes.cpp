@@ -52,7 +52,7 @@ nlohmann::ordered_json run_combined(const Bench& bench) {
                         {"field_evaluations", row.counts.field_evaluations},
                         {"volume_segments", row.counts.volume_segments},
                         {"hidden_pixels", row.counts.hidden_pixels},
-                        {"spared_pixels", row.counts.spared_rows},
+                        {"spared_pixels", row.counts.spared_pixels},
                         {"difference", row.difference}});
         say(arguments,
             "%-24s %8.1f ms  wall %8.1f ms  %9llu values  %9llu segments  %8llu pixels hidden  %9llu spared  off by %.1e\n",

@@ -34,11 +34,14 @@ struct Camera {
     std::array<double, 2> image_shift{};
 };
 
-/** What passes of one picture take from each other. Pictures are the same without, but for time; each can be turned off to see that. */
+/**
+ * What passes of one picture take from each other. Pictures are the same without, but for time and for the rounding of isosurfaces
+ * in front of other surfaces; each can be turned off to see that.
+ */
 struct Sharing {
     /**
-     * Of surfaces, what opaque ones drawn before hide is not evaluated and not looked at for lines; isosurfaces are looked for only
-     * in front of them. Volume rendering always ends at them.
+     * Of surfaces without lines, what opaque ones drawn before hide is not evaluated; isosurfaces are looked for only in front of
+     * them. Volume rendering always ends at them.
      */
     bool depths = true;
     /** What is drawn in several rounds is drawn only in the parts of the picture that still want more. */

@@ -470,7 +470,8 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     }
     // Edges are nothing behind which much would be hidden from them.
     const Buffer* const opaque = is_alone || is_wire_frame ? nullptr : merge_pass.depths();
-    const bool is_occluded = opaque != nullptr && request.sharing.depths;
+    // Lines look at neighbouring pixels, hidden ones included.
+    const bool is_occluded = opaque != nullptr && request.sharing.depths && !surface.has_lines();
     const Buffer* beyond = nullptr;
     MergePass::Wanted wanted{1, 0, layer->height};
     for (std::uint32_t round = 0; wanted.n_pixels > 0 && round < max_rounds; ++round) {

@@ -223,7 +223,12 @@ TEST_CASE("what passes share changes no picture") {
             request.sharing = sharing;
             const Frame frame = renderer.render(request);
             CAPTURE(name);
-            CHECK(frame.color == unshared.color);
+            // Isosurfaces are looked for in other pieces of rays where these end at a surface.
+            double largest = 0;
+            for (std::size_t i = 0; i < frame.color.size(); ++i) {
+                largest = std::max(largest, std::abs(frame.color[i] - unshared.color[i]));
+            }
+            CHECK(largest <= (sharing.depths ? 5e-7 : 0.0));
             CHECK(frame.element == unshared.element);
             CHECK((frame.counts.hidden_pixels > 0) == sharing.depths);
             CHECK((frame.counts.spared_pixels > 0) == sharing.parts);

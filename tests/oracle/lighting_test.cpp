@@ -281,6 +281,7 @@ TEST_CASE("it is told which values beyond the colour table a picture shows") {
     request.camera.eye = {0.7, -1.9, 2.3};
     request.camera.up = {0, 0, 1};
     Surface surface{FlatElements{}};
+    surface.opacity = 0.5; // so that none hides another
     for (const auto& [low, high] : {std::pair{-9.0, 9.0}, {-9.0, 1.0}, {1.0, 9.0}}) {
         surface.colors.points = {{low, {0, 0, 0}}, {high, {1, 1, 1}}};
         request.surfaces.push_back(surface);

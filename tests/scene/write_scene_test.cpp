@@ -109,7 +109,15 @@ const std::vector<std::string>& documents() {
             "volume_rendering": {"transfer": {"color": [[0.0, 1.0, 0.0, 0.0]], "density": [[0.0, 0.0], [1.0, 2.0]]},
                                  "integrator": "exact", "tolerance": 0.001}})json",
         R"json({"version": 1, "image": {"size": [10, 20], "background": [1.0, 1.0, 1.0, 1.0]},
-            "volume_rendering": {"transfer": "transfer.json", "integrator": "exact", "tolerance": 0.001}})json"};
+            "volume_rendering": {"transfer": "transfer.json", "integrator": "exact", "tolerance": 0.001}})json",
+        R"json({"version": 1, "image": {"size": [10, 20], "background": [1.0, 1.0, 1.0, 1.0]},
+            "animation": {"time_steps": "all", "turntable": {"frames": 12, "axis": [0.0, 0.0, 1.0], "degrees": -180.0},
+                          "frames_a_second": 30.0}})json",
+        R"json({"version": 1, "image": {"size": [10, 20], "background": [1.0, 1.0, 1.0, 1.0]},
+            "animation": {"time_steps": "8:2:3",
+                          "key_frames": [{"frame": 0}, {"frame": 5, "eye": [1.0, 2.0, 3.0], "look_at": [0.0, 1.0, 0.0], "up": [0.0, 0.0, 1.0],
+                                                        "field_of_view": 30.0, "height": 2.0}],
+                          "frames_a_second": 25.0}})json"};
     return list;
 }
 

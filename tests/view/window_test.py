@@ -106,7 +106,7 @@ def picks(window, elvis):
     picked = screen["picked"]
     place = re.search(r"x = \(([^)]*)\)", picked).group(1)
     value = float(re.search(r"waves = ([^ ,]*), gradient", picked).group(1))
-    drawn = float(re.search(r"drawn: .* = (.*)", picked).group(1)) if "drawn:" in picked else value
+    drawn = float(re.search(r"value drawn there = (.*)", picked).group(1))
     answer = json.loads(run(elvis, window.folder, "probe", "ball.h5", "--point", place.replace(" ", ""), "--json"))
     exact = answer["points"][0]["fields"]["waves"][0]
     require(abs(value - exact) < 1e-6, f"picked {value}, probed {exact}")

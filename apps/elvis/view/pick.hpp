@@ -18,8 +18,7 @@ struct Picked {
     std::array<double, 3> position{};
     double depth = 0;
     std::array<double, 3> normal{};
-    /** The field that the surface shows, and its value as drawn. */
-    std::string shown_field;
+    /** Of the field that the surface shows, as drawn. */
     double shown_value = 0;
 
     /** Number of the element, as people know it; none outside of the volume. */

@@ -127,7 +127,6 @@ void Session::need_precision(const Scene& scene) {
 
 Picture Session::draw(const Scene& scene, double scale) {
     need_precision(scene);
-    const Clock::time_point start = Clock::now();
     Scene smaller = scene;
     for (std::size_t axis = 0; axis < 2; ++axis) {
         smaller.size[axis] = std::max(1u, static_cast<std::uint32_t>(std::lround(scale * scene.size[axis])));
@@ -137,9 +136,10 @@ Picture Session::draw(const Scene& scene, double scale) {
     if (request.surfaces.empty() && !request.volume) {
         return blank(scene, request.camera);
     }
-    Frame frame = m_renderer->render(request);
+    Frame frame = m_renderer->render(request, &m_control);
+    const double frame_milliseconds = frame.render_milliseconds;
+    const Clock::time_point drawn = Clock::now();
     Picture picture;
-    picture.milliseconds = milliseconds_since(start);
     if (scale < 1 && scene.annotation) {
         frame = stretched(frame, scene.size[0], scene.size[1]);
     }
@@ -149,6 +149,7 @@ Picture Session::draw(const Scene& scene, double scale) {
     picture.rgba = shown_bytes(frame);
     picture.counts = frame.counts;
     picture.camera = request.camera;
+    picture.milliseconds = frame_milliseconds + milliseconds_since(drawn);
     return picture;
 }
 

@@ -29,6 +29,7 @@ struct Picture {
     std::vector<std::uint8_t> rgba;
     FrameCounts counts;
     Camera camera;
+    /** Without what only the first picture of its kind takes: upload and compilation. */
     double milliseconds = 0;
     /** What finds no room on it, and the like. */
     std::vector<std::string> remarks;

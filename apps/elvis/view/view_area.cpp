@@ -89,6 +89,26 @@ void ViewArea::go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by) 
     }
 }
 
+ImVec2 ViewArea::on_screen(const PicturePoint& place) const {
+    return ImVec2(static_cast<float>(m_box.x + place[0]) / m_pixels, static_cast<float>(m_box.y + place[1]) / m_pixels);
+}
+
+void ViewArea::draw_picked_point(Ui& ui) const {
+    const std::optional<Picked>& picked = ui.bench.picked();
+    if (!picked || !picked->is_hit) {
+        return;
+    }
+    if (const auto place = project(ui.model().camera(), m_size, picked->position)) {
+        ImDrawList* list = ImGui::GetWindowDrawList();
+        const ImVec2 at = on_screen(*place);
+        const float arm = 8 * ui.scale;
+        for (const auto& [color, width] : {std::pair{rgba(255, 255, 255), 4.0f}, std::pair{rgba(0, 0, 0), 1.5f}}) {
+            list->AddLine(ImVec2(at.x - arm, at.y), ImVec2(at.x + arm, at.y), color, width * ui.scale);
+            list->AddLine(ImVec2(at.x, at.y - arm), ImVec2(at.x, at.y + arm), color, width * ui.scale);
+        }
+    }
+}
+
 void ViewArea::draw_handles(Ui& ui) {
     const std::optional<ItemId> item = ui.model().selection();
     if (!item) {
@@ -96,9 +116,6 @@ void ViewArea::draw_handles(Ui& ui) {
     }
     const Camera camera = ui.model().camera();
     ImDrawList* list = ImGui::GetWindowDrawList();
-    const auto on_screen = [&](const PicturePoint& place) {
-        return ImVec2(static_cast<float>(m_box.x + place[0]) / m_pixels, static_cast<float>(m_box.y + place[1]) / m_pixels);
-    };
     const std::vector<Handle> handles = handles_of(ui.scene(), *item, *ui.model().volume());
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const float radius = handle_radius * ui.scale;
@@ -199,6 +216,7 @@ void ViewArea::draw(Ui& ui, float framebuffer_scale) {
         model.set_camera(zoomed(model.camera(), m_size, place, std::pow(0.88, double{io.MouseWheel})));
         m_last_zoom = ImGui::GetTime();
     }
+    draw_picked_point(ui);
     draw_handles(ui);
     draw_state(ui);
 }

@@ -26,6 +26,9 @@ private:
     void begin_drag(Ui& ui, const PicturePoint& place);
     void go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by);
     void draw_handles(Ui& ui);
+    void draw_picked_point(Ui& ui) const;
+    /** A place of the picture, for ImGui. */
+    ImVec2 on_screen(const PicturePoint& place) const;
     void draw_state(Ui& ui) const;
 
     PixelBox m_box;

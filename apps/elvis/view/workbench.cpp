@@ -296,9 +296,12 @@ bool Workbench::update(bool is_moving) {
             m_worker.draw({m_model.scene(), m_resolution.scale(), revision});
         }
     } else {
-        const bool is_shown = m_state == ShownState::full && m_shown_revision == revision;
-        const bool is_drawn = drawing && drawing->first == revision && drawing->second >= 1;
-        if (!is_shown && !is_drawn && (now - *m_rest_since >= rest_time || m_state == ShownState::nothing)) {
+        const bool is_drawn = drawing && drawing->first == revision;
+        const bool has_rested = now - *m_rest_since >= rest_time;
+        if (!is_drawn && !has_shown_present()) {
+            // Something coarse at once: the full picture may take long.
+            m_worker.draw({m_model.scene(), m_resolution.scale(), revision});
+        } else if (!is_drawn && m_state != ShownState::full && has_rested) {
             m_worker.draw({m_model.scene(), 1, revision});
         }
     }
