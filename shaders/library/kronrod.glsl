@@ -18,10 +18,4 @@ const elvis_real core_gauss_weights[CORE_KRONROD_POINTS] =
     elvis_real[](elvis_real(0), elvis_real(0.277777777777777778LF), elvis_real(0), elvis_real(0.444444444444444444LF), elvis_real(0),
                  elvis_real(0.277777777777777778LF), elvis_real(0));
 
-// What Kronrod's rule is off, from both and the size of the integrand (R. Piessens et al., QUADPACK, 1983).
-elvis_real core_kronrod_error(elvis_real kronrod, elvis_real gauss, elvis_real size) {
-    const elvis_real ratio = min(elvis_real(200) * abs(kronrod - gauss) / max(size, elvis_real(1e-30LF)), elvis_real(1));
-    return size * ratio * sqrt(ratio);
-}
-
 #endif

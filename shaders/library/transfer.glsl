@@ -15,8 +15,6 @@ core_transfer_piece core_fetch_piece(uint index) {
     return core_transfer_piece(first.x, first.y, first.z, first.w, core_pieces[3u * index + 1u].xyz, core_pieces[3u * index + 2u].xyz);
 }
 
-elvis_real core_level_value(uint i) { return core_breakpoints[i]; }
-
 // Of the piece that holds the value.
 uint core_piece_index(elvis_real value) {
     uint first = 0u, last = core_n_breakpoints;

@@ -149,9 +149,12 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
     integral.inner_value = is_inner ? value : integral.inner_value;
     integral.inner_slope = is_inner ? slope : integral.inner_slope;
     integral.bend = is_right ? bend : is_left ? max(integral.bend, bend) : integral.bend;
-    integral.wants = CORE_WANTS_NOTHING;
-    bool has_inner = is_inner;
-    bool is_line = !integral.has_left;
+    // A line from the first end may do, mostly not.
+    bool is_line = !integral.has_left, has_inner = is_inner;
+    const elvis_real first_share = (integral.right - integral.left) / max(ahead, integral.right - integral.left);
+    const elvis_real line_error = light.left * (integral.right - integral.left) * per_parameter * held.steepness * integral.bend;
+    const bool is_hopeless = is_line && line_error > CORE_LINE_SHARE * tolerance * max(first_share, CORE_LEAST_SHARE);
+    integral.wants = is_hopeless ? CORE_WANTS_LEFT : CORE_WANTS_NOTHING;
     while (integral.wants == CORE_WANTS_NOTHING && integral.left < integral.to) {
         const elvis_real width = integral.right - integral.left;
         // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
