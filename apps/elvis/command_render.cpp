@@ -171,7 +171,7 @@ void add_render(CLI::App& app) {
     command->add_flag("--resume", a->resume, "Keep pictures of the animation that are there already");
     command->add_option("--buffers", a->buffers, "HDF5 file with what the picture is made of, per pixel");
     command->add_option("--stats", a->stats, "JSON file with times and counts");
-    command->add_option("--share", a->share, "What passes take from each other, to compare times: all, none, depths or parts");
+    command->add_option("--share", a->share, "What passes take from each other, to compare times: all, none, depths or parts (the default)");
     command->add_option("--repeat", a->repeat, "Draw the frame that many times more, and put the times into --stats")
         ->check(CLI::NonNegativeNumber);
     command->add_option("--bits", a->bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));

@@ -151,8 +151,11 @@ void apply_animation(const RenderArguments& arguments, Scene& scene) {
 } // namespace
 
 Sharing sharing_of(const RenderArguments& arguments) {
-    if (arguments.share.empty() || arguments.share == "all") {
+    if (arguments.share.empty()) {
         return {};
+    }
+    if (arguments.share == "all") {
+        return Sharing::all();
     }
     if (arguments.share == "none") {
         return Sharing::none();

@@ -56,7 +56,7 @@ struct RenderArguments {
 /** What the command line says goes before what the file says. */
 void apply_options(const RenderArguments& arguments, Scene& scene);
 
-/** What passes share, by --share; all of it by default. */
+/** What passes share, by --share. */
 Sharing sharing_of(const RenderArguments& arguments);
 
 } // namespace elvis::commands

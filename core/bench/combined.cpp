@@ -112,7 +112,7 @@ void bench_combined(const Device& device, const PluginRegistry& registry, const 
     for (const auto& [name, sharing] : Sharing::each()) {
         draw_all(sharing, "all, sharing " + name);
     }
-    draw_all({}, "all, everything shared");
+    draw_all(Sharing::all(), "all, everything shared");
 }
 
 } // namespace elvis

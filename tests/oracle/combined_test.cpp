@@ -183,7 +183,7 @@ TEST_CASE("boundary, cut plane, isosurfaces and volume lie in each other as alon
     }
 }
 
-TEST_CASE("what passes share changes no picture") {
+TEST_CASE("what passes share changes no picture, but for the rounding of isosurfaces in front of what hides others") {
     const TemporaryFile file("shared.h5");
     generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 2, "geometry_order": 2, "field": "waves"})",
              file.path());
@@ -218,17 +218,20 @@ TEST_CASE("what passes share changes no picture") {
         CHECK(unshared.counts.hidden_pixels == 0);
         CHECK(unshared.counts.spared_pixels == 0);
         std::vector<std::pair<std::string, Sharing>> ways = Sharing::each();
-        ways.emplace_back("everything", Sharing{});
+        ways.emplace_back("everything", Sharing::all());
         for (const auto& [name, sharing] : ways) {
             request.sharing = sharing;
             const Frame frame = renderer.render(request);
             CAPTURE(name);
-            // Isosurfaces are looked for in other pieces of rays where these end at a surface.
             double largest = 0;
+            std::size_t n_differ = 0;
             for (std::size_t i = 0; i < frame.color.size(); ++i) {
                 largest = std::max(largest, std::abs(frame.color[i] - unshared.color[i]));
+                n_differ += frame.color[i] != unshared.color[i] ? 1 : 0;
             }
-            CHECK(largest <= (sharing.depths ? 5e-7 : 0.0));
+            CAPTURE(largest, n_differ);
+            // Crossings are refined from other pieces of rays.
+            CHECK(largest <= (sharing.depths ? 1e-6 : 0));
             CHECK(frame.element == unshared.element);
             CHECK((frame.counts.hidden_pixels > 0) == sharing.depths);
             CHECK((frame.counts.spared_pixels > 0) == sharing.parts);
