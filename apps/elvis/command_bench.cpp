@@ -103,8 +103,12 @@ void say(const BenchArguments& arguments, const char* format, ...) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure speed, memory and accuracy on scenes that anyone can repeat");
     auto arguments = std::make_shared<BenchArguments>();
-    std::vector<std::string> suites{"unit", "cut-plane", "boundary", "isosurface", "segments", "volume", "hierarchy", "jacobian", "roots",
-                                    "surfaces", "projection", "volume-convergence", "accuracy", "all"};
+    std::vector<std::string> suites{"unit", "hierarchy", "jacobian", "roots", "accuracy", "all"};
+    for (const Suite& suite : drawing_suites()) {
+        if (std::ranges::find(suites, suite.name) == suites.end()) {
+            suites.emplace_back(suite.name);
+        }
+    }
     command
         ->add_option("suite", arguments->suite,
                      "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces, projection, "
