@@ -1,6 +1,6 @@
 #include "crash_report.hpp"
 
-#include <core/plugin_host/host_services.hpp>
+#include <core/plugin_host/current_call.hpp>
 
 #include <unistd.h>
 
@@ -22,11 +22,11 @@ void write_text(const char* text) {
 }
 
 void on_crash(int signal) {
-    if (const char* plugin = HostServices::current_plugin()) {
+    if (const char* plugin = current_call::plugin()) {
         write_text("elvis: the plugin ");
         write_text(plugin);
         write_text(" crashed in its function ");
-        write_text(HostServices::current_function());
+        write_text(current_call::function());
         write_text("; nothing was saved (elvis check-plugin tells more about it)\n");
     }
     // The handler was taken away when it was entered: the signal now does what it would have done.

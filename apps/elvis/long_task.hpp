@@ -21,7 +21,10 @@ namespace elvis::commands {
 inline std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-/** Ctrl-C and a polite kill ask the task to stop instead of ending the process, as long as this lives. */
+/**
+ * Ctrl-C and a polite kill ask the task to stop instead of ending the process, as long as this lives. The second one ends the
+ * process at once: a plugin or a driver may not return.
+ */
 class InterruptGuard {
 public:
     explicit InterruptGuard(TaskControl& control)
@@ -40,7 +43,17 @@ public:
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
 private:
-    static void on_signal(int) { interrupted = true; }
+    static void on_signal(int signal) {
+        if (interrupted.exchange(true)) {
+            std::signal(signal, SIG_DFL);
+            ::raise(signal);
+            return;
+        }
+        constexpr std::string_view text = "\nelvis: stopping; once more to stop at once\n";
+        if ([[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, text.data(), text.size()); n < 0) {
+            return; // Nobody is left to be told.
+        }
+    }
 
     void (*m_previous_interrupt)(int);
     void (*m_previous_terminate)(int);

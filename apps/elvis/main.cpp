@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "crash_report.hpp"
+#include "hang_report.hpp"
 
 #include <core/base/error.hpp>
 #include <core/base/log.hpp>
@@ -77,5 +78,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     elvis::report_crashes();
+    elvis::report_hangs();
     return run(argc, argv);
 }

@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/plugin_host/current_call.hpp>
 #include <core/plugin_host/host_services.hpp>
 
 #include <spdlog/spdlog.h>
@@ -16,13 +17,6 @@ struct PluginError {
 
 /** What the plugin said last on this thread: calls may run at the same time on several. */
 thread_local PluginError last_error;
-
-struct CurrentCall {
-    const char* plugin = nullptr;
-    const char* function = nullptr;
-};
-
-thread_local CurrentCall current_call;
 
 const HostServices& services(const elvis_host* host) { return *static_cast<const HostServices*>(host->context); }
 
@@ -64,9 +58,11 @@ HostServices::HostServices(std::string plugin_id, const TaskControl* control)
     m_table.abi_version = ELVIS_ABI_VERSION;
     m_table.context = this;
     m_table.log = [](const elvis_host* host, elvis_log_level level, const char* message) {
+        current_call::give_sign();
         spdlog::log(log_level(level), "{}: {}", services(host).m_plugin_id, message ? message : "");
     };
     m_table.report_progress = [](const elvis_host* host, double fraction, const char* activity) {
+        current_call::give_sign();
         if (const TaskControl* task = services(host).m_control) {
             task->progress(fraction, activity ? activity : "");
         }
@@ -82,15 +78,12 @@ HostServices::HostServices(std::string plugin_id, const TaskControl* control)
 
 void HostServices::begin(const char* function) const {
     last_error = {};
-    current_call = {m_plugin_id.c_str(), function};
+    current_call::begin(m_plugin_id.c_str(), function);
 }
-
-const char* HostServices::current_plugin() { return current_call.plugin; }
-const char* HostServices::current_function() { return current_call.function; }
 
 void HostServices::check(elvis_result result, const char* function, const std::string& place) const {
     const PluginError said = std::exchange(last_error, {});
-    current_call = {};
+    current_call::end();
     if (result == ELVIS_OK) {
         return;
     }

@@ -33,13 +33,9 @@ public:
 
     /**
      * Before a call of a plugin's function: forgets the error text that this thread's earlier calls left, and remembers the
-     * function for the message of a crash. check() ends the call.
+     * function for reports of crashes and hangs (current_call.hpp). check() ends the call.
      */
     void begin(const char* function) const;
-
-    /** Plugin and function that this thread is in, or null. Safe in a signal handler. */
-    static const char* current_plugin();
-    static const char* current_function();
 
     /**
      * Throws for anything but ELVIS_OK: Cancelled, or an Error that names plugin, function and what the plugin said. `place` is

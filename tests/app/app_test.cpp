@@ -352,3 +352,11 @@ TEST_CASE("A plane that misses the volume is a stated empty picture") {
     CHECK_THAT(outcome.err, Catch::Contains("nothing is hit"));
     CHECK(nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["hit_pixels"] == 0);
 }
+
+TEST_CASE("a plugin that crashes is named before the program ends") {
+    const Workplace place;
+    place.write("probe-crash.cube", "");
+    const Outcome outcome = place.run("info probe-crash.cube", "ELVIS_PLUGIN_PATH='" ELVIS_FIXTURES "'");
+    CHECK(outcome.status != 0);
+    CHECK_THAT(outcome.err, Catch::Contains("the plugin org.elvis.test.troubled crashed in its function probe"));
+}

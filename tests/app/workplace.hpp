@@ -55,9 +55,9 @@ public:
     void write(const std::string& name, const std::string& text) const { std::ofstream(m_folder / name) << text; }
     fs::path path(const std::string& name) const { return m_folder / name; }
 
-    Outcome run(const std::string& arguments) const {
+    Outcome run(const std::string& arguments, const std::string& environment = "") const {
         const std::string command =
-            "cd '" + m_folder.string() + "' && '" ELVIS_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
+            "cd '" + m_folder.string() + "' && " + environment + " '" ELVIS_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(m_folder / "out.txt"), read_file(m_folder / "err.txt")};
     }

@@ -3,11 +3,13 @@
  */
 #include "fixtures.hpp"
 
+#include <core/plugin_host/current_call.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <sstream>
 #include <thread>
 
@@ -66,4 +68,36 @@ TEST_CASE("each thread hears the error of its own call") {
     fail_often(2);
     other.join();
     CHECK(n_wrong == 0);
+}
+
+TEST_CASE("a call that gives no sign is named, as long as it lasts") {
+    using namespace std::chrono_literals;
+    const auto silence = [] {
+        const auto silent = current_call::silent_for(0ms);
+        REQUIRE(silent.size() == 1);
+        CHECK(silent[0].plugin == "org.elvis.test.slow");
+        CHECK(silent[0].function == "open");
+        return silent[0].silence;
+    };
+    current_call::begin("org.elvis.test.slow", "open");
+    std::this_thread::sleep_for(300ms);
+    const auto before = silence();
+    CHECK(before >= 300ms);
+    std::thread([&] { CHECK(silence() >= before); }).join();
+    current_call::give_sign();
+    CHECK(silence() < before);
+    CHECK(current_call::silent_for(1h).empty());
+    current_call::end();
+    CHECK(current_call::silent_for(0ms).empty());
+}
+
+TEST_CASE("the calls of a plugin's functions are under way while they last") {
+    TaskControl control;
+    std::vector<current_call::SilentCall> calls;
+    control.on_progress = [&](double, std::string_view) { calls = current_call::silent_for(std::chrono::milliseconds(0)); };
+    const RuntimeVolume volume(Plugin::load(fixture("good")), "a.cube", {}, &control);
+    REQUIRE(calls.size() == 1);
+    CHECK(calls[0].plugin == "org.elvis.test.good");
+    CHECK(calls[0].function == "open");
+    CHECK(current_call::silent_for(std::chrono::milliseconds(0)).empty());
 }
