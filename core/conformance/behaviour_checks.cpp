@@ -1,7 +1,7 @@
 /**
  * @file behaviour_checks.cpp
- * Checks of how GLSL snippets behave: in single precision, outside the element, at NaN; whether they end and write their
- * outputs.
+ * Checks of how GLSL snippets behave: in single precision, outside the element, at NaN; whether they end, write their outputs
+ * and stay within their arrays.
  */
 #include <core/base/error.hpp>
 #include <core/conformance/device_check_tools.hpp>
@@ -107,24 +107,29 @@ void check_outside(Context& context) {
     }
 }
 
-void check_hostile_points(Context& context) {
-    const RuntimeVolume volume = open_volume(context);
-    DeviceSampler sampler(volume, context.subject().device, Precision::float32);
-    sampler.select(0, 0);
+std::vector<SamplePoint> hostile_points(const RuntimeVolume& volume, std::uint64_t seed) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double nan = std::nan("");
     std::vector<SamplePoint> points;
-    for (const std::uint64_t element : some_elements(volume, 2, context.subject().seed)) {
+    for (const std::uint64_t element : some_elements(volume, 2, seed)) {
         for (const Point& xi :
              {Point{nan, nan, nan}, Point{nan, 0, 0}, Point{0, nan, 0}, Point{0, 0, nan}, Point{infinity, 0, 0},
               Point{0, -infinity, 0}, Point{0, 0, infinity}, Point{1e30, -1e30, 1e30}, Point{1e6, 1e6, 1e6}}) {
             points.push_back({element, xi, 0});
         }
     }
+    return points;
+}
+
+void check_hostile_points(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    DeviceSampler sampler(volume, context.subject().device, Precision::float32);
+    sampler.select(0, 0);
+    const std::vector<SamplePoint> points = hostile_points(volume, context.subject().seed);
     // First with loops that are counted and left, so that no device hangs; then as it is.
     context.progress("the snippet at NaN, infinite and huge xi, with counted loops");
     SampleOptions options;
-    options.poisons_outputs = true;
+    options.is_debug_build = true;
     const auto samples = sampler.sample(points, options);
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (samples[i].is_endless != 0) {
@@ -144,7 +149,7 @@ void check_outputs(Context& context) {
     const auto points = sample_points(volume, context.subject().seed, volume.fields()[0].n_components, true);
     SampleOptions options;
     options.with_hessians = (capabilities_of(volume) & (ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN)) != 0;
-    options.poisons_outputs = true;
+    options.is_debug_build = true;
     context.progress("functions whose outputs begin as nonsense");
     const auto samples = sampler.sample(points, options);
     Complaints complaints(context);
@@ -175,6 +180,33 @@ void check_outputs(Context& context) {
         }
         if ((has & ELVIS_SNIPPET_MAPPING_HESSIAN) != 0 && is_poisoned(s.hessian_position.data(), 39)) {
             complain("elvis_mapping_hessian", "x, jacobian or hessians");
+        }
+    }
+}
+
+void check_indices(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    DeviceSampler sampler(volume, context.subject().device, Precision::float64);
+    sampler.select(0, 0);
+    auto points = sample_points(volume, context.subject().seed, volume.fields()[0].n_components, true);
+    // Newton's iterations and rays go outside; a point on a face may be off it by rounding.
+    for (std::size_t i = points.size(); i-- > 0;) {
+        SamplePoint outside = points[i];
+        for (double& coordinate : outside.xi) {
+            coordinate *= 1.5;
+        }
+        points.push_back(outside);
+    }
+    const std::vector<SamplePoint> hostile = hostile_points(volume, context.subject().seed);
+    points.insert(points.end(), hostile.begin(), hostile.end());
+    SampleOptions options;
+    options.is_debug_build = true;
+    context.progress("indices of arrays and records");
+    const auto samples = sampler.sample(points, options);
+    Complaints complaints(context);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (samples[i].bad_index_line != 0) {
+            complaints.add(place(volume, points[i]) + ": " + text_of_bad_index(samples[i]));
         }
     }
 }
@@ -214,6 +246,7 @@ std::vector<Check> behaviour_checks() {
         {"snippet-outside", "outside the reference shape the snippet gives the natural extension", check_outside},
         {"snippet-hostile", "the snippet comes to an end at NaN, infinite and huge reference points", check_hostile_points},
         {"snippet-outputs", "functions write all of their outputs", check_outputs},
+        {"snippet-indices", "indices of arrays, vectors and records are in range, outside the shape and at NaN, too", check_indices},
         {"snippet-offset", "with the capability FIELD_OFFSET the field lacks the offset", check_field_offset},
     };
 }

@@ -42,6 +42,12 @@ const RuntimeVolume& need_fields(const RuntimeVolume& volume) {
 
 } // namespace
 
+std::string text_of_bad_index(const Sample& sample) {
+    return "index " + std::to_string(static_cast<std::int64_t>(sample.bad_index)) + " in line " +
+           std::to_string(static_cast<int>(sample.bad_index_line)) + " of the snippet, of " +
+           std::to_string(static_cast<std::int64_t>(sample.bad_index_limit)) + " entries";
+}
+
 DeviceSampler::DeviceSampler(const RuntimeVolume& volume, const std::string& device, Precision precision)
     : m_device(device), m_volume(need_fields(volume)), m_precision(precision),
       m_on_device(need_float64(m_device), volume, precision, nullptr) {}
@@ -52,14 +58,14 @@ void DeviceSampler::select(std::uint32_t field, std::uint32_t time_step, double 
 }
 
 const ComposedKernel& DeviceSampler::kernel(std::uint32_t element_class, const SampleOptions& options) const {
-    auto& kernel = m_kernels[{element_class, options.with_hessians, options.poisons_outputs}];
+    auto& kernel = m_kernels[{element_class, options.with_hessians, options.is_debug_build}];
     if (!kernel) {
         KernelRequest request;
         request.name = "conformance class " + std::to_string(element_class);
         request.kernel = "kernels/conformance.comp";
         request.precision = m_precision;
         request.with_second_derivatives = options.with_hessians;
-        request.poisons_outputs = options.poisons_outputs;
+        request.is_debug_build = options.is_debug_build;
         m_on_device.add_field(request, element_class);
         for (SnippetInstance& instance : request.instances) {
             replace_by_name(instance.snippet, m_replacements);

@@ -47,19 +47,26 @@ struct Sample {
     Point hessian_position;
     Matrix hessian_jacobian;
     std::array<Matrix, 3> mapping_hessians;
-    /** 1 if a loop of the snippet went on beyond reason; found only with poisons_outputs. */
+    /** 1 if a loop of the snippet went on beyond reason; found only with is_debug_build. */
     double is_endless;
     /** How many numbers elvis_debug was given by elvis_field_value and elvis_mapping, and the first of them; with
-     * poisons_outputs. */
+     * is_debug_build. */
     double n_debug;
     std::array<double, 15> debug;
+    /** The first index out of range, with is_debug_build: line in its file, 0 if there is none; index; number of entries. */
+    double bad_index_line;
+    double bad_index;
+    double bad_index_limit;
 };
-static_assert(sizeof(Sample) == 102 * sizeof(double));
+static_assert(sizeof(Sample) == 105 * sizeof(double));
+
+/** "index 7 in line 12 of the snippet, of 4 entries" */
+std::string text_of_bad_index(const Sample& sample);
 
 struct SampleOptions {
     bool with_hessians = false;
-    /** Outputs of the snippet's functions begin as `poison`, and loops are counted (core/shader/poison.hpp). */
-    bool poisons_outputs = false;
+    /** The snippet is watched (KernelRequest::is_debug_build). */
+    bool is_debug_build = false;
 };
 
 class DeviceSampler {

@@ -237,7 +237,7 @@ std::vector<std::string> evaluate_at(const std::string& path, const Subject& sub
     files.front().name = fs::path(path).filename().string();
     sampler.replace_sources(std::move(files));
     SampleOptions options;
-    options.poisons_outputs = true;
+    options.is_debug_build = true;
     std::vector<std::string> lines;
     for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
         sampler.select(field, 0);
@@ -255,6 +255,12 @@ std::vector<std::string> evaluate_at(const std::string& path, const Subject& sub
             const std::string name = info.name + (info.n_components > 1 ? "[" + std::to_string(component) + "]" : "");
             lines.push_back("elvis_field_value of " + name + " = " + text_of(sample.value));
             lines.push_back("elvis_field_gradient of " + name + " = " + text_of(sample.gradient));
+            if (sample.is_endless != 0) {
+                lines.push_back("    a loop takes more than 50000 turns");
+            }
+            if (sample.bad_index_line != 0) {
+                lines.push_back("    " + text_of_bad_index(sample));
+            }
             const auto n_said = static_cast<std::size_t>(sample.n_debug);
             for (std::size_t i = 0; i < std::min(n_said, sample.debug.size()); ++i) {
                 lines.push_back("    elvis_debug " + std::to_string(i) + ": " + text_of(sample.debug[i]));

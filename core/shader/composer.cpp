@@ -5,6 +5,7 @@
 #include <core/shader/fetch.hpp>
 #include <core/shader/glsl_scan.hpp>
 #include <core/shader/includes.hpp>
+#include <core/shader/index_checks.hpp>
 #include <core/shader/poison.hpp>
 #include <core/shader/snippet_check.hpp>
 
@@ -134,13 +135,14 @@ IncludeResolver resolver(const Snippet& snippet) {
 class InstanceWriter {
 public:
     InstanceWriter(const KernelRequest& request, std::size_t index, const Records& records)
-        : m_instance(request.instances[index]), m_host_buffers(request.buffers), m_suffix(suffix(index)), m_records(records) {
+        : m_instance(request.instances[index]), m_host_buffers(request.buffers), m_suffix(suffix(index)),
+          m_is_debug_build(request.is_debug_build), m_records(records) {
         const Snippet& snippet = m_instance.snippet;
         check_snippet(snippet);
         m_snippet_text = expand_includes(snippet.sources.front().text, snippet.sources.front().name, resolver(snippet));
         m_snippet_names = scan_glsl(m_snippet_text);
-        if (request.poisons_outputs) {
-            m_snippet_text = poison_outputs(m_snippet_text, m_snippet_names);
+        if (m_is_debug_build) {
+            m_snippet_text = check_indices(poison_outputs(m_snippet_text, m_snippet_names));
         }
         std::string defaults = "#include \"library/reference_shape.glsl\"\n";
         constexpr std::uint32_t second_derivatives = ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN;
@@ -266,7 +268,8 @@ private:
     std::string buffer_macros() const {
         std::string text;
         for (const FetchBuffer& buffer : m_instance.buffers) {
-            text += fetch_undefs(buffer.name) + fetch_macros(buffer.name, *buffer.records, m_records.number(buffer.records));
+            text += fetch_undefs(buffer.name) +
+                    fetch_macros(buffer.name, *buffer.records, m_records.number(buffer.records), m_is_debug_build);
         }
         return text;
     }
@@ -277,7 +280,7 @@ private:
         for (const FetchBuffer& buffer : m_instance.buffers) {
             text += fetch_undefs(buffer.name);
             if (const FetchBuffer* host = host_buffer(buffer.name)) {
-                text += fetch_macros(host->name, *host->records, m_records.number(host->records));
+                text += fetch_macros(host->name, *host->records, m_records.number(host->records), m_is_debug_build);
             }
         }
         return text;
@@ -286,6 +289,7 @@ private:
     const SnippetInstance& m_instance;
     const std::vector<FetchBuffer>& m_host_buffers;
     std::string m_suffix;
+    bool m_is_debug_build;
     const Records& m_records;
     std::string m_snippet_text;
     GlslNames m_snippet_names;
@@ -327,10 +331,10 @@ std::string compose(const Device* device, const KernelRequest& request, const Re
         binding += records.all()[number]->n_parts();
     }
     for (const FetchBuffer& buffer : request.buffers) {
-        text += fetch_macros(buffer.name, *buffer.records, records.number(buffer.records));
+        text += fetch_macros(buffer.name, *buffer.records, records.number(buffer.records), request.is_debug_build);
     }
-    if (request.poisons_outputs) {
-        text += poison_declarations;
+    if (request.is_debug_build) {
+        text += std::string(poison_declarations) + index_declarations;
     }
     text += instances_text(request, records);
     text += expand_includes(request.text, "(" + request.name + ")", shader_source);

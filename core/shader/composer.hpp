@@ -75,8 +75,9 @@ struct KernelRequest {
     std::string text;
     /** Whether elvis_field_hessian and elvis_mapping_hessian are called; without it they need not exist. */
     bool with_second_derivatives = false;
-    /** Outputs of the snippets' interface functions begin as 2^100 (core/shader/poison.hpp), to find those never written. */
-    bool poisons_outputs = false;
+    /** Snippets are watched: outputs never written, loops without end (core/shader/poison.hpp), indices out of range
+     * (core/shader/index_checks.hpp). */
+    bool is_debug_build = false;
     Precision precision = Precision::float32;
     std::vector<SnippetInstance> instances;
     /** Record buffers of the host, visible to library and kernel. */

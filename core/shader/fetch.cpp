@@ -127,12 +127,17 @@ std::string fetch_functions(const Device& device, const RecordBuffer& records, s
     return FetchWriter(device, records, number).write(first_binding);
 }
 
-std::string fetch_macros(const std::string& name, const RecordBuffer& records, std::uint32_t number) {
+std::string fetch_macros(const std::string& name, const RecordBuffer& records, std::uint32_t number, bool is_debug_build) {
     const bool is_uint = records.kind() == RecordKind::uint;
     const std::string n = std::to_string(number);
-    return "#define elvis_fetch_" + name + "(record, index) " + (is_uint ? "uint" : "elvis_real") + "(core_number_" + n +
-           "(record, index))\n#define elvis_fetch4_" + name + "(record, row) " + (is_uint ? "uvec4" : "elvis_vec4") +
-           "(core_row_" + n + "(record, row))\n";
+    const auto index = [&](const std::string& parameter, std::uint64_t limit) {
+        return is_debug_build ? "core_index(" + parameter + ", " + unsigned_literal(limit) + ", __LINE__)" : parameter;
+    };
+    const std::string record = index("record", records.n_records());
+    return "#define elvis_fetch_" + name + "(record, index) " + (is_uint ? "uint" : "elvis_real") + "(core_number_" + n + "(" +
+           record + ", " + index("index", records.record_size()) + "))\n#define elvis_fetch4_" + name + "(record, row) " +
+           (is_uint ? "uvec4" : "elvis_vec4") + "(core_row_" + n + "(" + record + ", " +
+           index("row", (records.record_size() + 3) / 4) + "))\n";
 }
 
 std::string fetch_undefs(const std::string& name) {

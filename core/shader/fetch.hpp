@@ -27,8 +27,11 @@ std::string fetch_helpers();
 std::string fetch_functions(const Device& device, const RecordBuffer& records, std::uint32_t number,
                             std::uint32_t first_binding);
 
-/** #defines of elvis_fetch_NAME and elvis_fetch4_NAME for record buffer `number`, giving elvis_real or uint. */
-std::string fetch_macros(const std::string& name, const RecordBuffer& records, std::uint32_t number);
+/**
+ * #defines of elvis_fetch_NAME and elvis_fetch4_NAME for record buffer `number`, giving elvis_real or uint. In a debug build,
+ * record and index pass through core_index (core/shader/index_checks.hpp).
+ */
+std::string fetch_macros(const std::string& name, const RecordBuffer& records, std::uint32_t number, bool is_debug_build);
 
 /** The #undefs that belong to them. */
 std::string fetch_undefs(const std::string& name);

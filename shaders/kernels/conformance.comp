@@ -9,7 +9,7 @@ struct core_point {
 };
 
 // Numbers a point; the order is that of core/conformance/device_sampler.hpp.
-#define CORE_N_NUMBERS 102u
+#define CORE_N_NUMBERS 105u
 
 layout(set = 0, binding = 0, std430) readonly buffer core_points_block { core_point core_points[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer core_results_block { double core_results[]; };
@@ -86,6 +86,9 @@ void main() {
     core_write_matrix(first + 76u, hessian_z);
 #ifdef CORE_DEBUG_BUILD
     core_results[first + 85u] = core_is_endless ? 1.0LF : 0.0LF;
+    core_results[first + 102u] = double(core_bad_index_line);
+    core_results[first + 103u] = core_bad_index;
+    core_results[first + 104u] = core_bad_index_limit;
 #else
     core_results[first + 85u] = 0.0LF;
 #endif

@@ -36,7 +36,8 @@ constexpr const char* glsl_defects[] = {
     "glsl-syntax",       "glsl-name",          "glsl-float-only", "glsl-single",       "glsl-shift",
     "glsl-transposed",   "glsl-pair",          "glsl-gradient",   "glsl-hessian",      "glsl-mapping-hessian",
     "glsl-inverse",      "glsl-inverse-false", "glsl-newton",     "glsl-cancellation", "glsl-nan-outside",
-    "glsl-jump-outside", "glsl-endless",       "glsl-unset",      "glsl-no-offset"};
+    "glsl-jump-outside", "glsl-endless",       "glsl-unset",      "glsl-no-offset",    "glsl-index",
+    "glsl-record"};
 
 std::int64_t glsl_defect() {
     for (std::size_t i = 0; i < std::size(glsl_defects); ++i) {

@@ -79,6 +79,15 @@ elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component) {
         angle *= elvis_real(0.5LF);
     }
     value += elvis_real(0) * angle;
+#elif DEFECTIVE_DEFECT == 20
+    elvis_real powers[3];
+    powers[0] = elvis_real(1);
+    for (int i = 1; i < 3; ++i) {
+        powers[i] = xi.x * powers[i - 1];
+    }
+    value += elvis_real(0) * powers[int(elvis_real(1.5LF) * (elvis_real(1) + xi.x))];
+#elif DEFECTIVE_DEFECT == 21
+    value += elvis_real(0) * elvis_fetch_scale(element, xi.x > elvis_real(0.9LF) ? 4u : 0u);
 #endif
 #if DEFECTIVE_DEFECT == 19
     return value;

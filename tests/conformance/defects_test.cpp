@@ -93,6 +93,8 @@ constexpr Planted all_planted[] = {
     {"snippet-outside", "glsl-jump-outside"},
     {"snippet-hostile", "glsl-endless"},
     {"snippet-outputs", "glsl-unset"},
+    {"snippet-indices", "glsl-index"},
+    {"snippet-indices", "glsl-record"},
     {"snippet-offset", "glsl-no-offset"},
     {"source-description", "source-bits"},
     {"source-pieces", "source-piece"},

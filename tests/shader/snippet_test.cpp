@@ -6,6 +6,7 @@
 #include <core/shader/compiler.hpp>
 #include <core/shader/composer.hpp>
 #include <core/shader/glsl_scan.hpp>
+#include <core/shader/index_checks.hpp>
 #include <core/shader/poison.hpp>
 #include <core/shader/snippet_check.hpp>
 
@@ -89,11 +90,31 @@ TEST_CASE("The debug build poisons every output and counts every loop with brace
     CHECK(n_counts == 3);
 }
 
+TEST_CASE("The debug build checks indices of what is declared by name, and keeps lines") {
+    const std::string text = "const elvis_real table[4] = elvis_real[4](1, 2, 3, 4);\n"
+                             "elvis_real value(int i, elvis_mat3 m, elvis_real given[2]) {\n"
+                             "    uvec3 word = uvec3(0);\n"
+                             "    elvis_real first[2] = elvis_real[2](1, 2), local[SIZE]; // local[i] in a comment\n"
+                             "    local[3] = s.local[i] + m[i][1] + m[0][i + 1];\n"
+                             "    return table[word[i]] + first[i] + given[unknown[i]];\n"
+                             "}\n";
+    const std::string checked = check_indices(text);
+    CHECK(contains(checked, "table[4] = elvis_real[4](1"));
+    CHECK(contains(checked, "local[SIZE]; // local[i] in"));
+    CHECK(contains(checked, "local[3] = s.local[i] + m[core_index(i, m.length(), __LINE__)][1] + "
+                            "m[0][core_index(i + 1, m[0].length(), __LINE__)];"));
+    CHECK(contains(checked, "table[core_index(word[core_index(i, word.length(), __LINE__)], table.length(), __LINE__)]"));
+    CHECK(contains(checked, "first[2] = elvis_real[2](1, 2), local[SIZE];"));
+    CHECK(contains(checked, "first[core_index(i, first.length(), __LINE__)]"));
+    CHECK(contains(checked, "given[core_index(unknown[i], given.length(), __LINE__)]"));
+    CHECK(std::count(checked.begin(), checked.end(), '\n') == std::count(text.begin(), text.end(), '\n'));
+}
+
 TEST_CASE("A snippet's debug build compiles without a device") {
     KernelRequest request;
     request.name = "debug build";
     request.kernel = "kernels/conformance.comp";
-    request.poisons_outputs = true;
+    request.is_debug_build = true;
     SnippetInstance instance;
     instance.snippet = test::simple_snippet();
     instance.constants = {};
