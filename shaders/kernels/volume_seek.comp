@@ -31,6 +31,7 @@ layout(push_constant) uniform core_parameters {
 #include "library/driver_limit.glsl"
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
+#include "library/chain_start.glsl"
 
 // Turns of a ray, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
@@ -98,7 +99,11 @@ void main() {
             }
             for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
                 const elvis_real begin = is_first ? max(elvis_real(span.x), from) : elvis_real(span.x);
-                is_searching = core_part_begin(ray, node.child, begin, min(elvis_real(span.y), begin + ray.reach), false, part);
+                const elvis_real end = min(elvis_real(span.y), begin + ray.reach);
+                const bool is_around_eye = is_first && elvis_real(span.x) <= from;
+                const bool is_taken = !is_first && core_first_element + node.child == state.start_element && from > pixel_ray.least_t;
+                const bool may_start = is_around_eye || core_may_start(ray, node.child, begin, end, is_first ? begin : from, is_taken);
+                is_searching = core_part_begin(ray, node.child, begin, end, false, part) && may_start;
                 has_entered = false;
             }
         }
