@@ -130,7 +130,7 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
     follower.x = is_sound ? clamp(found.x, -limit, limit) : follower.x;
     follower.y = is_sound ? clamp(found.y, -limit, limit) : follower.y;
     follower.z = is_sound ? clamp(found.z, -limit, limit) : follower.z;
-    for (uint turn = 0u; turn < (is_stuck || (is_found && !is_there) ? 1u : 0u); ++turn) {
+    if (is_stuck || (is_found && !is_there)) {
         core_predict(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known + follower.at));
     }
     const bool is_given_up = follower.all_steps >= CORE_SAMPLE_MOST_STEPS;

@@ -128,7 +128,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
     integral.middle_value = is_middle ? value : integral.middle_value;
     integral.middle_slope = is_middle ? slope : integral.middle_slope;
     integral.wants = is_left ? CORE_WANTS_RIGHT : CORE_WANTS_MIDDLE;
-    for (uint turn = 0u; turn < (is_middle ? 1u : 0u); ++turn) {
+    if (is_middle) {
         const elvis_real n_parts = elvis_real(1u << integral.level), step = (integral.to - integral.from) / n_parts;
         const elvis_real width = step * per_parameter;
         const core_optics left = integral.left, middle = integral.middle, right = integral.right;

@@ -88,7 +88,8 @@ elvis_real core_integral_span(core_integral integral) {
 #define CORE_ONE_FIFTH elvis_real(0.2LF)
 
 struct core_fitted {
-    core_polynomial p;
+    // In the Bernstein basis, and by powers of the step's parameter.
+    core_polynomial p, powers;
     elvis_real error;
 };
 
@@ -114,9 +115,15 @@ core_fitted core_fit_step(core_integral integral, bool with_inner, bool is_line)
     fitted.p.c[3] = elvis_real(0.5LF) * CORE_ONE_FIFTH * (c3 + elvis_real(6) * c2 + elvis_real(3) * c1 + shift + rest * tilt);
     fitted.p.c[4] = CORE_ONE_FIFTH * (elvis_real(2) * c3 + elvis_real(3) * c2);
     fitted.p.c[5] = c3;
-    // Powers of the step's parameter, and from them the Chebyshev coefficients from the second on.
     const elvis_real level = shift - at * tilt;
     const elvis_real a2 = square + level, a3 = cubic - elvis_real(2) * level + tilt, a4 = level - elvis_real(2) * tilt;
+    fitted.powers.c[0] = c0;
+    fitted.powers.c[1] = width * integral.left_slope;
+    fitted.powers.c[2] = a2;
+    fitted.powers.c[3] = a3;
+    fitted.powers.c[4] = a4;
+    fitted.powers.c[5] = tilt;
+    // From them the Chebyshev coefficients from the second on.
     const elvis_real second = abs(a2 * elvis_real(0.125LF) + a3 * elvis_real(0.1875LF) + a4 * elvis_real(0.21875LF) + tilt * elvis_real(0.234375LF));
     const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
     const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
@@ -178,9 +185,9 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         uint n_breakpoints = 0u;
         elvis_real missed = elvis_real(0);
         work += CORE_WORK_A_STEP;
-        for (uint turn = 0u; turn < (is_tried ? 1u : 0u); ++turn) {
+        if (is_tried) {
             const elvis_real most = is_exhausted ? CORE_FAR : light.error + allowed;
-            core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed, held, n_breakpoints,
+            core_add_polynomial(next, fitted.p, fitted.powers, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed, held, n_breakpoints,
                                 missed, work);
         }
         // The rest is not of the polynomial's making.
@@ -213,5 +220,8 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         integral.has_left = integral.has_left || is_good;
         has_inner = false;
         is_line = false;
+        if (integral.wants != CORE_WANTS_NOTHING || integral.left >= integral.to) {
+            break;
+        }
     }
 }
