@@ -171,9 +171,8 @@ void main() {
         follower.enough = enough;
         bool is_broken = false, is_no_number = false, is_fresh = true, is_dismissed = false;
         while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
-            // Until all lanes have theirs, so that what follows is done for all of them together.
-            elvis_real value = elvis_real(0), slope = value, error = value, bend = value;
-            bool is_running = true;
+            // Until all lanes have what they need, so that what follows is done for all of them together.
+            bool is_running = core_integral_wants_sample(integral);
             while (is_running) {
                 work += CORE_WORK_A_SAMPLE;
                 const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
@@ -183,18 +182,23 @@ void main() {
                 is_no_number = is_nan;
                 n_failures += has_failed ? 1u : 0u;
                 flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
-                value = result.value;
-                slope = result.slope;
-                error = result.error;
-                bend = result.bend;
-                is_running = !is_broken && result.status != CORE_SAMPLE_FOUND;
                 // The first evaluation at an end of the part may tell that there is nothing in all of it.
                 const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
                 if (is_all) {
-                    const elvis_real other = value + follower.span * slope, beyond = bend + error;
-                    is_dismissed = core_is_level(elvis_vec2(min(value, other) - beyond, max(value, other) + beyond), held);
+                    const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+                    is_dismissed = core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
                 }
-                is_running = is_running && !is_dismissed;
+                const bool is_found = !is_broken && !is_dismissed && result.status == CORE_SAMPLE_FOUND;
+                if (is_found) {
+                    is_fresh = false;
+                    core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance,
+                                      ahead, held, work);
+                    core_follow_to(follower, core_integral_at(integral));
+                    follower.span = core_integral_span(integral);
+                    follower.enough = enough;
+                }
+                is_running = !is_broken && !is_dismissed && core_integral_wants_sample(integral) &&
+                             (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral));
                 if (!is_running) {
                     break;
                 }
@@ -203,13 +207,14 @@ void main() {
             if (is_dismissed) {
                 core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
             }
-            if (!(is_broken || is_dismissed)) {
-                is_fresh = false;
-                core_integral_add(integral, light, value, slope, error, bend, ray.speed, tolerance, ahead, held, work);
+#if CORE_INTEGRATOR == CORE_INTEGRATOR_EXACT
+            if (!is_broken && !is_dismissed) {
+                core_integral_settle(integral, light, ray.speed, tolerance, ahead, held, work);
                 core_follow_to(follower, core_integral_at(integral));
                 follower.span = core_integral_span(integral);
                 follower.enough = enough;
             }
+#endif
             if (integral.wants == CORE_WANTS_NOTHING || is_broken || is_dismissed) {
                 break;
             }
