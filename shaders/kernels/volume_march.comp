@@ -62,6 +62,10 @@ layout(push_constant) uniform core_parameters {
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 48u
 #define CORE_WORK_LIMIT 800u
+#ifndef CORE_BEGINS_AT_END
+#define CORE_BEGINS_AT_END 0
+#define CORE_SETTLES 0
+#endif
 #ifndef CORE_WORK_A_SAMPLE
 #define CORE_WORK_A_SAMPLE 1u
 #endif
@@ -170,6 +174,24 @@ void main() {
         follower.span = core_integral_span(integral);
         follower.enough = enough;
         bool is_broken = false, is_no_number = false, is_fresh = true, is_dismissed = false;
+#if CORE_BEGINS_AT_END
+        // Where the ray leaves the mapping has been evaluated.
+        if (integral.wants != CORE_WANTS_NOTHING) {
+            const core_ray_sample result = core_sample_predicted(part, core_integral_at(integral), follower.span, enough);
+            n_evaluations += 1u;
+            const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+            const bool is_all = abs(follower.span) >= until - from && result.is_known && core_skips_by_range != 0u;
+            is_dismissed =
+                is_all && core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+            if (!is_dismissed && result.status == CORE_SAMPLE_FOUND) {
+                core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead,
+                                  held, work);
+                core_follow_to(follower, core_integral_at(integral));
+                follower.span = core_integral_span(integral);
+                follower.enough = enough;
+            }
+        }
+#endif
         while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
             // Until all lanes have what they need, so that what follows is done for all of them together.
             bool is_running = core_integral_wants_sample(integral);
@@ -182,12 +204,14 @@ void main() {
                 is_no_number = is_nan;
                 n_failures += has_failed ? 1u : 0u;
                 flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
+#if !CORE_BEGINS_AT_END
                 // The first evaluation at an end of the part may tell that there is nothing in all of it.
                 const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
                 if (is_all) {
                     const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
                     is_dismissed = core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
                 }
+#endif
                 const bool is_found = !is_broken && !is_dismissed && result.status == CORE_SAMPLE_FOUND;
                 if (is_found) {
                     is_fresh = false;
@@ -204,10 +228,7 @@ void main() {
                 }
             }
             work = subgroupMax(work);
-            if (is_dismissed) {
-                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
-            }
-#if CORE_INTEGRATOR == CORE_INTEGRATOR_EXACT
+#if CORE_SETTLES
             if (!is_broken && !is_dismissed) {
                 core_integral_settle(integral, light, ray.speed, tolerance, ahead, held, work);
                 core_follow_to(follower, core_integral_at(integral));
@@ -218,6 +239,9 @@ void main() {
             if (integral.wants == CORE_WANTS_NOTHING || is_broken || is_dismissed) {
                 break;
             }
+        }
+        if (is_dismissed) {
+            core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
         }
         n_empty += is_dismissed ? 1u : 0u;
         n_steps += integral.n_steps;

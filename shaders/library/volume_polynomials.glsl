@@ -19,6 +19,10 @@
 //
 // The kernel brings library/volume_exact.glsl.
 
+// The end of the segment is wanted first, which may tell that there is nothing in it.
+#define CORE_BEGINS_AT_END 1
+// Some work is left for when samples are there.
+#define CORE_SETTLES 1
 #define CORE_WANTS_NOTHING 0u
 #define CORE_WANTS_RIGHT 1u
 #define CORE_WANTS_LEFT 2u
