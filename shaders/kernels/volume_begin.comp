@@ -23,7 +23,7 @@ void main() {
     state.start_element = state.element = CORE_NO_ELEMENT;
     state.status = CORE_RAY_SEEKS;
     state.flags = 0u;
-    for (uint turn = 0u; turn < (pixel < core_n_pixels ? 1u : 0u); ++turn) {
+    if (pixel < core_n_pixels) {
         core_states[pixel] = state;
     }
 }

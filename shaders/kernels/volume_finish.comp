@@ -22,14 +22,14 @@ void main() {
     const core_volume_state state = core_states[min(pixel, core_n_pixels - 1u)];
     const bool is_drawn = is_inside && state.left < elvis_real(1);
     const bool is_inexact = state.error > elvis_real(core_tolerance);
-    for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
+    if (is_drawn) {
         // Colours are not multiplied by opacity, so that an opaque background stays what it is; light is.
         const elvis_vec4 under = core_colors[pixel];
         const elvis_real rest = under.w * state.left, alpha = elvis_real(1) - state.left + rest;
         const elvis_vec3 light = elvis_vec3(state.red, state.green, state.blue) + rest * under.xyz;
         core_colors[pixel] = elvis_vec4(alpha > elvis_real(0) ? light / alpha : under.xyz, alpha);
     }
-    for (uint turn = 0u; turn < (is_inside ? 1u : 0u); ++turn) {
+    if (is_inside) {
         core_marks[pixel].flags |= state.flags | (state.status == CORE_RAY_ENDS ? 0u : CORE_FLAG_WORK_LIMIT) | (is_inexact ? CORE_FLAG_VOLUME_TOLERANCE : 0u);
     }
     const uint all_drawn = subgroupAdd(is_drawn ? 1u : 0u);

@@ -62,6 +62,10 @@ layout(push_constant) uniform core_parameters {
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 48u
 #define CORE_WORK_LIMIT 800u
+#ifndef CORE_BEGINS_AT_END
+#define CORE_BEGINS_AT_END 0
+#define CORE_SETTLES 0
+#endif
 #ifndef CORE_WORK_A_SAMPLE
 #define CORE_WORK_A_SAMPLE 1u
 #endif
@@ -126,8 +130,11 @@ void main() {
             ending = core_part_turn(ray, true, part);
             n_mappings += 1u;
             work += 1u;
+            if (ending != CORE_PART_OPEN) {
+                break;
+            }
         }
-        for (uint turn = 0u; turn < (part.has_failed ? 1u : 0u); ++turn) {
+        if (part.has_failed) {
             core_leave_roughly(ray, chain, part);
             flags |= CORE_FLAG_UNDECIDED;
             ending = CORE_PART_FOUND;
@@ -146,7 +153,7 @@ void main() {
         // What lies between.
         const bool has_segment = is_met && from < until;
         const bool is_level = core_is_level(core_level_range(part, from, until), held) && has_segment && core_skips_by_range != 0u;
-        for (uint turn = 0u; turn < (is_level ? 1u : 0u); ++turn) {
+        if (is_level) {
             core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
         }
         n_segments += has_segment ? 1u : 0u;
@@ -167,10 +174,27 @@ void main() {
         follower.span = core_integral_span(integral);
         follower.enough = enough;
         bool is_broken = false, is_no_number = false, is_fresh = true, is_dismissed = false;
+#if CORE_BEGINS_AT_END
+        // Where the ray leaves the mapping has been evaluated.
+        if (integral.wants != CORE_WANTS_NOTHING) {
+            const core_ray_sample result = core_sample_predicted(part, core_integral_at(integral), follower.span, enough);
+            n_evaluations += 1u;
+            const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+            const bool is_all = abs(follower.span) >= until - from && result.is_known && core_skips_by_range != 0u;
+            is_dismissed =
+                is_all && core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+            if (!is_dismissed && result.status == CORE_SAMPLE_FOUND) {
+                core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead,
+                                  held, work);
+                core_follow_to(follower, core_integral_at(integral));
+                follower.span = core_integral_span(integral);
+                follower.enough = enough;
+            }
+        }
+#endif
         while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
-            // Until all lanes have theirs, so that what follows is done for all of them together.
-            elvis_real value = elvis_real(0), slope = value, error = value, bend = value;
-            bool is_running = true;
+            // Until all lanes have what they need, so that what follows is done for all of them together.
+            bool is_running = core_integral_wants_sample(integral);
             while (is_running) {
                 work += CORE_WORK_A_SAMPLE;
                 const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
@@ -180,37 +204,51 @@ void main() {
                 is_no_number = is_nan;
                 n_failures += has_failed ? 1u : 0u;
                 flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
-                value = result.value;
-                slope = result.slope;
-                error = result.error;
-                bend = result.bend;
-                is_running = !is_broken && result.status != CORE_SAMPLE_FOUND;
+#if !CORE_BEGINS_AT_END
                 // The first evaluation at an end of the part may tell that there is nothing in all of it.
                 const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
-                for (uint turn = 0u; turn < (is_all ? 1u : 0u); ++turn) {
-                    const elvis_real other = value + follower.span * slope, beyond = bend + error;
-                    is_dismissed = core_is_level(elvis_vec2(min(value, other) - beyond, max(value, other) + beyond), held);
+                if (is_all) {
+                    const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+                    is_dismissed = core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
                 }
-                is_running = is_running && !is_dismissed;
+#endif
+                const bool is_found = !is_broken && !is_dismissed && result.status == CORE_SAMPLE_FOUND;
+                if (is_found) {
+                    is_fresh = false;
+                    core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance,
+                                      ahead, held, work);
+                    core_follow_to(follower, core_integral_at(integral));
+                    follower.span = core_integral_span(integral);
+                    follower.enough = enough;
+                }
+                is_running = !is_broken && !is_dismissed && core_integral_wants_sample(integral) &&
+                             (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral));
+                if (!is_running) {
+                    break;
+                }
             }
             work = subgroupMax(work);
-            for (uint turn = 0u; turn < (is_dismissed ? 1u : 0u); ++turn) {
-                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
-            }
-            for (uint turn = 0u; turn < (is_broken || is_dismissed ? 0u : 1u); ++turn) {
-                is_fresh = false;
-                core_integral_add(integral, light, value, slope, error, bend, ray.speed, tolerance, ahead, held, work);
+#if CORE_SETTLES
+            if (!is_broken && !is_dismissed) {
+                core_integral_settle(integral, light, ray.speed, tolerance, ahead, held, work);
                 core_follow_to(follower, core_integral_at(integral));
                 follower.span = core_integral_span(integral);
                 follower.enough = enough;
             }
+#endif
+            if (integral.wants == CORE_WANTS_NOTHING || is_broken || is_dismissed) {
+                break;
+            }
+        }
+        if (is_dismissed) {
+            core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
         }
         n_empty += is_dismissed ? 1u : 0u;
         n_steps += integral.n_steps;
         n_breakpoints += integral.n_breakpoints;
         flags |= has_segment && core_is_model_estimated(local) ? CORE_FLAG_ESTIMATED : 0u;
         // What is no number hides all behind it, in a colour of its own.
-        for (uint turn = 0u; turn < (is_no_number ? 1u : 0u); ++turn) {
+        if (is_no_number) {
             core_add_light(light, elvis_vec3(1, 0, 1), elvis_real(0));
         }
 
@@ -226,7 +264,7 @@ void main() {
         // Elements on both sides of a face that the ray grazes may hand it to and fro.
         const bool is_stuck = leave - from <= elvis_real(4) * ray.tolerance;
         const bool is_lost = !is_over && (!is_met || part.leave_face < 0 || (is_stuck && n_lost >= CORE_MOST_GRAZES));
-        for (uint turn = 0u; turn < (is_lost ? 1u : 0u); ++turn) {
+        if (is_lost) {
             const elvis_real probe = chain + elvis_real(4) * exp2(float(min(n_lost, 30u))) * ray.tolerance;
             uint other;
             const uint found = core_find_around(ray, local, probe, other);
@@ -239,11 +277,14 @@ void main() {
         goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;
         // Lanes wait for each other.
         work = work_before + subgroupMax(work - work_before);
+        if (!goes) {
+            break;
+        }
     }
     const bool is_cut_short = core_has_driver_given_up(core_zero);
     const bool seeks = status == CORE_RAY_SEEKS;
     flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
-    for (uint turn = 0u; turn < (is_mine ? 1u : 0u); ++turn) {
+    if (is_mine) {
         state.done = done;
         state.step = step;
         state.chain = seeks ? CORE_FAR : chain;

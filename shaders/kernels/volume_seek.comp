@@ -31,6 +31,7 @@ layout(push_constant) uniform core_parameters {
 #include "library/driver_limit.glsl"
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
+#include "library/chain_start.glsl"
 
 // Turns of a ray, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
@@ -91,15 +92,22 @@ void main() {
             const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
             const vec2 span = core_box_span(node, pixel_ray);
             const bool is_touched = !is_behind && span.x <= span.y && span.y >= float(from) && span.x <= float(best);
-            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && !node.is_leaf) {
                 stack[stack_size] = node.child + 1u;
                 stack[stack_size + 1u] = node.child;
                 stack_size += 2u;
             }
-            for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && node.is_leaf) {
                 const elvis_real begin = is_first ? max(elvis_real(span.x), from) : elvis_real(span.x);
-                is_searching = core_part_begin(ray, node.child, begin, min(elvis_real(span.y), begin + ray.reach), false, part);
+                const elvis_real end = min(elvis_real(span.y), begin + ray.reach);
+                const bool is_around_eye = is_first && elvis_real(span.x) <= from;
+                const bool is_taken = !is_first && core_first_element + node.child == state.start_element && from > pixel_ray.least_t;
+                const bool may_start = is_around_eye || core_may_start(ray, node.child, begin, end, is_first ? begin : from, is_taken);
+                is_searching = core_part_begin(ray, node.child, begin, end, false, part) && may_start;
                 has_entered = false;
+            }
+            if (is_searching || (stack_size == 0u && entry >= n_entries)) {
+                break;
             }
         }
         // A start that is not the one wanted is followed to where the ray leaves.
@@ -114,7 +122,7 @@ void main() {
         const bool is_tied = abs(part.enter - state.start) <= elvis_real(2) * ray.tolerance;
         const bool is_after = is_first || (is_tied ? element > state.start_element : part.enter > state.start);
         bool is_start = false;
-        for (uint turn = 0u; turn < (is_entry && is_after ? 1u : 0u); ++turn) {
+        if (is_entry && is_after) {
             is_start = is_at_eye || core_enters_chain(part, ray);
         }
         const bool is_better = is_start && (part.enter < best || (part.enter == best && element < best_element));
@@ -123,13 +131,16 @@ void main() {
         const bool goes_on = ending == CORE_PART_FOUND && !is_start && part.resume < part.last;
         const elvis_real resume = max(part.resume, part.leave) + ray.tolerance;
         is_searching = is_searching && !is_start && ending == CORE_PART_OPEN;
-        for (uint turn = 0u; turn < (goes_on ? 1u : 0u); ++turn) {
+        if (goes_on) {
             is_searching = core_part_begin(ray, part.element, resume, part.last, false, part);
             has_entered = false;
         }
+        if (!is_searching && stack_size == 0u && entry >= n_entries) {
+            break;
+        }
     }
     const bool is_cut_short = is_searching || stack_size > 0u || entry < n_entries || core_has_driver_given_up(core_zero);
-    for (uint turn = 0u; turn < (is_mine ? 1u : 0u); ++turn) {
+    if (is_mine) {
         core_states[pixel].status = CORE_RAY_HAS_SOUGHT;
         core_states[pixel].chain = best;
         core_states[pixel].element = best_element;

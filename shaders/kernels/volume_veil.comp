@@ -21,7 +21,7 @@ void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const uint safe = min(pixel, core_n_pixels - 1u);
     const bool is_seen = pixel < core_n_pixels && core_layer_depths[safe] < core_depths[safe];
-    for (uint turn = 0u; turn < (is_seen ? 1u : 0u); ++turn) {
+    if (is_seen) {
         const core_volume_state state = core_states[pixel];
         const elvis_vec4 color = core_layer_colors[pixel];
         core_light light = core_light(state.red, state.green, state.blue, state.left, state.error);

@@ -101,6 +101,7 @@ void core_leave_roughly(core_walk_ray ray, elvis_real from, inout core_part part
     part.enter_error = elvis_real(0);
     part.leave = leave;
     part.leave_face = leave_face;
+    part.step = elvis_real(3e38LF);
     part.is_estimated = true;
 }
 

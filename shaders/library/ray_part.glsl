@@ -62,6 +62,8 @@ struct core_part {
     elvis_real resume;
     // The last prediction, from which the next point comes.
     elvis_real x, y, z, slope_x, slope_y, slope_z, anchor;
+    // Length of the step that led to it, and rounding of its coordinates.
+    elvis_real step, noise;
     elvis_real curvature;
     uint turns;
 };
@@ -114,6 +116,8 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     part.slope_y = is_linearized ? model.slope.y : elvis_real(0);
     part.slope_z = is_linearized ? model.slope.z : elvis_real(0);
     part.anchor = begin;
+    part.step = elvis_real(3e38LF);
+    part.noise = elvis_real(0);
     part.turns = 0u;
     return is_possible;
 }
@@ -238,6 +242,8 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     part.slope_y = is_sound ? model.slope.y : part.slope_y;
     part.slope_z = is_sound ? model.slope.z : part.slope_z;
     part.anchor = is_sound ? model.anchor : part.anchor;
+    part.step = is_sound ? core_model_step(model, model.anchor) : part.step;
+    part.noise = is_sound ? core_max_norm(model.noise) : part.noise;
 
     const bool is_given_up = part.turns >= CORE_PART_TURNS;
     const bool is_found = was_inside && (has_left || is_given_up);

@@ -31,7 +31,7 @@ struct core_follower {
 struct core_ray_sample {
     uint status;
     // Of the field at the parameter, its change with it, and its error.
-    elvis_real value, slope, error;
+    elvis_real value, slope, error, slope_error;
     // How far the field may be from the line through value and slope, over the follower's span.
     elvis_real bend;
     bool is_known;
@@ -62,34 +62,23 @@ void core_follow_to(inout core_follower follower, elvis_real goal) {
     core_predict(follower, goal);
 }
 
-// One evaluation.
-core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
-    core_ray_sample result;
-    elvis_real x = follower.x, y = follower.y, z = follower.z;
+// The field at a point of the ray that is off by result.beyond at most, and how far it may be from a line over the span. `step`: of Newton's
+// method that led there; `far_step`: that to the farthest point of the span. The change of the point with the parameter is that where the
+// step began.
+void core_sample_field(uint element, elvis_vec3 point, elvis_real step, elvis_real far_step, elvis_real curvature, elvis_real span,
+                       inout core_ray_sample result) {
+    elvis_real x = point.x, y = point.y, z = point.z;
+    // Or at the nearest point of the shape.
     core_project(x, y, z);
     result.xi = elvis_vec3(x, y, z);
-    elvis_vec3 position;
-    elvis_mat3 jacobian;
-    elvis_mapping_jacobian(element, result.xi, position, jacobian);
-    const elvis_vec3 shift = CORE_CENTRE - elvis_origin(element), way = follower.at * ray.direction;
-    result.frame = core_frame_at(position, jacobian,
-                                 ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(way)));
-    result.q = core_to_xi(result.frame, ((shift - position) + ray.origin) + way);
-    result.w = core_to_xi(result.frame, ray.direction);
-    result.rounding = core_max_norm(result.frame.xi_error);
-    const elvis_vec3 found = result.xi + result.q;
-    const elvis_real change = core_max_norm(found - elvis_vec3(follower.x, follower.y, follower.z));
-    const elvis_real step = core_max_norm(result.q);
-    // Where the bound says nothing, two predictions that agree do, as in library/newton.glsl.
-    result.beyond = min(core_prediction_error(curvature, step), change) + result.rounding;
-
-    const elvis_vec3 far = result.q + follower.span * result.w;
-    const elvis_real reach = max(step, core_max_norm(far));
+    result.q = point - result.xi;
+    const elvis_real outside = core_max_norm(result.q);
+    const elvis_vec3 far = result.q + span * result.w;
     core_patch region;
     region.corner0 = region.corner1 = result.q;
     region.corner2 = region.corner3 = far;
     region.beyond = result.beyond;
-    region.radius = reach + result.beyond;
+    region.radius = max(outside, core_max_norm(far)) + result.beyond;
     elvis_real value;
     const core_model model = core_shown_model(element, result.xi, region, value);
     result.gradient = model.slope;
@@ -99,22 +88,54 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
     result.value = result.is_known ? model.value + dot(model.slope, result.q) : value;
     result.slope = dot(model.slope, result.w);
     // Remainders go with the square of the distance, but for rounding.
-    const elvis_real share = (step + result.beyond) / region.radius;
+    const elvis_real share = (outside + result.beyond) / region.radius;
     const elvis_real remainder = region.radius > elvis_real(0) ? model.remainder * share * share : model.remainder;
     // Without a model: what rounding alone does.
     result.error = (result.is_known ? CORE_MODEL_UP * (remainder + blur) +
-                                          (elvis_real(1) - share) * CORE_MODEL_OPERATIONS * CORE_ROUNDOFF * (abs(model.value) + size * step)
+                                          (elvis_real(1) - share) * CORE_MODEL_OPERATIONS * CORE_ROUNDOFF * (abs(model.value) + size * outside)
                                     : elvis_real(64) * CORE_ROUNDOFF * abs(value) + blur) +
                    elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
-    result.bend = result.is_known ? model.remainder + size * core_prediction_error(curvature, reach) : CORE_UNKNOWN;
-    // What the slope is off does to a polynomial over the span, which has slopes at both ends: an eighth.
-    const elvis_real slope_error = elvis_real(2) * remainder / max(step + result.beyond, elvis_real(1e-30LF)) * core_max_norm(result.w) +
-                                   elvis_real(2) * curvature * step * size * core_max_norm(result.w);
-    const bool is_enough = result.is_known && result.error + elvis_real(0.125LF) * abs(follower.span) * slope_error <= follower.enough;
-    result.is_finite = core_is_finite(value + core_max_norm(position));
+    result.bend = result.is_known ? model.remainder + size * core_prediction_error(curvature, max(step, far_step)) : CORE_UNKNOWN;
+    const elvis_real speed = core_max_norm(result.w);
+    result.slope_error = elvis_real(2) * remainder / max(outside + result.beyond, elvis_real(1e-30LF)) * speed +
+                         elvis_real(2) * curvature * step * size * speed;
+    result.is_finite = core_is_finite(value);
+}
+
+// What the slope is off does to a polynomial over the span, which has slopes at both ends: an eighth.
+bool core_sample_is_enough(core_ray_sample result, elvis_real span, elvis_real enough) {
+    return result.is_known && result.error + elvis_real(0.125LF) * abs(span) * result.slope_error <= enough;
+}
+
+// One evaluation.
+core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
+    core_ray_sample result;
+    elvis_real x = follower.x, y = follower.y, z = follower.z;
+    core_project(x, y, z);
+    const elvis_vec3 xi = elvis_vec3(x, y, z);
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, xi, position, jacobian);
+    const elvis_vec3 shift = CORE_CENTRE - elvis_origin(element), way = follower.at * ray.direction;
+    result.frame = core_frame_at(position, jacobian,
+                                 ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(way)));
+    const elvis_vec3 newton = core_to_xi(result.frame, ((shift - position) + ray.origin) + way);
+    result.w = core_to_xi(result.frame, ray.direction);
+    result.rounding = core_max_norm(result.frame.xi_error);
+    const elvis_vec3 found = xi + newton;
+    const elvis_real change = core_max_norm(found - elvis_vec3(follower.x, follower.y, follower.z));
+    const elvis_real step = core_max_norm(newton);
+    // Where the bound says nothing, two predictions that agree do, as in library/newton.glsl.
+    result.beyond = min(core_prediction_error(curvature, step), change) + result.rounding;
+
+    core_sample_field(element, found, step, core_max_norm(newton + follower.span * result.w), curvature, follower.span, result);
+    const bool is_enough = core_sample_is_enough(result, follower.span, follower.enough);
+    result.is_finite = result.is_finite && core_is_finite(core_max_norm(position));
 
     const bool is_sound = result.frame.is_sound && core_is_finite(step + core_max_norm(result.w));
-    const bool is_found = is_sound && (change <= elvis_real(4) * result.rounding || is_enough);
+    const bool has_converged = change <= elvis_real(4) * result.rounding;
+    const bool is_found = is_sound && (has_converged || is_enough);
+    result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(follower.span) * result.slope_error;
     follower.steps += 1u;
     follower.all_steps += 1u;
     const bool is_stuck = !is_found && (!is_sound || follower.steps >= CORE_SAMPLE_STEPS);
@@ -130,10 +151,28 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
     follower.x = is_sound ? clamp(found.x, -limit, limit) : follower.x;
     follower.y = is_sound ? clamp(found.y, -limit, limit) : follower.y;
     follower.z = is_sound ? clamp(found.z, -limit, limit) : follower.z;
-    for (uint turn = 0u; turn < (is_stuck || (is_found && !is_there) ? 1u : 0u); ++turn) {
+    if (is_stuck || (is_found && !is_there)) {
         core_predict(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known + follower.at));
     }
     const bool is_given_up = follower.all_steps >= CORE_SAMPLE_MOST_STEPS;
     result.status = is_there ? CORE_SAMPLE_FOUND : is_given_up ? CORE_SAMPLE_FAILED : CORE_SAMPLE_RUNNING;
+    return result;
+}
+
+// The field at the ray's point at `at`, as it is predicted from the evaluation of the mapping that found where the ray leaves: another one
+// is not needed if that was near enough, which the status says.
+core_ray_sample core_sample_predicted(core_part part, elvis_real at, elvis_real span, elvis_real enough) {
+    core_ray_sample result;
+    const elvis_real since = at - part.anchor;
+    result.w = elvis_vec3(part.slope_x, part.slope_y, part.slope_z);
+    const elvis_real speed = core_max_norm(result.w), step = part.step + abs(since) * speed;
+    const elvis_real off = core_prediction_error(part.curvature, step);
+    result.rounding = part.noise;
+    result.beyond = off + part.noise;
+    core_sample_field(part.element, elvis_vec3(part.x, part.y, part.z) + since * result.w, step, step + abs(span) * speed, part.curvature, span,
+                      result);
+    const bool is_enough = core_sample_is_enough(result, span, enough), has_converged = result.is_known && off <= elvis_real(3) * part.noise;
+    result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(span) * result.slope_error;
+    result.status = (is_enough || has_converged) && result.is_finite && step < elvis_real(1) ? CORE_SAMPLE_FOUND : CORE_SAMPLE_RUNNING;
     return result;
 }

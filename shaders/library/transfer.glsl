@@ -23,6 +23,9 @@ uint core_piece_index(elvis_real value) {
         const bool is_below = core_breakpoints[middle] <= value;
         first = is_below ? middle + 1u : first;
         last = is_below ? last : middle;
+        if (first >= last) {
+            break;
+        }
     }
     return first;
 }
@@ -63,7 +66,7 @@ core_transfer_piece core_piece_of(core_held_piece held) {
 
 void core_hold_value(inout core_held_piece held, elvis_real value) {
     const bool is_held = value >= held.lower && value < held.upper;
-    for (uint turn = 0u; turn < (is_held ? 0u : 1u); ++turn) {
+    if (!is_held) {
         held = core_hold_piece(core_piece_index(value));
     }
 }

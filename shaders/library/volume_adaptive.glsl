@@ -49,6 +49,7 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
 
 // All of a segment is done at once.
 bool core_integral_may_stop(core_integral integral) { return false; }
+bool core_integral_wants_sample(core_integral integral) { return integral.wants != CORE_WANTS_NOTHING; }
 elvis_real core_integral_done(core_integral integral) { return integral.from; }
 elvis_real core_integral_step(core_integral integral) { return CORE_FAR; }
 elvis_real core_integral_span(core_integral integral) { return elvis_real(0); }
@@ -128,7 +129,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
     integral.middle_value = is_middle ? value : integral.middle_value;
     integral.middle_slope = is_middle ? slope : integral.middle_slope;
     integral.wants = is_left ? CORE_WANTS_RIGHT : CORE_WANTS_MIDDLE;
-    for (uint turn = 0u; turn < (is_middle ? 1u : 0u); ++turn) {
+    if (is_middle) {
         const elvis_real n_parts = elvis_real(1u << integral.level), step = (integral.to - integral.from) / n_parts;
         const elvis_real width = step * per_parameter;
         const core_optics left = integral.left, middle = integral.middle, right = integral.right;

@@ -88,6 +88,7 @@ elvis_real core_point_weight(uint n_points, uint point) {
 
 // All of a segment is done at once.
 bool core_integral_may_stop(core_integral integral) { return false; }
+bool core_integral_wants_sample(core_integral integral) { return integral.wants != CORE_WANTS_NOTHING; }
 elvis_real core_integral_done(core_integral integral) { return integral.from; }
 elvis_real core_integral_step(core_integral integral) { return CORE_FAR; }
 elvis_real core_integral_span(core_integral integral) {
@@ -166,7 +167,7 @@ void core_add_point(inout core_integral integral, inout core_light light, elvis_
     const elvis_real red = integral.red + share * optics.red, green = integral.green + share * optics.green;
     const elvis_real blue = integral.blue + share * optics.blue;
     const bool is_last = integral.is_absorption ? integral.point + 1u >= integral.n_points : !is_inside;
-    for (uint turn = 0u; turn < (is_last ? 1u : 0u); ++turn) {
+    if (is_last) {
         core_add_light(light, elvis_vec3(red, green, blue), elvis_exp(-(integral.is_trapezoid ? depth : all_depth)));
     }
     integral.last_at = is_last ? elvis_real(0) : at;
@@ -186,7 +187,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
     const uint given = integral.wants;
     const bool is_end = given == CORE_WANTS_END, is_value = given == CORE_WANTS_VALUE;
     const elvis_real length = (integral.to - integral.from) * per_parameter;
-    for (uint turn = 0u; turn < (is_value ? 0u : 1u); ++turn) {
+    if (!is_value) {
         const elvis_real change = (is_end ? integral.from - integral.to : integral.to - integral.from) * slope;
         const elvis_real beyond = bend + error;
         const elvis_real low = value + min(change, elvis_real(0)) - beyond, high = value + max(change, elvis_real(0)) + beyond;
@@ -216,13 +217,13 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         integral.n_steps = categories.has_density ? integral.n_steps : 0u;
     }
     const elvis_real width = length / elvis_real(max(integral.n_steps, 1u));
-    for (uint turn = 0u; turn < (is_value ? 1u : 0u); ++turn) {
+    if (is_value) {
         core_add_point(integral, light, value, width);
     }
     // The end is known.
     const bool is_all = integral.wants == CORE_WANTS_VALUE && integral.panel >= integral.n_steps;
     const bool is_at_end = integral.wants == CORE_WANTS_VALUE && integral.panel + 1u == integral.n_steps && integral.point >= integral.n_points;
-    for (uint turn = 0u; turn < (is_at_end ? 1u : 0u); ++turn) {
+    if (is_at_end) {
         core_add_point(integral, light, integral.end_value, width);
     }
     integral.wants = is_all || is_at_end ? CORE_WANTS_NOTHING : integral.wants;

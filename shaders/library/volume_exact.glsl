@@ -7,7 +7,6 @@
 //
 // The kernel brings library/volume_light.glsl and the tables of degree 5 (core/segment/tables.hpp).
 
-#include "library/kronrod.glsl"
 #include "library/segment_bernstein.glsl"
 
 // Of what the kernel does in one dispatch.
@@ -22,87 +21,122 @@
 // agree (with 1/32, spheres of peaks at tolerance 1e-8 were off by up to 7e-8 in one pixel of 50000).
 #define CORE_QUADRATURE_SHARE elvis_real(0.001953125LF)
 
-// Of q dO / dt over length. `i`: literal in every call, since arrays of constants are read from memory otherwise.
-elvis_real core_weighted_at(core_polynomial q, core_transfer_piece piece, elvis_real length, int i) {
-    elvis_real value = elvis_real(0), integral = elvis_real(0);
-    for (int j = 0; j < CORE_SEGMENT_SIZE; ++j) {
-        value += core_quadrature_values[i][j] * q.c[j];
-        integral += core_quadrature_integrals[i][j] * q.c[j];
-    }
-    const elvis_real depth = length * (piece.density * core_kronrod_at[i] + piece.density_slope * integral);
-    return value * (piece.density + piece.density_slope * value) * elvis_exp(-depth);
+// Gauss' rule with three points on [0, 1], and the integrals up to these of the parabola through the values there: with these as depths
+// the outer integral is of order 6 as well (the coefficients are those of Gauss' method for differential equations; E. Hairer, S. P. Norsett, G. Wanner, Solving
+// Ordinary Differential Equations I, table II.7.4).
+#define CORE_GAUSS_AT elvis_vec3(0.11270166537925831148LF, 0.5LF, 0.88729833462074168852LF)
+#define CORE_GAUSS_WEIGHTS elvis_vec3(0.27777777777777777778LF, 0.44444444444444444444LF, 0.27777777777777777778LF)
+#define CORE_GAUSS_TO_FIRST elvis_vec3(0.13888888888888888889LF, -0.03597666752493890346LF, 0.00978944401530832605LF)
+#define CORE_GAUSS_TO_MIDDLE elvis_vec3(0.30026319498086459244LF, 0.22222222222222222222LF, -0.02248541720308681466LF)
+#define CORE_GAUSS_TO_LAST elvis_vec3(0.26798833376246945173LF, 0.48042111196938334790LF, 0.13888888888888888889LF)
+
+// exp(-depth), of a depth that is not negative: a part in 1e7 is enough, and lighter than elvis_exp.
+elvis_real core_let_through(elvis_real depth) {
+#if ELVIS_REAL_IS_DOUBLE
+    return elvis_exp(-depth);
+#else
+    const float x = max(-depth, -87.0), k = floor(x * 1.44269504 + 0.5);
+    const float r = (x - k * CORE_EXP_LN2_HIGH) - k * CORE_EXP_LN2_LOW;
+    const float tail = 0.5 + r * (0.16666667 + r * (0.041666668 + r * (0.0083333338 + r * (0.0013888889 + r * 0.00019841270))));
+    return ((1.0 + r) + r * r * tail) * intBitsToFloat((int(k) + 127) << 23);
+#endif
 }
 
-// Integral of q dO, D = length (density s + slope integral of q), over a part of the ray, by Gauss' rule; its error. `through`: exp(-D) at
-// the end.
+// The polynomial with these powers of the parameter.
+elvis_real core_power_value(core_polynomial powers, elvis_real t) {
+    elvis_real sum = powers.c[CORE_SEGMENT_DEGREE];
+    for (int i = 1; i < CORE_SEGMENT_SIZE; ++i) {
+        sum = sum * t + powers.c[CORE_SEGMENT_DEGREE - i];
+    }
+    return sum;
+}
+
+elvis_real core_power_slope(core_polynomial powers, elvis_real t) {
+    elvis_real sum = elvis_real(0);
+    for (int i = 0; i < CORE_SEGMENT_DEGREE; ++i) {
+        sum = sum * t + elvis_real(CORE_SEGMENT_DEGREE - i) * powers.c[CORE_SEGMENT_DEGREE - i];
+    }
+    return sum;
+}
+
+// Half of what its slope changes by, at most, over [0, 1].
+elvis_real core_power_bend(core_polynomial powers) {
+    elvis_real sum = elvis_real(0);
+    for (int i = 2; i < CORE_SEGMENT_SIZE; ++i) {
+        sum += elvis_real((i * (i - 1)) / 2) * abs(powers.c[i]);
+    }
+    return sum;
+}
+
+// A part of a step in one piece of the transfer function.
+struct core_faded_part {
+    // exp(-D), D the depth of all of it; the integral of (p - from) dO, and what that is off.
+    elvis_real through, weighted, missed;
+};
+
+// From `first` to `last`, which are values less the piece's `from`, over `length` of the ray, by Gauss' rule.
 //
 // The error is estimated from Simpson's rule, which needs but the ends besides. With h the part's length Simpson's error is about
 // h^5 / 2880 times the fourth derivative, Gauss' h^7 / 2016000 times the sixth: for exp(h) that is 0.08 of the 3/2th power of the other,
 // of which a few hundred times as much are taken.
-elvis_vec2 core_weighted_value(core_polynomial q, core_transfer_piece piece, elvis_real length, elvis_real through) {
-    const elvis_real first = core_weighted_at(q, piece, length, 1), middle = core_weighted_at(q, piece, length, 3);
-    const elvis_real last = core_weighted_at(q, piece, length, 5);
-    const elvis_real begin = q.c[0] * (piece.density + piece.density_slope * q.c[0]);
-    const elvis_real end = q.c[CORE_SEGMENT_DEGREE] * (piece.density + piece.density_slope * q.c[CORE_SEGMENT_DEGREE]) * through;
-    const elvis_real gauss = core_gauss_weights[1] * (first + last) + core_gauss_weights[3] * middle;
-    const elvis_real simpson = (begin + elvis_real(4) * middle + end) * elvis_real(0.16666666666666666667LF);
-    const elvis_real size = core_gauss_weights[1] * (abs(first) + abs(last)) + core_gauss_weights[3] * abs(middle);
+core_faded_part core_fade_part(core_polynomial powers, core_held_piece held, elvis_real from, elvis_real width, elvis_real first,
+                               elvis_real last, elvis_real length) {
+    const elvis_vec3 at = from + width * CORE_GAUSS_AT;
+    const elvis_vec3 q = elvis_vec3(core_power_value(powers, at.x), core_power_value(powers, at.y), core_power_value(powers, at.z)) -
+                         held.from;
+    const elvis_vec3 density = held.density + held.density_slope * q;
+    const elvis_vec3 through = elvis_vec3(core_let_through(max(length * dot(CORE_GAUSS_TO_FIRST, density), elvis_real(0))),
+                                          core_let_through(max(length * dot(CORE_GAUSS_TO_MIDDLE, density), elvis_real(0))),
+                                          core_let_through(max(length * dot(CORE_GAUSS_TO_LAST, density), elvis_real(0))));
+    core_faded_part part;
+    part.through = core_let_through(max(length * dot(CORE_GAUSS_WEIGHTS, density), elvis_real(0)));
+    const elvis_vec3 inside = q * density * through;
+    const elvis_real begin = first * (held.density + held.density_slope * first);
+    const elvis_real end = last * (held.density + held.density_slope * last) * part.through;
+    const elvis_real gauss = dot(CORE_GAUSS_WEIGHTS, inside);
+    const elvis_real simpson = (begin + elvis_real(4) * inside.y + end) * elvis_real(0.16666666666666666667LF);
+    const elvis_real size = dot(CORE_GAUSS_WEIGHTS, abs(inside));
     const elvis_real differ = abs(gauss - simpson), ratio = elvis_real(8) * differ / max(size, elvis_real(1e-30LF));
-    return length * elvis_vec2(gauss, min(elvis_real(0.5LF) * differ, size * ratio * sqrt(ratio)));
+    part.weighted = length * gauss;
+    part.missed = length * min(elvis_real(0.5LF) * differ, size * ratio * sqrt(ratio));
+    return part;
 }
 
-elvis_real core_mean(core_polynomial q) {
-    elvis_real sum = elvis_real(0);
-    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
-        sum += q.c[i];
-    }
-    return sum / elvis_real(CORE_SEGMENT_SIZE);
-}
-
-// A piece without breakpoints inside; `error`: of the field. What quadrature is off.
-elvis_real core_add_piece(inout core_light light, core_polynomial p, core_transfer_piece piece, elvis_real length, elvis_real error) {
-    core_polynomial q;
-    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
-        q.c[i] = p.c[i] - piece.from;
-    }
-    const elvis_real depth = max(length * (piece.density + piece.density_slope * core_mean(q)), elvis_real(0));
-    const elvis_real through = elvis_exp(-depth);
-    const elvis_real slope = max(max(abs(piece.color_slope.x), abs(piece.color_slope.y)), abs(piece.color_slope.z));
-    const elvis_vec2 weighted = core_weighted_value(q, piece, length, through);
-    const elvis_real missed = light.left * slope * weighted.y;
-    light.error += missed + light.left * length * piece.steepness * error;
-    core_add_light(light, (elvis_real(1) - through) * piece.color + weighted.x * piece.color_slope, through);
-    return missed;
-}
-
-// Where a polynomial that is on both sides of the value at the ends of [0, 1], or on it at the second, comes to it, within `error` of the
-// value.
-elvis_real core_meet(core_polynomial p, elvis_real value, elvis_real error) {
-    elvis_real a = elvis_real(0), b = elvis_real(1), fa = p.c[0] - value, fb = p.c[CORE_SEGMENT_DEGREE] - value;
-    elvis_real x = abs(fa) <= error ? a : b, fx = abs(fa) <= error ? fa : fb;
-    for (uint turn = 0u; turn < CORE_MEETING_TURNS && abs(fx) > error && b - a > elvis_real(4) * CORE_ROUNDOFF; ++turn) {
-        x = a + (b - a) * (fa / (fa - fb));
-        fx = core_bernstein_value(p, x) - value;
-        const bool is_first = (fx < elvis_real(0)) == (fb < elvis_real(0));
-        // An end that stays counts half from then on, so that it does not for long (the Illinois rule).
-        fa = is_first ? elvis_real(0.5LF) * fa : fx;
-        fb = is_first ? fx : elvis_real(0.5LF) * fb;
-        a = is_first ? a : x;
-        b = is_first ? x : b;
+// Where a polynomial comes to the value, within `error` of it, between points on both sides of it, the first below if it `rises`; by Newton's
+// method, or by halves where that leads out. `bend`: core_power_bend.
+elvis_real core_meet(core_polynomial powers, elvis_real value, elvis_real from, elvis_real to, bool rises, elvis_real bend,
+                     elvis_real error) {
+    elvis_real low = from, high = to, x = from;
+    bool is_found = false;
+    for (uint turn = 0u; turn < CORE_MEETING_TURNS && !is_found; ++turn) {
+        const elvis_real f = core_power_value(powers, x) - value, slope = core_power_slope(powers, x);
+        const bool is_before = rises ? f < elvis_real(0) : f > elvis_real(0), is_there = abs(f) <= error;
+        low = is_before ? x : low;
+        high = is_before ? high : x;
+        const elvis_real step = -f / slope, next = x + step;
+        const bool is_inside = next > low && next < high;
+        is_found = is_there || (is_inside && bend * step * step <= error) || high - low <= elvis_real(4) * CORE_ROUNDOFF;
+        x = is_there ? x : is_inside ? next : elvis_real(0.5LF) * (low + high);
+        if (is_found) {
+            break;
+        }
     }
     return x;
 }
 
 #if CORE_HAS_STEPS
 // How far from where it meets the value, at t, the polynomial is not off by more than `error` on both sides yet.
-elvis_real core_doubtful_width(core_polynomial p, elvis_real t, elvis_real value, elvis_real error) {
+elvis_real core_doubtful_width(core_polynomial powers, elvis_real t, elvis_real value, elvis_real error) {
     elvis_real width = elvis_real(4) * CORE_ROUNDOFF;
     bool is_doubtful = true;
     while (is_doubtful) {
-        const elvis_real before = core_bernstein_value(p, max(t - width, elvis_real(0))) - value;
-        const elvis_real after = core_bernstein_value(p, min(t + width, elvis_real(1))) - value;
+        const elvis_real before = core_power_value(powers, max(t - width, elvis_real(0))) - value;
+        const elvis_real after = core_power_value(powers, min(t + width, elvis_real(1))) - value;
         is_doubtful = min(abs(before), abs(after)) <= error && width < elvis_real(0.5LF);
         width *= elvis_real(2);
+        if (!is_doubtful) {
+            break;
+        }
     }
     return width;
 }
@@ -118,70 +152,95 @@ elvis_real core_jump_at(core_held_piece held, bool is_upper) {
 #endif
 
 // All of a polynomial, on a part of a ray of this length, that is off by `error` at most; less if light is off by more than `most` before the end.
-// `held`: the piece that holds its beginning. `missed`: what quadrature is off, not more than `allowed` in any cell.
+// `powers`: the same polynomial by powers of its parameter. `held`: the piece that holds its beginning. `missed`: what quadrature is off, not
+// more than `allowed` in any part.
 //
 // Cells in which it is monotone, or in one piece, or that do not change by more than it is off anyway, are gone through from breakpoint to
-// breakpoint; others are halved, and where quadrature is not good enough. Cells are always those of the whole polynomial, so that errors
-// do not add up.
-void core_add_polynomial(inout core_light light, core_polynomial p, elvis_real length, elvis_real error, elvis_real most, elvis_real allowed,
-                         inout core_held_piece held, inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
-    elvis_real from = elvis_real(0), to = elvis_real(1);
-    bool has_crossed = false;
+// breakpoint; others are halved, and so are parts where quadrature is not good enough. Cells are always those of the whole polynomial, so
+// that errors do not add up.
+void core_add_polynomial(inout core_light light, core_polynomial p, core_polynomial powers, elvis_real length, elvis_real error,
+                         elvis_real most, elvis_real allowed, inout core_held_piece held, inout uint n_breakpoints,
+                         inout elvis_real missed, inout uint work) {
+    const elvis_real bend = core_power_bend(powers);
+    elvis_real from = elvis_real(0), to = elvis_real(1), limit = elvis_real(1);
+    // Values at both ends of what is left of the cell; the cell's bounds.
+    elvis_real first = p.c[0], last = p.c[CORE_SEGMENT_DEGREE], least = core_least(p), greatest = core_most(p);
+    bool is_monotone = core_is_monotone(p), is_new = false, has_crossed = false;
     uint n_turns = 0u;
     while (from < elvis_real(1) && light.error <= most && n_turns < CORE_MOST_TURNS) {
         n_turns += 1u;
         work += CORE_WORK_A_TURN;
-        const core_polynomial cell = core_after(core_before(p, to), from / to);
-        const elvis_real first = cell.c[0], last = cell.c[CORE_SEGMENT_DEGREE], least = core_least(cell), size = core_most(cell) - least;
+        if (is_new) {
+            const core_polynomial cell = core_after(core_before(p, to), from / to);
+            last = cell.c[CORE_SEGMENT_DEGREE];
+            least = core_least(cell);
+            greatest = core_most(cell);
+            is_monotone = core_is_monotone(cell);
+        }
         const bool rises = last > first;
-        const bool is_whole = least - error >= held.lower && (least + size) + error < held.upper;
-        const bool is_smallest = to - from <= CORE_SMALLEST_CELL, is_small = size <= elvis_real(2) * error || is_smallest;
-        const bool is_simple = is_whole || is_small || core_is_monotone(cell);
+        const bool is_whole = least - error >= held.lower && greatest + error < held.upper;
+        const bool is_smallest = min(to - from, limit) <= CORE_SMALLEST_CELL;
+        const bool is_small = (is_monotone ? abs(last - first) : greatest - least) <= elvis_real(2) * error || is_smallest;
+        const bool is_simple = is_whole || is_small || is_monotone;
         const elvis_real next = rises ? held.upper : held.lower;
         const bool meets = is_simple && !is_whole && (rises ? last >= next : last < next);
-        elvis_real share = elvis_real(1);
-        for (uint turn = 0u; turn < (meets ? 1u : 0u); ++turn) {
-            share = core_meet(cell, next, elvis_real(0.25LF) * error);
+        elvis_real until = to;
+        if (meets) {
+            until = core_meet(powers, next, from, to, rises, bend, elvis_real(0.25LF) * error);
         }
-        const elvis_real left = light.left;
-        core_light with = light;
-        const elvis_real miss = core_add_piece(with, core_before(cell, share), core_piece_of(held), share * (to - from) * length, error);
+        const bool is_limited = until - from > limit;
+        until = is_limited ? from + limit : until;
+        const elvis_real width = until - from, end = core_power_value(powers, until), part_length = width * length;
+        const core_faded_part part =
+            core_fade_part(powers, held, from, width, first - held.from, end - held.from, part_length);
+        const elvis_real color_slope = max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
+        const elvis_real left = light.left, miss = left * color_slope * part.missed, of_field = left * part_length * held.steepness * error;
         // Quadrature need not be better than the field.
-        const bool is_good = miss <= max(allowed, elvis_real(0.25LF) * (with.error - light.error)) || is_smallest;
-        const bool is_done = is_simple && is_good, crosses = is_done && meets;
-        light.red = is_done ? with.red : light.red;
-        light.green = is_done ? with.green : light.green;
-        light.blue = is_done ? with.blue : light.blue;
-        light.left = is_done ? with.left : light.left;
-        light.error = is_done ? with.error : light.error;
+        const bool is_good = miss <= max(allowed, elvis_real(0.25LF) * (miss + of_field)) || is_smallest;
+        const bool is_done = is_simple && is_good, crosses = is_done && meets && !is_limited;
+        const elvis_real absorbed = is_done ? left * (elvis_real(1) - part.through) : elvis_real(0);
+        const elvis_real weighted = is_done ? left * part.weighted : elvis_real(0);
+        light.red += absorbed * held.red + weighted * held.red_slope;
+        light.green += absorbed * held.green + weighted * held.green_slope;
+        light.blue += absorbed * held.blue + weighted * held.blue_slope;
+        light.left *= is_done ? part.through : elvis_real(1);
+        light.error += is_done ? miss + of_field : elvis_real(0);
         missed += is_done ? miss : elvis_real(0);
 
         // Where it comes so near to a breakpoint the field may be on the other side: near turns and ends for as long as it likes, else on its way
         // across.
-        const elvis_real reach = (is_small ? elvis_real(3) : elvis_real(1.25LF)) * error, length_done = share * (to - from) * length;
-        const elvis_real across = min(elvis_real(4) * reach / max(abs((meets ? next : last) - first), reach), elvis_real(1));
+        const elvis_real reach = (is_small ? elvis_real(3) : elvis_real(1.25LF)) * error;
+        const elvis_real across = min(elvis_real(4) * reach / max(abs((crosses ? next : end) - first), reach), elvis_real(1));
         const bool is_doubtful = is_done && !is_whole;
         const bool touches_first = is_doubtful && (rises ? first - held.lower : held.upper - first) <= reach;
-        const bool touches_last = is_doubtful && !meets && (rises ? held.upper - last : last - held.lower) <= reach;
+        const bool touches_last = is_doubtful && !crosses && (rises ? held.upper - end : end - held.lower) <= reach;
         const elvis_real first_share = touches_first ? (has_crossed ? across : elvis_real(1)) : elvis_real(0);
         const elvis_real last_share = crosses ? across : touches_last ? elvis_real(1) : elvis_real(0);
-        light.error += left * length_done * (reach + error) * elvis_real(core_steepest) * (first_share + last_share);
+        light.error += left * part_length * (reach + error) * elvis_real(core_steepest) * (first_share + last_share);
 #if CORE_HAS_STEPS
-        for (uint turn = 0u; turn < ((touches_first && !has_crossed) || touches_last ? 1u : 0u); ++turn) {
-            light.error += left * length_done * core_jump_at(held, touches_last == rises);
+        if ((touches_first && !has_crossed) || touches_last) {
+            light.error += left * part_length * core_jump_at(held, touches_last == rises);
         }
-        for (uint turn = 0u; turn < (crosses ? 1u : 0u); ++turn) {
-            light.error += left * (to - from) * length * core_doubtful_width(cell, share, next, error) * core_jump_at(held, rises);
+        if (crosses) {
+            light.error += left * length * core_doubtful_width(powers, until, next, error) * core_jump_at(held, rises);
         }
 #endif
-        for (uint turn = 0u; turn < (crosses ? 1u : 0u); ++turn) {
+        if (crosses) {
             held = core_hold_piece(rises ? held.index + 1u : held.index - 1u);
         }
         n_breakpoints += crosses ? 1u : 0u;
         has_crossed = is_done ? crosses : has_crossed;
-        const elvis_real step = to - from, reached = from + share * step;
-        from = crosses ? min(reached, to) : is_done ? to : from;
-        to = crosses ? to : is_done ? min(to + elvis_real(2) * max(step, CORE_SMALLEST_CELL), elvis_real(1)) : from + elvis_real(0.5LF) * share * step;
+        // On, in the cell or beyond it; or back to half of the cell, or of the part.
+        const elvis_real step = to - from;
+        const bool is_beyond = is_done && !crosses && until >= to;
+        first = is_done ? end : first;
+        from = is_done ? until : from;
+        to = is_beyond ? min(to + elvis_real(2) * max(step, CORE_SMALLEST_CELL), elvis_real(1)) : is_simple ? to : from + elvis_real(0.5LF) * step;
+        limit = is_done ? min(elvis_real(2) * limit, elvis_real(1)) : is_simple ? elvis_real(0.5LF) * width : limit;
+        is_new = is_beyond || !is_simple;
+        if (from >= elvis_real(1) || light.error > most) {
+            break;
+        }
     }
     // Not all of it is there.
     const elvis_real lost = from < elvis_real(1) ? elvis_real(1) : elvis_real(0);

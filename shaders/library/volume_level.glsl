@@ -26,10 +26,15 @@ elvis_vec2 core_level_range(core_part part, elvis_real from, elvis_real until) {
 // Whether one piece of the transfer function holds all of the range, and nothing changes in it, as in empty space; that is then held.
 bool core_is_level(elvis_vec2 range, inout core_held_piece held) {
     const bool is_known = range.x <= range.y;
-    core_hold_value(held, is_known ? range.x : held.lower);
-    const elvis_real change = abs(held.red_slope) + abs(held.green_slope) + abs(held.blue_slope);
-    return is_known && range.y < held.upper && held.density_slope == elvis_real(0) &&
-           (held.density == elvis_real(0) || change == elvis_real(0));
+    core_held_piece other = held;
+    core_hold_value(other, is_known ? range.x : held.lower);
+    const elvis_real change = abs(other.red_slope) + abs(other.green_slope) + abs(other.blue_slope);
+    const bool is_level = is_known && range.y < other.upper && other.density_slope == elvis_real(0) &&
+                          (other.density == elvis_real(0) || change == elvis_real(0));
+    if (is_level) {
+        held = other;
+    }
+    return is_level;
 }
 
 void core_add_level(inout core_light light, core_transfer_piece piece, elvis_real length) {

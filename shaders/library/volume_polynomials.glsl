@@ -4,8 +4,11 @@
 //
 //     core_integral integral = core_integral_begin(from, to, per_parameter);
 //     while (integral.wants != CORE_WANTS_NOTHING) {
-//         (take a sample at core_integral_at(integral));
-//         core_integral_add(integral, ...);
+//         while (core_integral_wants_sample(integral)) {
+//             (take a sample at core_integral_at(integral));
+//             core_integral_add(integral, ...);
+//         }
+//         core_integral_settle(integral, ...);
 //     }
 //
 // The sample inside is not in the middle, so that fields that are symmetric in the element do not look simpler than they are.
@@ -16,10 +19,16 @@
 //
 // The kernel brings library/volume_exact.glsl.
 
+// The end of the segment is wanted first, which may tell that there is nothing in it.
+#define CORE_BEGINS_AT_END 1
+// Some work is left for when samples are there.
+#define CORE_SETTLES 1
 #define CORE_WANTS_NOTHING 0u
 #define CORE_WANTS_RIGHT 1u
 #define CORE_WANTS_LEFT 2u
 #define CORE_WANTS_INNER 3u
+// No sample.
+#define CORE_WANTS_TO_SETTLE 4u
 
 #define CORE_INNER_AT elvis_real(0.4375LF)
 // Steps are not made shorter than this part of the segment.
@@ -45,6 +54,8 @@ struct core_integral {
     elvis_real end_value, end_slope;
     bool has_end, has_left;
     elvis_real inner_value, inner_slope;
+    // What the next polynomial is: a quintic; a line from the right, which bounds tell how far the field may be from.
+    bool has_inner, is_line;
     uint wants;
     // Largest error of a sample, and deviation from a line over the step.
     elvis_real error, bend;
@@ -61,10 +72,18 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
     integral.end_value = integral.end_slope = integral.inner_value = integral.inner_slope = elvis_real(0);
     integral.has_end = false;
     integral.wants = from < to ? CORE_WANTS_RIGHT : CORE_WANTS_NOTHING;
-    integral.has_left = false;
+    integral.has_left = integral.has_inner = integral.is_line = false;
     integral.error = integral.bend = elvis_real(0);
     integral.n_steps = integral.n_breakpoints = 0u;
     return integral;
+}
+
+bool core_integral_wants_sample(core_integral integral) {
+    return integral.wants != CORE_WANTS_NOTHING && integral.wants != CORE_WANTS_TO_SETTLE;
+}
+
+bool core_is_shortest(core_integral integral) {
+    return integral.right - integral.left <= CORE_SHORTEST_STEP * (integral.to - integral.from);
 }
 
 // Up to where light is settled, and how long the step from there is.
@@ -88,12 +107,13 @@ elvis_real core_integral_span(core_integral integral) {
 #define CORE_ONE_FIFTH elvis_real(0.2LF)
 
 struct core_fitted {
-    core_polynomial p;
+    // In the Bernstein basis, and by powers of the step's parameter.
+    core_polynomial p, powers;
     elvis_real error;
 };
 
-// `with_inner`: a quintic. `is_line`: a line from the right, which bounds tell how far the field may be from.
-core_fitted core_fit_step(core_integral integral, bool with_inner, bool is_line) {
+core_fitted core_fit_step(core_integral integral) {
+    const bool with_inner = integral.has_inner;
     const elvis_real width = integral.right - integral.left;
     const elvis_real c0 = integral.left_value, c3 = integral.right_value;
     const elvis_real c1 = c0 + CORE_ONE_THIRD * width * integral.left_slope, c2 = c3 - CORE_ONE_THIRD * width * integral.right_slope;
@@ -114,9 +134,15 @@ core_fitted core_fit_step(core_integral integral, bool with_inner, bool is_line)
     fitted.p.c[3] = elvis_real(0.5LF) * CORE_ONE_FIFTH * (c3 + elvis_real(6) * c2 + elvis_real(3) * c1 + shift + rest * tilt);
     fitted.p.c[4] = CORE_ONE_FIFTH * (elvis_real(2) * c3 + elvis_real(3) * c2);
     fitted.p.c[5] = c3;
-    // Powers of the step's parameter, and from them the Chebyshev coefficients from the second on.
     const elvis_real level = shift - at * tilt;
     const elvis_real a2 = square + level, a3 = cubic - elvis_real(2) * level + tilt, a4 = level - elvis_real(2) * tilt;
+    fitted.powers.c[0] = c0;
+    fitted.powers.c[1] = width * integral.left_slope;
+    fitted.powers.c[2] = a2;
+    fitted.powers.c[3] = a3;
+    fitted.powers.c[4] = a4;
+    fitted.powers.c[5] = tilt;
+    // From them the Chebyshev coefficients from the second on.
     const elvis_real second = abs(a2 * elvis_real(0.125LF) + a3 * elvis_real(0.1875LF) + a4 * elvis_real(0.21875LF) + tilt * elvis_real(0.234375LF));
     const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
     const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
@@ -125,13 +151,42 @@ core_fitted core_fit_step(core_integral integral, bool with_inner, bool is_line)
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_DOUBT * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
-    fitted.error = (is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
     return fitted;
 }
 
-// A sample where one was wanted, and as much of the integral as that allows. `per_parameter`: length of the ray for its parameter.
-// `tolerance`: what each channel may be off in the end; `ahead`: how much of the ray is left at most, from `from` on. `work` grows by what
-// loops have done. Up to integral.left light is settled.
+// What a step may be off, and whether it is worth while to integrate it.
+struct core_judgement {
+    elvis_real allowed;
+    // No other sample would make it better.
+    bool is_exhausted;
+    bool is_tried;
+};
+
+// `held`: the piece that holds the step's beginning, or another one.
+core_judgement core_judge_step(core_integral integral, core_fitted fitted, core_light light, elvis_real per_parameter, elvis_real tolerance,
+                               elvis_real ahead, core_held_piece held) {
+    const elvis_real width = integral.right - integral.left;
+    // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
+    const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
+    const bool is_whole = core_least(fitted.p) - fitted.error >= held.lower && core_most(fitted.p) + fitted.error < held.upper;
+    // What cannot be good, and a cubic that is far from that, is not tried: another sample is.
+    const elvis_real worst = light.left * width * per_parameter * fitted.error;
+    core_judgement judgement;
+    judgement.allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
+    judgement.is_exhausted = integral.has_inner && (core_is_shortest(integral) || fitted.error <= elvis_real(2) * integral.error);
+    // Of a line the bound is what it may well be off.
+    const elvis_real acceptable = integral.is_line ? CORE_LINE_SHARE * judgement.allowed : judgement.allowed;
+    const bool is_hopeful =
+        is_whole ? worst * held.steepness <= acceptable
+                 : integral.has_inner ||
+                       worst * elvis_real(core_steepest) <= (integral.is_line ? acceptable : CORE_HOPELESS * judgement.allowed);
+    judgement.is_tried = is_hopeful || judgement.is_exhausted;
+    return judgement;
+}
+
+// A sample where one was wanted. `per_parameter`: length of the ray for its parameter. `tolerance`: what each channel may be off in the
+// end; `ahead`: how much of the ray is left at most, from `from` on.
 void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error, elvis_real bend,
                        elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
                        inout core_held_piece held, inout uint work) {
@@ -150,47 +205,48 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
     integral.inner_slope = is_inner ? slope : integral.inner_slope;
     integral.bend = is_right ? bend : is_left ? max(integral.bend, bend) : integral.bend;
     // A line from the first end may do, mostly not.
-    bool is_line = !integral.has_left, has_inner = is_inner;
-    const elvis_real first_share = (integral.right - integral.left) / max(ahead, integral.right - integral.left);
-    const elvis_real line_error = light.left * (integral.right - integral.left) * per_parameter * held.steepness * integral.bend;
-    const bool is_hopeless = is_line && line_error > CORE_LINE_SHARE * tolerance * max(first_share, CORE_LEAST_SHARE);
-    integral.wants = is_hopeless ? CORE_WANTS_LEFT : CORE_WANTS_NOTHING;
-    while (integral.wants == CORE_WANTS_NOTHING && integral.left < integral.to) {
+    integral.is_line = !integral.has_left;
+    integral.has_inner = is_inner;
+    const elvis_real width = integral.right - integral.left;
+    const elvis_real left_value = integral.left_value, left_slope = integral.left_slope;
+    integral.left_value = integral.is_line ? integral.right_value - width * integral.right_slope : left_value;
+    integral.left_slope = integral.is_line ? integral.right_slope : left_slope;
+    const core_judgement judgement =
+        core_judge_step(integral, core_fit_step(integral), light, per_parameter, tolerance, ahead, held);
+    integral.wants = judgement.is_tried || is_inner ? CORE_WANTS_TO_SETTLE : integral.is_line ? CORE_WANTS_LEFT : CORE_WANTS_INNER;
+}
+
+// As much of the integral as samples allow, where it wants to settle. `work` grows by what loops have done. Up to integral.left light is
+// settled.
+void core_integral_settle(inout core_integral integral, inout core_light light, elvis_real per_parameter, elvis_real tolerance,
+                          elvis_real ahead, inout core_held_piece held, inout uint work) {
+    while (integral.wants == CORE_WANTS_TO_SETTLE) {
         const elvis_real width = integral.right - integral.left;
-        // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
-        const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
-        const elvis_real allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
-        integral.left_value = is_line ? integral.right_value - width * integral.right_slope : integral.left_value;
-        integral.left_slope = is_line ? integral.right_slope : integral.left_slope;
-        const core_fitted fitted = core_fit_step(integral, has_inner, is_line);
+        const core_fitted fitted = core_fit_step(integral);
         core_hold_value(held, fitted.p.c[0]);
-        const bool is_whole = core_least(fitted.p) - fitted.error >= held.lower && core_most(fitted.p) + fitted.error < held.upper;
-        // What cannot be good, and a cubic that is far from that, is not tried: another sample is.
-        const elvis_real worst = light.left * width * per_parameter * fitted.error;
-        const bool is_shortest = width <= CORE_SHORTEST_STEP * (integral.to - integral.from);
-        const bool is_exhausted = has_inner && (is_shortest || fitted.error <= elvis_real(2) * integral.error);
-        // Of a line the bound is what it may well be off.
-        const elvis_real acceptable = is_line ? CORE_LINE_SHARE * allowed : allowed;
-        const bool is_hopeful = is_whole ? worst * held.steepness <= acceptable
-                                         : has_inner || worst * elvis_real(core_steepest) <= (is_line ? acceptable : CORE_HOPELESS * allowed);
-        const bool is_tried = is_hopeful || is_exhausted;
+        const core_held_piece beginning = held;
+        const core_judgement judgement = core_judge_step(integral, fitted, light, per_parameter, tolerance, ahead, held);
+        const elvis_real allowed = judgement.allowed;
         core_light next = light;
         uint n_breakpoints = 0u;
         elvis_real missed = elvis_real(0);
         work += CORE_WORK_A_STEP;
-        for (uint turn = 0u; turn < (is_tried ? 1u : 0u); ++turn) {
-            const elvis_real most = is_exhausted ? CORE_FAR : light.error + allowed;
-            core_add_polynomial(next, fitted.p, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed, held, n_breakpoints,
+        if (judgement.is_tried) {
+            const elvis_real most = judgement.is_exhausted ? CORE_FAR : light.error + allowed;
+            core_add_polynomial(next, fitted.p, fitted.powers, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed, held, n_breakpoints,
                                 missed, work);
         }
         // The rest is not of the polynomial's making.
         const bool is_rounding = fitted.error <= elvis_real(2) * integral.error && missed <= allowed;
-        const bool is_good = (is_tried && next.error - light.error <= allowed) || (has_inner && (is_shortest || is_rounding));
-        const bool is_shorter = !is_good && has_inner;
+        const bool is_good = (judgement.is_tried && next.error - light.error <= allowed) ||
+                             (integral.has_inner && (core_is_shortest(integral) || is_rounding));
+        const bool is_shorter = !is_good && integral.has_inner;
         integral.n_steps += is_good ? 1u : 0u;
         integral.n_breakpoints += is_good ? n_breakpoints : 0u;
         if (is_good) {
             light = next;
+        } else {
+            held = beginning;
         }
         // On: to the end, or as far again and a little more. Back: to the sample inside, without a new one.
         const elvis_real inner = integral.left + CORE_INNER_AT * width;
@@ -205,13 +261,15 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         integral.right_value = is_good && is_last && integral.has_end ? integral.end_value : is_shorter ? integral.inner_value : integral.right_value;
         integral.right_slope = is_good && is_last && integral.has_end ? integral.end_slope : is_shorter ? integral.inner_slope : integral.right_slope;
         integral.right = next_right;
-        const bool is_known = integral.left >= integral.to || (is_last && integral.has_end);
-        integral.wants = is_good ? (is_known ? CORE_WANTS_NOTHING : CORE_WANTS_RIGHT)
-                         : is_line    ? CORE_WANTS_LEFT
-                         : is_shorter ? CORE_WANTS_NOTHING
-                                      : CORE_WANTS_INNER;
+        const bool is_known = is_last && integral.has_end;
+        integral.wants = is_good ? (integral.left >= integral.to ? CORE_WANTS_NOTHING : is_known ? CORE_WANTS_TO_SETTLE : CORE_WANTS_RIGHT)
+                         : integral.is_line ? CORE_WANTS_LEFT
+                         : is_shorter       ? CORE_WANTS_TO_SETTLE
+                                            : CORE_WANTS_INNER;
         integral.has_left = integral.has_left || is_good;
-        has_inner = false;
-        is_line = false;
+        integral.has_inner = integral.is_line = false;
+        if (integral.wants != CORE_WANTS_TO_SETTLE) {
+            break;
+        }
     }
 }

@@ -35,6 +35,7 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
 
 // All of a segment is done at once.
 bool core_integral_may_stop(core_integral integral) { return false; }
+bool core_integral_wants_sample(core_integral integral) { return integral.wants != CORE_WANTS_NOTHING; }
 elvis_real core_integral_done(core_integral integral) { return integral.from; }
 elvis_real core_integral_step(core_integral integral) { return CORE_FAR; }
 elvis_real core_integral_span(core_integral integral) { return elvis_real(0); }
