@@ -35,6 +35,9 @@ layout(push_constant) uniform core_parameters {
 #define CORE_RAYS_BINDING 4
 #include "library/chain_ray.glsl"
 #include "library/driver_limit.glsl"
+#define CORE_ASSUMED_CURVATURE elvis_real(64)
+#define CORE_CERTAIN_TURNS 512u
+#define CORE_PART_TURNS 640u
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
 #include "library/chain_walk.glsl"
@@ -42,6 +45,8 @@ layout(push_constant) uniform core_parameters {
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 256u
 #define CORE_WORK_LIMIT 2500u
+// Over the tolerance of ends: how far apart parts of a chain may be where a ray runs through edges.
+#define CORE_WIDEST_BREAK 64
 
 void main() {
     const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
@@ -55,6 +60,7 @@ void main() {
     bool is_mine;
     bool goes = core_chain_begin(chain, to, CORE_RAY_ENDS, is_mine);
     elvis_real done_error = state.done_error, chain_error = state.chain_error, sum = state.sum;
+    bool is_first = is_mine && chain.at == chain.start;
     uint n_segments = state.n_segments, flags = 0u;
     uint n_elements = 0u, n_made = 0u, n_evaluations = 0u, n_overlaps = 0u, n_failures = 0u, n_estimated = 0u, n_breaks = 0u;
     core_part part;
@@ -71,11 +77,14 @@ void main() {
         n_failures += part.has_failed ? 1u : 0u;
         const elvis_real leave_error = reach.is_met ? part.leave_error : chain_error;
         const elvis_real errors = done_error + leave_error;
-        const bool is_behind = chain.at < chain.done, is_joined = chain.at - chain.done <= max(elvis_real(2) * (done_error + chain_error), ray.tolerance);
-        n_overlaps += reach.is_met && chain.at < chain.done - elvis_real(2) * (done_error + chain_error) && reach.leave - chain.at > errors ? 1u : 0u;
+        // A chain that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
+        const elvis_real rounding = elvis_real(2) * (done_error + chain_error), gap = chain.at - chain.done;
+        const bool is_joined = gap <= max(rounding, (is_first ? elvis_real(1) : elvis_real(CORE_WIDEST_BREAK)) * ray.tolerance);
+        const bool is_behind = gap < elvis_real(0);
+        n_overlaps += reach.is_met && gap < -rounding && reach.leave - chain.at > errors ? 1u : 0u;
         const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
-        // What is too short to matter is the next one's, and what is settled but for rounding nobody's.
-        const bool is_segment = reach.is_met && until - from > (is_behind ? errors : ray.tolerance);
+        // What was settled before but for rounding does not count.
+        const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
         for (uint turn = 0u; turn < (is_segment && core_capacity > 0u ? 1u : 0u); ++turn) {
             const uint word = chain.element | (part.is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
             core_segments[index * core_capacity + n_segments] =
@@ -88,6 +97,7 @@ void main() {
         chain.done = is_segment ? until : chain.done;
         done_error = is_segment ? leave_error : done_error;
         chain_error = leave_error;
+        is_first = false;
         const bool is_over = reach.is_met && reach.leave >= to;
         for (uint turn = 0u; turn < (is_over ? 0u : 1u); ++turn) {
             n_breaks += core_chain_go_on(ray, chain, part, reach, from) ? 1u : 0u;

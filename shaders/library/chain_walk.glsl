@@ -144,6 +144,10 @@ core_reach core_chain_reach(core_walk_ray ray, core_chain chain, inout core_part
         const bool is_possible = core_part_begin(ray, chain.element - core_first_element, chain.at, chain.at + ray.reach, true, part);
         ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
     }
+    for (uint turn = 0u; turn < (part.curvature > CORE_FOLLOWED_CURVATURE ? 1u : 0u); ++turn) {
+        const bool is_entered = core_part_enter(ray, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed, part);
+        ending = is_entered ? CORE_PART_OPEN : ending;
+    }
     while (ending == CORE_PART_OPEN) {
         ending = core_part_turn(ray, true, part);
     }
