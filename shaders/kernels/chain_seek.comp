@@ -36,6 +36,7 @@ layout(push_constant) uniform core_parameters {
 #include "library/driver_limit.glsl"
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
+#include "library/curved_start.glsl"
 
 // Turns of a ray, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
@@ -119,6 +120,36 @@ void main() {
                 has_entered = false;
             }
         }
+        // Where bounds tell little.
+        const bool is_curved = is_searching && part.curvature > CORE_FOLLOWED_CURVATURE;
+        for (uint turn = 0u; turn < (is_curved && is_first && part.anchor <= from ? 1u : 0u); ++turn) {
+            const bool is_in = core_part_enter(ray, elvis_real(0), part);
+            const uint element = core_first_element + part.element;
+            const bool is_better = is_in && (from < best || (from == best && element < best_element));
+            n_evaluations += part.turns;
+            best = is_better ? from : best;
+            best_element = is_better ? element : best_element;
+        }
+        for (uint attempt = 0u; attempt < (is_curved ? uint(CORE_N_FACES) * CORE_FACE_STARTS : 0u); ++attempt) {
+            const int face = int(attempt / CORE_FACE_STARTS);
+            const bool is_open = elvis_fetch_core_links(part.element, uint(face)) == CORE_NO_LINK;
+            for (uint turn = 0u; turn < (is_open ? 1u : 0u); ++turn) {
+                const core_face_entry entry = core_enter_face(ray, part.element, part.curvature, face, attempt % CORE_FACE_STARTS);
+                const uint element = core_first_element + part.element;
+                n_evaluations += entry.n_evaluations;
+                work += 1u;
+                const bool is_tied = abs(entry.t - state.start) <= elvis_real(2) * ray.tolerance;
+                const bool is_after = is_first ? entry.t >= from : is_tied ? element > state.start_element : entry.t > state.start;
+                const bool is_better =
+                    entry.is_found && is_after && (entry.t < best || (entry.t == best && element < best_element));
+                best = is_better ? entry.t : best;
+                best_element = is_better ? element : best_element;
+#if CORE_MAKES_SEGMENTS
+                best_error = is_better ? entry.error : best_error;
+#endif
+            }
+        }
+        is_searching = is_searching && !is_curved;
         // A start that is not the one wanted is followed to where the ray leaves.
         const uint ending = is_searching ? core_part_turn(ray, is_searching, part) : CORE_PART_NONE;
         n_evaluations += is_searching ? 1u : 0u;

@@ -99,7 +99,7 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     model.step = model.noise = elvis_vec3(0);
     // Points of the shape are no farther away than its radius, wherever they are predicted.
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
-    const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), begin, end);
+    const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), elvis_real(0), false, begin, end);
     const bool is_possible = clip.possible_from <= clip.possible_to && begin < end;
     const bool is_sure = is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
 
@@ -153,8 +153,10 @@ bool core_part_enter(core_walk_ray ray, elvis_real slack, inout core_part part) 
         const elvis_real noise = core_max_norm(frame.xi_error);
         elvis_real next_x = x + step.x, next_y = y + step.y, next_z = z + step.z;
         const elvis_real beyond = core_excess(next_x, next_y, next_z);
-        const bool is_there = frame.is_sound && core_max_norm(step) <= max(elvis_real(4) * noise, elvis_real(1e-5LF));
-        const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope));
+        const elvis_real size = core_max_norm(step);
+        const bool is_there = frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
+        const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope) +
+                                                             elvis_real(2) * part.curvature * size * size);
         steps += 1u;
         part.turns += 1u;
         is_found = is_there && is_in;
@@ -225,7 +227,9 @@ bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is
     part.last = end == part.last && !is_contradicted ? clip.possible_to : part.last;
     const bool is_all_inside = is_continued && clip.sure_to >= end;
     const bool is_last = is_all_inside && end >= part.last;
-    const bool is_found = is_continued && !is_all_inside && (is_exact || clip.possible_to - clip.sure_to <= ray.tolerance);
+    // Rounding may say that the ray is out already where it was surely inside.
+    const bool is_at_begin = is_exact && clip.to <= begin + error && clip.to >= begin - error && clip.from <= clip.to;
+    const bool is_found = is_at_begin || (is_continued && !is_all_inside && (is_exact || clip.possible_to - clip.sure_to <= ray.tolerance));
     const elvis_real open_begin = is_continued ? clip.sure_to : begin;
     const elvis_real open_end = is_continued ? clip.possible_to : min(clip.possible_to, elvis_real(0.5LF) * (begin + end));
     // Too short to matter, and not decided: as predicted.
@@ -234,7 +238,7 @@ bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is
     const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < part.last;
     const bool is_shrunk = open_end - open_begin <= elvis_real(0.5LF) * (end - begin);
     const bool is_over = is_contradicted || is_last || is_found || (is_short && !is_passed);
-    part.leave = is_contradicted ? begin : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
+    part.leave = is_contradicted && !is_at_begin ? begin : is_at_begin ? clip.to : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
     part.leave_error = is_found ? error : ray.tolerance;
     part.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
     part.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
@@ -282,8 +286,9 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const elvis_real along = max(max(slope.x, slope.y), slope.z) * (part.end - part.begin);
     const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
-    core_ray_clip clip =
-        core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound, part.begin, part.end);
+    const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
+    core_ray_clip clip = core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound,
+                                       core_slope_change(model, curvature, distance), part.is_inside, part.begin, part.end);
     const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
     // Where nothing is known, anything is possible.
     clip.possible_from = is_sound ? clip.possible_from : part.begin;
@@ -292,7 +297,7 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const bool was_inside = part.is_inside;
     const int face = was_inside ? clip.to_face : clip.from_face;
     const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
-    const bool is_exact = face >= 0 && error.distance <= ray.tolerance * ray.speed;
+    const bool is_exact = is_sound && face >= 0 && core_is_near(curvature, core_model_step(model, was_inside ? clip.to : clip.from)) && error.distance <= ray.tolerance * ray.speed;
     core_part entered = part, left = part;
     core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, entered);
     const bool is_denied = part.is_assumed && clip.possible_from > min(clip.possible_to, part.begin + ray.tolerance);
