@@ -55,10 +55,11 @@ elvis_real core_slope_change(core_ray_model model, elvis_real curvature, elvis_r
 }
 
 // Within [begin, end], where predictions are off by at most `error`, and slopes by `slope_change`. `is_inside`: the ray is at `begin`, so that
-// faces which it surely comes in through further on, too, do not bound what is sure. A face that the ray runs along within rounding does not bound
+// faces that it surely comes in through do not bound what is sure; `is_settled`: nor what is possible, where rounding may say that it is
+// not yet in. A face that the ray runs along within rounding does not bound
 // it: rays in a face that two elements share lie in both.
-core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real slope_change, bool is_inside, elvis_real begin,
-                            elvis_real end) {
+core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real slope_change, bool is_inside, bool is_settled,
+                            elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;
     const elvis_real tiny = elvis_real(1e-30LF);
     core_ray_clip clip = core_ray_clip(low, high, low, high, low, high, CORE_NO_FACE, CORE_NO_FACE);
@@ -82,8 +83,8 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real s
         clip.from_face = is_last_from ? face : clip.from_face;
         clip.possible_to = is_leaving ? min(clip.possible_to, outer) : clip.possible_to;
         clip.sure_to = is_leaving ? min(clip.sure_to, inner) : clip.sure_to;
-        clip.possible_from = is_leaving ? clip.possible_from : max(clip.possible_from, outer);
         const bool is_kept = is_inside && slope < -(size.x + size.y + size.z) * slope_change;
+        clip.possible_from = is_leaving || (is_kept && is_settled) ? clip.possible_from : max(clip.possible_from, outer);
         clip.sure_from = is_leaving || is_kept ? clip.sure_from : max(clip.sure_from, inner);
     }
     // The interval's ends themselves without rounding, so that they can be told.

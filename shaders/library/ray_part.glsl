@@ -99,7 +99,7 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     model.step = model.noise = elvis_vec3(0);
     // Points of the shape are no farther away than its radius, wherever they are predicted.
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
-    const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), elvis_real(0), false, begin, end);
+    const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), elvis_real(0), false, false, begin, end);
     const bool is_possible = clip.possible_from <= clip.possible_to && begin < end;
     const bool is_sure = is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
 
@@ -288,7 +288,8 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const elvis_real bound = core_prediction_error(curvature, step);
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
     core_ray_clip clip = core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound,
-                                       core_slope_change(model, curvature, distance), part.is_inside, part.begin, part.end);
+                                       core_slope_change(model, curvature, distance), part.is_inside, part.is_followed || !part.is_assumed, part.begin,
+                                       part.end);
     const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
     // Where nothing is known, anything is possible.
     clip.possible_from = is_sound ? clip.possible_from : part.begin;
