@@ -63,8 +63,8 @@ struct SegmentsResult {
     Precision precision = Precision::float32;
     double milliseconds = 0;
     std::uint64_t n_segments = 0, n_overlaps = 0, n_failures = 0, n_breaks = 0;
-    /** Evaluations of the mapping; turns of the traversal's loop. */
-    double evaluations_a_segment = 0, turns_a_segment = 0;
+    /** Evaluations of the mapping, on the way and to find where it begins. */
+    double evaluations_a_segment = 0, seek_evaluations_a_ray = 0;
 };
 void bench_segments(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
                     const std::vector<std::uint32_t>& elements_a_side, const std::vector<std::uint32_t>& sizes,

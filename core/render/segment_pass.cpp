@@ -9,29 +9,53 @@ namespace elvis {
 
 namespace {
 
+/** As in volume_pass.cpp. */
+constexpr std::uint32_t tile_height = 16, tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
-/** Rays of one dispatch, and of one batch, whose lists are in memory at once. */
-constexpr std::uint32_t rays_a_dispatch = 1u << 15;
-constexpr std::size_t rays_a_batch = 1u << 17;
-/** Segments of a ray's list; a ray that has more goes on in another dispatch. */
-constexpr std::uint32_t capacity = 32;
-/** Turns of a ray in a dispatch: with all loops inside below where drivers end them. */
-constexpr std::uint32_t turns_a_dispatch = 1000;
+/** Whose lists are in memory at once. */
+constexpr std::size_t rays_a_batch = 1u << 15;
+/** Segments of a ray's list; a ray that has more goes on when they are taken. */
+constexpr std::uint32_t list_capacity = 48;
+/** More than any ray has chains, and chains parts in different classes, and their parts take dispatches. */
+constexpr std::uint32_t most_rounds = 4096;
+constexpr std::uint32_t estimated_segment = 0x80000000u;
+/** Of shaders/library/chain_state.glsl. */
+constexpr std::uint32_t ray_seeks = 0, ray_ends = 2, no_element = 0xffffffffu;
+constexpr double far = 3e38;
+
 constexpr std::size_t n_counts = 8;
-constexpr std::uint32_t most_rounds = 64;
-constexpr std::uint32_t estimated_part = 0x80000000u;
+enum SeekCount : std::size_t { seeking, seek_evaluations };
+enum MarchCount : std::size_t { moved, segments, evaluations, overlaps, failures, estimated, breaks, full };
 
-/** Of the volume's size: how far ends may be off, with room for rounding below 1e-6 and 1e-13. */
-double tolerance(Precision precision) { return precision == Precision::float64 ? 2e-14 : 2.5e-7; }
-
-struct Parameters {
-    std::uint32_t first_ray, n_rays, capacity, n_turns, zero;
-    float wanted_from, wanted_to;
+struct TilesParameters {
+    std::uint32_t tiles_a_row, n_tiles;
 };
 
+struct SeekParameters {
+    std::uint32_t width, height;
+    std::uint32_t tiles_a_row;
+    std::uint32_t first_row;
+    std::uint32_t first_element;
+    std::uint32_t zero;
+    float extent;
+};
+
+struct MarchParameters {
+    std::uint32_t width, height;
+    std::uint32_t first_row;
+    std::uint32_t first_element, n_elements;
+    std::uint32_t capacity;
+    std::uint32_t zero;
+    float extent;
+};
+
+/** Of shaders/library/segment_state.glsl. */
 template <class Real> struct RayState {
-    Real done, done_error;
-    std::uint32_t n_segments, is_over;
+    Real done = -static_cast<Real>(far), chain = static_cast<Real>(far), start = -static_cast<Real>(far);
+    Real done_error = 0, chain_error = 0, sum = 0;
+    std::uint32_t start_element = no_element, element = no_element;
+    std::uint32_t status = ray_seeks, flags = 0;
+    std::uint32_t n_segments = 0, padding = 0;
 };
 
 template <class Real> struct SegmentRecord {
@@ -39,8 +63,26 @@ template <class Real> struct SegmentRecord {
     std::uint32_t element;
 };
 
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
+
 Vector3 rounded(const Vector3& v, Precision precision) {
     return precision == Precision::float64 ? v : Vector3{double(float(v[0])), double(float(v[1])), double(float(v[2]))};
+}
+
+template <class Call> decltype(auto) with_real(Precision precision, const Call& call) {
+    return precision == Precision::float64 ? call(double{}) : call(float{});
+}
+
+/** Adds to the list; what goes on in the same element becomes longer. */
+void append(std::vector<Segment>& list, const Segment& segment) {
+    // A part that ended early, where a bound could not be held.
+    if (!list.empty() && segment.element == list.back().element && segment.enter == list.back().leave) {
+        list.back().leave = segment.leave;
+        list.back().error = std::max(list.back().error, segment.error);
+        list.back().is_estimated = list.back().is_estimated || segment.is_estimated;
+    } else {
+        list.push_back(segment);
+    }
 }
 
 } // namespace
@@ -66,224 +108,269 @@ SegmentRay near_centre(const Vector3& eye, const Vector3& towards, const std::ar
     return ray;
 }
 
-/** A batch of rays on the device. */
+/** Rays on the device: those of a picture, or a row of them that are given. */
 struct SegmentPass::Rays {
-    std::uint32_t n_rays = 0, capacity = 0;
-    const Buffer &rays, &states, &segments;
-    const Buffer& counts;
-    std::array<double, 2> wanted{-3e38, 3e38};
+    std::uint32_t width = 0, height = 1;
+    /** 0: no lists. */
+    std::uint32_t capacity = 0;
+    const Buffer &states, &segments;
+    /** Null if the rays are those of pixels. */
+    const Buffer* given = nullptr;
+    /** By the classes in m_kernels; of pixels. */
+    std::vector<Buffer> tile_lists;
 };
 
 SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                          const std::optional<SkippedField>& skipped)
-    : m_device(device), m_data(data), m_precision(data.precision()),
-      m_frame(device, 4 * real_bytes(data.precision()), Buffer::Use::uniform) {
-    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
-        const ClassInfo& info = volume.classes()[index];
-        if (info.n_elements == 0) {
-            continue;
-        }
-        ElementLinks links = make_element_links(device, volume, index, data.hierarchy(index), data.curvatures(index),
-                                                skipped ? ranges(volume, info, *skipped) : std::vector<double>{}, m_precision);
-        KernelRequest request;
-        request.name = "segments of element class " + std::to_string(index);
-        request.kernel = "kernels/segments.comp";
-        request.precision = m_precision;
-        request.instances = {data.instance(index)};
-        request.defines = {{"CORE_SKIPS_RANGES", skipped ? "1" : "0"}};
-        request.buffers = data.host_buffers(index);
-        request.buffers.push_back({"core_links", links.links.get()});
-        request.buffers.push_back({"core_node_marks", links.node_marks.get()});
-        request.bindings = {{0, BindingType::uniform_buffer},
-                            {1, BindingType::storage_buffer},
-                            {2, BindingType::storage_buffer},
-                            {3, BindingType::storage_buffer},
-                            {4, BindingType::storage_buffer}};
-        request.push_constant_bytes = sizeof(Parameters);
-        m_kernels.push_back({std::move(links), std::make_unique<ComposedKernel>(device, request), info.first_element});
-    }
+    : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()),
+      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_skipped(skipped), m_chains(device, volume, data),
+      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {
     double square = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double side = data.bounds()[i + 3] - data.bounds()[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double side = data.bounds()[axis + 3] - data.bounds()[axis];
         square += side * side;
     }
-    m_tolerance = tolerance(m_precision) * std::sqrt(square);
-    const std::array<double, 4> frame = {data.centre()[0], data.centre()[1], data.centre()[2], m_tolerance};
-    write_reals(m_frame, m_precision, frame);
+    m_extent = std::sqrt(square);
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        const ClassInfo& info = volume.classes()[index];
+        if (info.n_elements > 0) {
+            ClassKernels kernels;
+            kernels.element_class = index;
+            kernels.first_element = info.first_element;
+            kernels.n_elements = info.n_elements;
+            m_kernels.push_back(std::move(kernels));
+        }
+    }
 }
 
-std::vector<double> SegmentPass::ranges(const RuntimeVolume& volume, const ClassInfo& info, const SkippedField& field) const {
-    if (!volume.has_field_ranges()) {
+KernelRequest SegmentPass::request_of(const ClassKernels& kernels, const char* name, bool are_given) const {
+    KernelRequest request;
+    request.name = std::string(name) + " of segments in element class " + std::to_string(kernels.element_class);
+    request.kernel = std::string("kernels/") + name + ".comp";
+    request.precision = m_precision;
+    request.instances = {m_data.instance(kernels.element_class)};
+    request.buffers = m_chains.host_buffers(kernels.element_class);
+    for (const FetchBuffer& buffer : m_data.host_buffers(kernels.element_class)) {
+        if (buffer.name != "core_nodes") {
+            request.buffers.push_back(buffer);
+        }
+    }
+    request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                       {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                       {"CORE_LEAF_WORD", "index"},
+                       {"CORE_MAKES_SEGMENTS", "1"},
+                       {"CORE_RAYS_ARE_GIVEN", are_given ? "1" : "0"}};
+    request.bindings = {{0, BindingType::uniform_buffer}};
+    return request;
+}
+
+void SegmentPass::compile(bool are_given) {
+    for (ClassKernels& kernels : m_kernels) {
+        if (kernels.march[are_given]) {
+            continue;
+        }
+        KernelRequest seek = request_of(kernels, "chain_seek", are_given), march = request_of(kernels, "segments", are_given);
+        for (std::uint32_t binding = 1; binding <= (are_given ? 4u : 3u); ++binding) {
+            seek.bindings.push_back({binding, BindingType::storage_buffer});
+            march.bindings.push_back({binding, BindingType::storage_buffer});
+        }
+        seek.push_constant_bytes = sizeof(SeekParameters);
+        march.push_constant_bytes = sizeof(MarchParameters);
+        kernels.seek[are_given] = std::make_unique<ComposedKernel>(m_device, seek);
+        kernels.march[are_given] = std::make_unique<ComposedKernel>(m_device, march);
+        if (!are_given) {
+            KernelRequest tiles = request_of(kernels, "ray_tiles", false);
+            tiles.bindings.push_back({1, BindingType::storage_buffer});
+            tiles.bindings.push_back({2, BindingType::storage_buffer});
+            tiles.push_constant_bytes = sizeof(TilesParameters);
+            kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
+        }
+    }
+}
+
+std::vector<std::vector<bool>> SegmentPass::elements_with(const std::array<double, 2>& wanted) const {
+    if (!m_skipped || !m_volume.has_field_ranges()) {
         return {};
     }
-    const std::size_t n_components = volume.fields()[field.field].n_components;
-    std::vector<FieldRange> found(info.n_elements * n_components);
-    // What is not certified must not be relied on.
-    const bool is_certain =
-        volume.field_ranges(field.field, field.time_step, info.first_element, info.n_elements, found) == ELVIS_CERTIFIED;
-    std::vector<double> result;
-    for (std::size_t element = 0; is_certain && element < info.n_elements; ++element) {
-        const FieldRange& range = found[element * n_components];
-        result.insert(result.end(), {range.lower, range.upper});
+    const std::size_t n_components = m_volume.fields()[m_skipped->field].n_components;
+    std::vector<std::vector<bool>> kept;
+    for (const ClassInfo& info : m_volume.classes()) {
+        std::vector<FieldRange> found(info.n_elements * n_components);
+        // What is not certified must not be relied on.
+        const bool is_certain = info.n_elements > 0 && m_volume.field_ranges(m_skipped->field, m_skipped->time_step, info.first_element,
+                                                                            info.n_elements, found) == ELVIS_CERTIFIED;
+        kept.emplace_back(info.n_elements, true);
+        for (std::size_t element = 0; is_certain && element < info.n_elements; ++element) {
+            const FieldRange& range = found[element * n_components];
+            kept.back()[element] = !(range.lower > wanted[1] || range.upper < wanted[0]);
+        }
     }
-    return result;
+    return kept;
 }
 
-void SegmentPass::run(const ClassKernel& of, const Rays& rays, SegmentCounts& counts) const {
-    const std::array<const Buffer*, 5> bindings = {&m_frame, &rays.rays, &rays.states, &rays.segments, &rays.counts};
-    for (std::uint32_t first = 0; first < rays.n_rays; first += rays_a_dispatch) {
-        const Parameters parameters{first, std::min(rays.n_rays, first + rays_a_dispatch), rays.capacity, turns_a_dispatch, 0,
-                                    // Outward.
-                                    std::nextafter(static_cast<float>(rays.wanted[0]), -std::numeric_limits<float>::max()),
-                                    std::nextafter(static_cast<float>(rays.wanted[1]), std::numeric_limits<float>::max())};
-        of.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                            (parameters.n_rays - first + group_size - 1) / group_size);
+void SegmentPass::list_starts(Rays& rays, SegmentCounts& counts) const {
+    const std::uint32_t tiles_a_row = divided_up(rays.width, m_tile_width);
+    const std::uint32_t n_tiles = tiles_a_row * divided_up(rays.height, tile_height);
+    for (const ClassKernels& kernels : m_kernels) {
+        const Buffer& lists = rays.tile_lists.emplace_back(m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+        if (m_chains.n_starts(kernels.element_class) == 0) {
+            lists.fill(0);
+            continue;
+        }
+        const TilesParameters parameters{tiles_a_row, n_tiles};
+        const std::array<const Buffer*, 3> bindings = {&m_frame, &lists, &m_counts};
+        kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(n_tiles, group_size));
         ++counts.dispatches;
     }
 }
 
-namespace {
+/** Until all rays are at their end; calls `take` where lists are full, and at the end. */
+template <class Take> void SegmentPass::run(const Rays& rays, SegmentCounts& counts, const Take& take) const {
+    const bool are_given = rays.given != nullptr;
+    const std::uint32_t tiles_a_row = divided_up(rays.width, m_tile_width);
+    bool is_open = true;
+    for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
+        const DeviceTimer timer(m_device);
+        is_open = false;
+        bool is_full = false;
+        for (std::size_t index = 0; index < m_kernels.size(); ++index) {
+            const ClassKernels& kernels = m_kernels[index];
+            if (m_chains.n_starts(kernels.element_class) == 0) {
+                continue;
+            }
+            m_counts.fill(0);
+            const SeekParameters parameters{rays.width, rays.height, tiles_a_row, 0, static_cast<std::uint32_t>(kernels.first_element), 0,
+                                            static_cast<float>(m_extent)};
+            // No lists of starts are read where rays are given: anything.
+            const Buffer& lists = are_given ? m_counts : rays.tile_lists[index];
+            std::vector<const Buffer*> bindings = {&m_frame, &rays.states, &lists, &m_counts};
+            if (are_given) {
+                bindings.push_back(rays.given);
+            }
+            kernels.seek[are_given]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row, rays.height);
+            ++counts.dispatches;
+            const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+            counts.seek_evaluations += found[seek_evaluations];
+            is_open = is_open || found[seeking] > 0;
+        }
+        for (const ClassKernels& kernels : m_kernels) {
+            m_counts.fill(0);
+            const MarchParameters parameters{rays.width, rays.height, 0, static_cast<std::uint32_t>(kernels.first_element),
+                                             static_cast<std::uint32_t>(kernels.n_elements), rays.capacity, 0,
+                                             static_cast<float>(m_extent)};
+            std::vector<const Buffer*> bindings = {&m_frame, &rays.states, &rays.segments, &m_counts};
+            if (are_given) {
+                bindings.push_back(rays.given);
+            }
+            kernels.march[are_given]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row, rays.height);
+            ++counts.dispatches;
+            const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+            counts.segments += found[segments];
+            counts.evaluations += found[evaluations];
+            counts.overlaps += found[overlaps];
+            counts.failures += found[failures];
+            counts.estimated += found[estimated];
+            counts.breaks += found[breaks];
+            is_open = is_open || found[moved] > 0;
+            is_full = is_full || found[full] > 0;
+        }
+        counts.milliseconds += timer.milliseconds();
+        if (is_full || !is_open) {
+            take();
+        }
+    }
+}
 
-/** Calls `take` with the states after each round of dispatches until all rays are over. */
-template <class Real, class Run, class Take>
-void finish(std::span<const SegmentRay> rays, const Buffer& ray_buffer, const Buffer& states, const Buffer& count_buffer,
-            Precision precision, SegmentCounts& counts, const Run& run, const Take& take) {
+template <class Real>
+void SegmentPass::list_batch(std::span<const SegmentRay> rays, std::vector<Segment>* lists, SegmentCounts& counts) const {
+    const std::size_t count = rays.size();
+    const Buffer given(m_device, 8 * sizeof(Real) * count), states(m_device, sizeof(RayState<Real>) * count);
+    const Buffer segments(m_device, sizeof(SegmentRecord<Real>) * count * list_capacity);
     std::vector<double> numbers;
-    std::vector<RayState<Real>> start;
     for (const SegmentRay& ray : rays) {
         numbers.insert(numbers.end(), {ray.origin[0], ray.origin[1], ray.origin[2], ray.from, ray.direction[0], ray.direction[1],
                                        ray.direction[2], ray.to});
-        start.push_back({static_cast<Real>(ray.from), 0, 0, 0});
     }
-    write_reals(ray_buffer, precision, numbers);
-    states.write_items(std::span<const RayState<Real>>(start));
-    for (std::uint32_t round = 0, n_open = 1; n_open > 0; ++round) {
-        if (round == most_rounds) {
-            counts.failures += n_open;
-            break;
+    write_reals(given, m_precision, numbers);
+    states.write_items(std::span<const RayState<Real>>(std::vector<RayState<Real>>(count)));
+    const Rays batch{static_cast<std::uint32_t>(count), 1, list_capacity, states, segments, &given, {}};
+    bool has_open = false;
+    run(batch, counts, [&] {
+        auto ends = states.template read_items<RayState<Real>>(count);
+        const auto records = segments.template read_items<SegmentRecord<Real>>(count * list_capacity);
+        has_open = false;
+        for (std::size_t ray = 0; ray < count; ++ray) {
+            for (std::size_t i = ray * list_capacity; i < ray * list_capacity + ends[ray].n_segments; ++i) {
+                append(lists[ray], {static_cast<double>(records[i].enter), static_cast<double>(records[i].leave),
+                                    static_cast<double>(records[i].error), records[i].element & ~estimated_segment,
+                                    (records[i].element & estimated_segment) != 0});
+            }
+            ends[ray].n_segments = 0;
+            has_open = has_open || ends[ray].status != ray_ends;
         }
-        count_buffer.fill(0);
-        run();
-        const std::vector<std::uint32_t> found = count_buffer.read_items<std::uint32_t>(n_counts);
-        counts.segments += found[0];
-        counts.evaluations += found[1];
-        counts.overlaps += found[2];
-        counts.failures += found[3];
-        counts.estimated += found[4];
-        counts.turns += found[6];
-        counts.breaks += found[7];
-        n_open = found[5];
-        take();
-    }
+        states.write_items(std::span<const RayState<Real>>(ends));
+    });
+    counts.given_up += has_open ? 1 : 0;
 }
-
-} // namespace
 
 std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
-                                                      const std::array<double, 2>& wanted) const {
+                                                      const std::array<double, 2>& wanted) {
+    compile(true);
+    if (m_skipped) {
+        m_chains.keep_only(elements_with(wanted));
+    }
+    const std::array<double, 3>& centre = m_data.centre();
+    const std::array<double, 4> frame = {centre[0], centre[1], centre[2], 0};
+    write_reals(m_frame, m_precision, frame);
+    bool is_outside = true;
+    ViewStart start;
+    for (const SegmentRay& ray : rays) {
+        bool is_in = true;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            start.eye[axis] = centre[axis] + ray.origin[axis] + ray.from * ray.direction[axis];
+            is_in = is_in && start.eye[axis] >= m_data.bounds()[axis] - 1e-5 * m_extent &&
+                    start.eye[axis] <= m_data.bounds()[axis + 3] + 1e-5 * m_extent;
+        }
+        is_outside = is_outside && !is_in;
+    }
+    // From outside rays come in through faces, wherever they start.
+    if (is_outside) {
+        m_chains.look_from(start);
+    } else {
+        m_chains.look_from_anywhere();
+    }
     std::vector<std::vector<Segment>> result(rays.size());
-    const auto trace = [&]<class Real>(Real) {
-        const std::size_t size = std::min(rays.size(), rays_a_batch);
-        const Buffer ray_buffer(m_device, 8 * sizeof(Real) * size), states(m_device, sizeof(RayState<Real>) * size);
-        const Buffer segments(m_device, sizeof(SegmentRecord<Real>) * size * capacity);
-        const Buffer count_buffer(m_device, n_counts * sizeof(std::uint32_t));
-        for (std::size_t first = 0; first < rays.size(); first += size) {
-            const std::size_t count = std::min(size, rays.size() - first);
-            const Rays batch{static_cast<std::uint32_t>(count), capacity, ray_buffer, states, segments, count_buffer, wanted};
-            std::vector<std::vector<std::vector<Segment>>> of_classes(count);
-            for (const ClassKernel& of : m_kernels) {
-                std::vector<std::vector<Segment>> found(count);
-                const auto take = [&] {
-                    const auto ends = states.read_items<RayState<Real>>(count);
-                    const auto records = segments.read_items<SegmentRecord<Real>>(count * capacity);
-                    for (std::size_t ray = 0; ray < count; ++ray) {
-                        for (std::size_t i = ray * capacity; i < ray * capacity + ends[ray].n_segments; ++i) {
-                            found[ray].push_back({static_cast<double>(records[i].enter), static_cast<double>(records[i].leave),
-                                                  static_cast<double>(records[i].error),
-                                                  of.first_element + (records[i].element & ~estimated_part),
-                                                  (records[i].element & estimated_part) != 0});
-                        }
-                    }
-                };
-                const auto run_class = [&] {
-                    const DeviceTimer timer(m_device);
-                    run(of, batch, counts);
-                    counts.milliseconds += timer.milliseconds();
-                };
-                finish<Real>(rays.subspan(first, count), ray_buffer, states, count_buffer, m_precision, counts, run_class, take);
-                for (std::size_t ray = 0; ray < count; ++ray) {
-                    of_classes[ray].push_back(std::move(found[ray]));
-                }
-            }
-            for (std::size_t ray = 0; ray < count; ++ray) {
-                result[first + ray] = merge_segments(of_classes[ray], m_tolerance, counts.overlaps);
-            }
-        }
-    };
-    if (m_precision == Precision::float64) {
-        trace(double{});
-    } else {
-        trace(float{});
+    for (std::size_t first = 0; first < rays.size(); first += rays_a_batch) {
+        const std::span<const SegmentRay> batch = rays.subspan(first, std::min(rays_a_batch, rays.size() - first));
+        with_real(m_precision, [&]<class Real>(Real) { list_batch<Real>(batch, result.data() + first, counts); });
     }
     return result;
 }
 
-std::vector<double> SegmentPass::lengths(std::span<const SegmentRay> rays, SegmentCounts& counts) const {
-    std::vector<double> result;
-    const auto trace = [&]<class Real>(Real) {
-        const Buffer ray_buffer(m_device, 8 * sizeof(Real) * rays.size()), states(m_device, sizeof(RayState<Real>) * rays.size());
-        const Buffer sums(m_device, sizeof(SegmentRecord<Real>) * rays.size());
-        const Buffer count_buffer(m_device, n_counts * sizeof(std::uint32_t));
-        sums.fill(0);
-        const Rays all{static_cast<std::uint32_t>(rays.size()), 0, ray_buffer, states, sums, count_buffer, {-3e38, 3e38}};
-        for (const ClassKernel& of : m_kernels) {
-            const auto run_class = [&] {
-                const DeviceTimer timer(m_device);
-                run(of, all, counts);
-                counts.milliseconds += timer.milliseconds();
-            };
-            finish<Real>(rays, ray_buffer, states, count_buffer, m_precision, counts, run_class, [] {});
-        }
-        for (const SegmentRecord<Real>& record : sums.read_items<SegmentRecord<Real>>(rays.size())) {
-            result.push_back(static_cast<double>(record.enter));
-        }
-    };
-    if (m_precision == Precision::float64) {
-        trace(double{});
-    } else {
-        trace(float{});
-    }
-    return result;
-}
-
-std::vector<Segment> merge_segments(std::span<const std::vector<Segment>> lists, double least_gap, std::uint64_t& n_overlaps) {
-    std::vector<Segment> all;
-    for (const std::vector<Segment>& list : lists) {
-        all.insert(all.end(), list.begin(), list.end());
-    }
-    std::ranges::stable_sort(all, {}, &Segment::enter);
-    std::vector<Segment> merged;
-    for (Segment segment : all) {
-        if (!merged.empty()) {
-            const Segment& last = merged.back();
-            const double error = segment.error + last.error;
-            const bool is_joined = std::abs(segment.enter - last.leave) <= error + least_gap;
-            n_overlaps += !is_joined && segment.enter < last.leave && segment.leave - segment.enter > error ? 1 : 0;
-            segment.enter = is_joined ? last.leave : std::max(segment.enter, last.leave);
-        }
-        if (segment.enter >= segment.leave) {
-            continue;
-        }
-        // A part that ended early, where a bound could not be held, and goes on.
-        if (!merged.empty() && segment.element == merged.back().element && segment.enter == merged.back().leave) {
-            merged.back().leave = segment.leave;
-            merged.back().error = std::max(merged.back().error, segment.error);
-            merged.back().is_estimated = merged.back().is_estimated || segment.is_estimated;
-        } else {
-            merged.push_back(segment);
-        }
-    }
-    return merged;
+std::vector<double> SegmentPass::lengths(const CutPlaneGeometry& view, const ViewStart& start, std::uint32_t width, std::uint32_t height,
+                                         SegmentCounts& counts) {
+    compile(false);
+    m_chains.look_from(start);
+    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    const std::size_t count = std::size_t{width} * height;
+    return with_real(m_precision, [&]<class Real>(Real) {
+        const DeviceTimer timer(m_device);
+        const Buffer states(m_device, sizeof(RayState<Real>) * count);
+        states.write_items(std::span<const RayState<Real>>(std::vector<RayState<Real>>(count)));
+        // No lists: anything.
+        Rays rays{width, height, 0, states, m_counts, nullptr, {}};
+        list_starts(rays, counts);
+        counts.milliseconds += timer.milliseconds();
+        std::vector<double> sums;
+        run(rays, counts, [&] {
+            for (const RayState<Real>& state : states.template read_items<RayState<Real>>(count)) {
+                sums.push_back(static_cast<double>(state.sum));
+                counts.given_up += state.status != ray_ends ? 1 : 0;
+            }
+        });
+        return sums;
+    });
 }
 
 } // namespace elvis

@@ -4,13 +4,13 @@
  */
 #pragma once
 
+#include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
 #include <core/volume/device_volume.hpp>
-#include <core/volume/element_links.hpp>
+#include <core/volume/element_chains.hpp>
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,17 +41,20 @@ struct Segment {
 };
 
 struct SegmentCounts {
-    std::uint64_t segments = 0, evaluations = 0;
-    /** Parts of elements that others hide, parts that could not be found, segments that are estimates. */
+    std::uint64_t segments = 0;
+    /** Of the mapping, to follow chains of elements and to find where they begin. */
+    std::uint64_t evaluations = 0, seek_evaluations = 0;
+    /** Parts of elements that others hide, elements of which the way out could not be found, segments that are estimates. */
     std::uint64_t overlaps = 0, failures = 0, estimated = 0;
-    /** Turns of all invocations; dispatches. */
-    std::uint64_t turns = 0, dispatches = 0;
-    /** Chains of neighbours that had to be taken up again by the hierarchy. */
+    /** Where a face did not tell the next element. */
     std::uint64_t breaks = 0;
+    /** Rays that were given up. */
+    std::uint64_t given_up = 0;
+    std::uint64_t dispatches = 0;
     double milliseconds = 0;
 };
 
-/** The kernels of one volume, one for each element class. */
+/** The kernels of one volume, for each element class, and for rays that are given or those of a picture. */
 class SegmentPass {
 public:
     /**
@@ -64,39 +67,43 @@ public:
     SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                 const std::optional<SkippedField>& skipped = {});
 
-    /**
-     * The segments of each ray. Those of several classes are merged by merge_segments(). `wanted`: least and greatest value; only of a
-     * pass that skips.
-     */
+    /** The segments of each ray. `wanted`: least and greatest value; only of a pass that skips. */
     std::vector<std::vector<Segment>> lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
-                                            const std::array<double, 2>& wanted = {-3e38, 3e38}) const;
-    /** For each ray the sum of the lengths of its segments, in its parameter; no lists are made. One class only. */
-    std::vector<double> lengths(std::span<const SegmentRay> rays, SegmentCounts& counts) const;
+                                            const std::array<double, 2>& wanted = {-3e38, 3e38});
+
+    /**
+     * For each pixel of a picture, by rows, the sum of the lengths of its ray's segments, along the axis of view; no lists are made. `view`:
+     * the geometry of any plane, of which only the rays matter.
+     */
+    std::vector<double> lengths(const CutPlaneGeometry& view, const ViewStart& start, std::uint32_t width, std::uint32_t height,
+                                SegmentCounts& counts);
 
 private:
-    struct ClassKernel {
-        ElementLinks links;
-        std::unique_ptr<ComposedKernel> kernel;
-        std::uint64_t first_element = 0;
+    struct ClassKernels {
+        std::uint32_t element_class = 0;
+        std::uint64_t first_element = 0, n_elements = 0;
+        /** For rays that are given, and those of pixels. Compiled when first needed. */
+        std::array<std::unique_ptr<ComposedKernel>, 2> seek, march;
+        std::unique_ptr<ComposedKernel> tiles;
     };
     struct Rays;
-    void run(const ClassKernel& of, const Rays& rays, SegmentCounts& counts) const;
-    std::vector<double> ranges(const RuntimeVolume& volume, const ClassInfo& info, const SkippedField& field) const;
+    KernelRequest request_of(const ClassKernels& kernels, const char* name, bool are_given) const;
+    void compile(bool are_given);
+    void list_starts(Rays& rays, SegmentCounts& counts) const;
+    template <class Take> void run(const Rays& rays, SegmentCounts& counts, const Take& take) const;
+    template <class Real> void list_batch(std::span<const SegmentRay> rays, std::vector<Segment>* lists, SegmentCounts& counts) const;
+    std::vector<std::vector<bool>> elements_with(const std::array<double, 2>& wanted) const;
 
     const Device& m_device;
+    const RuntimeVolume& m_volume;
     const DeviceVolume& m_data;
     Precision m_precision;
-    std::vector<ClassKernel> m_kernels;
-    /** How far ends may be off. */
-    double m_tolerance = 0;
-    Buffer m_frame;
+    std::uint32_t m_tile_width;
+    double m_extent = 0;
+    std::optional<SkippedField> m_skipped;
+    ElementChains m_chains;
+    std::vector<ClassKernels> m_kernels;
+    Buffer m_frame, m_counts;
 };
-
-/**
- * One list from several, each in order: of parts that overlap the one entered first goes to its end, and of the others what is
- * left. Ends that agree within their errors, or are no farther apart than `least_gap`, become one, and so do parts of one element that
- * follow each other. Adds to the number of overlaps.
- */
-std::vector<Segment> merge_segments(std::span<const std::vector<Segment>> lists, double least_gap, std::uint64_t& n_overlaps);
 
 } // namespace elvis

@@ -192,7 +192,7 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
             tiles.push_constant_bytes = sizeof(TilesParameters);
             tiles.instances = {m_data.instance(kernels.element_class)};
             kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
-            KernelRequest seek = request_of(kernels, "volume_seek");
+            KernelRequest seek = request_of(kernels, "chain_seek");
             seek.instances = {m_data.instance(kernels.element_class)};
             for (std::uint32_t binding = 1; binding <= 3; ++binding) {
                 seek.bindings.push_back({binding, BindingType::storage_buffer});

@@ -39,22 +39,14 @@ bool can_start_in(std::span<const double> box, const ViewStart& start) {
 } // namespace
 
 ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_centre(data.centre()), m_classes(volume.classes().size()) {
-    std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
+    : m_volume(volume), m_data(data), m_centre(data.centre()), m_classes(volume.classes().size()) {
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
         if (info.n_elements == 0) {
             continue;
         }
         ClassChains& chains = m_classes[index];
-        chains.is_open.resize(info.n_elements);
-        const std::span<const float> curvatures = data.curvatures(index);
-        for (std::uint64_t element = 0; element < info.n_elements; ++element) {
-            chains.is_open[element] = has_open_face(links[index], info, element);
-            links[index][links_an_element * element + place_of_curvature] = std::bit_cast<std::uint32_t>(curvatures[element]);
-        }
         chains.links = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, links_an_element);
-        chains.links->write_uints(0, links[index]);
         // Room for all elements, so that kernels composed with it stay valid.
         chains.nodes = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, words_a_node);
         chains.boxes.resize(6 * info.n_elements);
@@ -65,12 +57,66 @@ ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, 
             std::ranges::copy(boxes, chains.boxes.begin() + static_cast<std::ptrdiff_t>(6 * first));
         }
     }
+    keep_only({});
+}
+
+bool ElementChains::is_kept(std::uint32_t element) const {
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        const ClassInfo& info = m_volume.classes()[index];
+        if (element >= info.first_element && element - info.first_element < info.n_elements) {
+            return m_classes[index].is_kept[element - info.first_element];
+        }
+    }
+    return false;
+}
+
+void ElementChains::keep_only(std::vector<std::vector<bool>> kept) {
+    const bool is_all = kept.empty();
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        m_classes[index].is_kept = is_all ? std::vector<bool>(m_volume.classes()[index].n_elements, true) : std::move(kept[index]);
+    }
+    std::vector<std::vector<std::uint32_t>> links = read_face_links(m_volume);
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        const ClassInfo& info = m_volume.classes()[index];
+        if (info.n_elements == 0) {
+            continue;
+        }
+        ClassChains& chains = m_classes[index];
+        chains.is_open.resize(info.n_elements);
+        const std::span<const float> curvatures = m_data.curvatures(index);
+        for (std::uint64_t element = 0; element < info.n_elements; ++element) {
+            const auto own = std::span(links[index]).subspan(links_an_element * element, links_an_element);
+            for (std::uint32_t& link : own.first(is_all ? 0 : n_faces_of(info.shape))) {
+                link = link != no_link && is_kept(link) ? link : no_link;
+            }
+            chains.is_open[element] = has_open_face(links[index], info, element);
+            own[place_of_curvature] = std::bit_cast<std::uint32_t>(curvatures[element]);
+        }
+        chains.links->write_uints(0, links[index]);
+    }
+    m_start.reset();
+    m_is_anywhere = false;
 }
 
 void ElementChains::look_from(const ViewStart& start) {
     if (m_start == start) {
         return;
     }
+    choose_starts([&](std::span<const double> box) { return can_start_in(box, start); });
+    m_start = start;
+    m_is_anywhere = false;
+}
+
+void ElementChains::look_from_anywhere() {
+    if (m_is_anywhere) {
+        return;
+    }
+    choose_starts([](std::span<const double>) { return true; });
+    m_start.reset();
+    m_is_anywhere = true;
+}
+
+template <class CanStart> void ElementChains::choose_starts(const CanStart& can_start) {
     std::vector<double> boxes;
     std::vector<std::uint32_t> chosen;
     for (ClassChains& chains : m_classes) {
@@ -78,7 +124,7 @@ void ElementChains::look_from(const ViewStart& start) {
         chosen.clear();
         for (std::size_t element = 0; element < chains.is_open.size(); ++element) {
             const auto box = std::span<const double>(chains.boxes).subspan(6 * element, 6);
-            if (chains.is_open[element] || can_start_in(box, start)) {
+            if (chains.is_kept[element] && (chains.is_open[element] || can_start(box))) {
                 chosen.push_back(static_cast<std::uint32_t>(element));
                 boxes.insert(boxes.end(), box.begin(), box.end());
             }
@@ -96,7 +142,6 @@ void ElementChains::look_from(const ViewStart& start) {
         std::memcpy(words.data(), nodes.data(), nodes.size() * sizeof(HierarchyNode));
         chains.nodes->write_uints(0, words);
     }
-    m_start = start;
 }
 
 std::vector<FetchBuffer> ElementChains::host_buffers(std::uint32_t element_class) const {

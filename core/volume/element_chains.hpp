@@ -27,11 +27,18 @@ struct ViewStart {
 
 class ElementChains {
 public:
-    /** `data` has curvatures: a field has been selected. */
+    /** `data` has curvatures: a field has been selected. Both must outlive it. */
     ElementChains(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
     /** Elements in which rays can start: those with a face without known neighbour, and those that may hold the start of a ray. */
     void look_from(const ViewStart& start);
+    /** Rays may start in any element. */
+    void look_from_anywhere();
+    /**
+     * Rays go as if the other elements were not there; look_from() comes after it. One flag an element, by class; of no class: all are
+     * there.
+     */
+    void keep_only(std::vector<std::vector<bool>> kept);
 
     /**
      * `core_nodes`, a hierarchy over those in which leaves are local elements; and `core_links`: for each local face of an element the
@@ -44,15 +51,21 @@ public:
 private:
     struct ClassChains {
         std::unique_ptr<RecordBuffer> nodes, links;
-        std::vector<bool> is_open;
+        std::vector<bool> is_kept, is_open;
         std::uint64_t n_starts = 0;
         /** Six numbers an element. */
         std::vector<double> boxes;
     };
 
+    template <class CanStart> void choose_starts(const CanStart& can_start);
+    bool is_kept(std::uint32_t element) const;
+
+    const RuntimeVolume& m_volume;
+    const DeviceVolume& m_data;
     std::array<double, 3> m_centre;
     std::vector<ClassChains> m_classes;
     std::optional<ViewStart> m_start;
+    bool m_is_anywhere = false;
 };
 
 } // namespace elvis

@@ -54,14 +54,6 @@ std::vector<std::vector<std::uint32_t>> read_face_links(const RuntimeVolume& vol
     return links;
 }
 
-std::vector<std::uint32_t> links_in_class(std::vector<std::uint32_t> links, const ClassInfo& info) {
-    for (std::uint32_t& link : links) {
-        const bool is_own = link != no_link && link >= info.first_element && link - info.first_element < info.n_elements;
-        link = is_own ? static_cast<std::uint32_t>(link - info.first_element) : no_link;
-    }
-    return links;
-}
-
 bool has_open_face(const std::vector<std::uint32_t>& links, const ClassInfo& info, std::uint64_t local_element) {
     const auto own = std::span(links).subspan(links_an_element * local_element, n_faces_of(info.shape));
     return std::ranges::find(own, no_link) != own.end();

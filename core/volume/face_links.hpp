@@ -21,9 +21,6 @@ std::uint32_t n_faces_of(elvis_shape shape);
 /** For each class, and in it by local element and local face: the neighbour among all elements of the volume. */
 std::vector<std::vector<std::uint32_t>> read_face_links(const RuntimeVolume& volume);
 
-/** The neighbour's position in the class; no_link also where it is in another one. */
-std::vector<std::uint32_t> links_in_class(std::vector<std::uint32_t> links, const ClassInfo& info);
-
 /** Whether the element has a face without a link. */
 bool has_open_face(const std::vector<std::uint32_t>& links, const ClassInfo& info, std::uint64_t local_element);
 

@@ -1,102 +1,138 @@
-// Segments of rays in the elements of one class (library/ray_segments.glsl), as lists: an invocation a ray.
+// Segments of rays: their parts inside of elements, front to back, without overlaps (library/chain_walk.glsl). Where chains of elements
+// overlap, the one entered first owns the ray to its exit, and of the others counts what is left beyond it.
 //
-// A ray that fills its list, or takes the turns of one dispatch, goes on in the next one from where it is done.
+// One invocation a ray, for the elements of one class. That one element is left where the next one is entered shows as two
+// parameters that agree within their errors: then the next segment begins with the end of this one, exactly. Wider gaps stay.
 
-layout(local_size_x = 32) in;
+layout(local_size_x = CORE_TILE_WIDTH) in;
 
-#include "library/driver_limit.glsl"
+#include "library/samples.glsl"
+#include "library/segment_state.glsl"
 
-layout(set = 0, binding = 0, std140) uniform core_frame_block {
-    // Of the hierarchies' origin in the world; w: distance within which ends are wanted.
-    elvis_vec4 core_centre;
-};
-#define CORE_CENTRE core_centre.xyz
-
-#include "library/ray_segments.glsl"
-
-// Relative to the hierarchies' origin; (origin, from), (direction, to) for each ray.
-layout(set = 0, binding = 1, std430) readonly buffer core_rays_block { elvis_vec4 core_rays[]; };
-struct core_ray_state {
-    elvis_real done, done_error;
-    // Segments in the list; whether the ray is done.
-    uint n_segments, is_over;
-};
-layout(set = 0, binding = 2, std430) buffer core_states_block { core_ray_state core_states[]; };
+layout(set = 0, binding = 1, std430) buffer core_states_block { core_segment_state core_states[]; };
 struct core_segment {
     elvis_real enter, leave, error;
-    // CORE_ESTIMATED_PART where its ends are.
+    // CORE_ESTIMATED_SEGMENT where its ends are.
     uint element;
 };
-// Capacity of them a ray; with capacity 0 one, that has the sum of the lengths as `enter`.
-layout(set = 0, binding = 3, std430) buffer core_segments_block { core_segment core_segments[]; };
-// Segments, evaluations, overlaps, failures, estimated segments, rays that are not over, turns, breaks of chains.
-layout(set = 0, binding = 4, std430) buffer core_counts_block { uint core_counts[]; };
+#define CORE_ESTIMATED_SEGMENT 0x80000000u
+// core_capacity of them a ray.
+layout(set = 0, binding = 2, std430) writeonly buffer core_segments_block { core_segment core_segments[]; };
+// Rays that this dispatch has moved, segments, evaluations, overlaps, failures, estimated segments, breaks of chains, rays whose list is
+// full.
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_parameters {
-    uint core_first_ray, core_n_rays;
+    uvec2 core_size;
+    uint core_first_row;
+    uint core_first_element, core_n_elements;
+    // 0: no lists are made.
     uint core_capacity;
-    uint core_n_turns;
     uint core_zero;
-    float core_wanted_from, core_wanted_to;
+    // The diagonal of the volume's bounds.
+    float core_extent;
 };
 
-void main() {
-    const uint ray_index = core_first_ray + gl_GlobalInvocationID.x;
-    const bool is_ray = ray_index < core_n_rays;
-    const uint index = min(ray_index, core_n_rays - 1u);
-    const core_ray_state state = core_states[index];
-    const elvis_vec4 row0 = core_rays[2u * index], row1 = core_rays[2u * index + 1u];
-    core_walk_ray ray;
-    ray.origin = row0.xyz;
-    ray.direction = row1.xyz;
-    ray.error = elvis_real(0);
-    ray.speed = length(ray.direction);
-    ray.reach = elvis_real(1);
-    ray.tolerance = core_centre.w / ray.speed;
-    core_walk walk = core_begin_walk(ray, state.done, state.done_error, row1.w);
-    walk.wanted = vec2(core_wanted_from, core_wanted_to);
-    const bool is_open = is_ray && state.is_over == 0u;
-    walk.state = is_open ? walk.state : CORE_WALK_DONE;
+#define CORE_RAYS_BINDING 4
+#include "library/chain_ray.glsl"
+#include "library/driver_limit.glsl"
+#define CORE_ASSUMED_CURVATURE elvis_real(64)
+#define CORE_CERTAIN_TURNS 512u
+#define CORE_PART_TURNS 640u
+#include "library/ray_part.glsl"
+#include "library/walk_ray.glsl"
+#include "library/chain_walk.glsl"
 
-    uint n_turns = 0u, n_segments = 0u, n_estimated = 0u;
-    elvis_real sum = elvis_real(0);
+// Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
+#define CORE_MOST_ELEMENTS 256u
+#define CORE_WORK_LIMIT 2500u
+// Over the tolerance of ends: how far apart parts of a chain may be where a ray runs through edges.
+#define CORE_WIDEST_BREAK 64
+
+void main() {
+    const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
+    const bool is_ray = column < core_size.x && row < core_size.y;
+    const uint index = is_ray ? row * core_size.x + column : 0u;
+    core_segment_state state = core_states[index];
+    const core_walk_ray ray = core_walk_ray_of(core_chain_ray(column, row, index), elvis_real(core_extent));
+    const elvis_real to = core_chain_ray_end(index);
+    core_chain chain = core_chain(state.done, state.chain, state.start, state.start_element, state.element,
+                                  is_ray ? state.status : CORE_RAY_ENDS, 0u);
+    bool is_mine;
+    bool goes = core_chain_begin(chain, to, CORE_RAY_ENDS, is_mine);
+    elvis_real done_error = state.done_error, chain_error = state.chain_error, sum = state.sum;
+    bool is_first = is_mine && chain.at == chain.start;
+    uint n_segments = state.n_segments, flags = 0u;
+    uint n_elements = 0u, n_made = 0u, n_evaluations = 0u, n_overlaps = 0u, n_failures = 0u, n_estimated = 0u, n_breaks = 0u;
+    core_part part;
+    part.element = 0u;
+    part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
+    part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
+    part.turns = 0u;
     const uint most = core_capacity > 0u ? core_capacity : 0xffffffffu;
-    while (walk.state != CORE_WALK_DONE && n_turns < core_n_turns && n_segments < most) {
-        n_turns += 1u;
-        core_walk_turn(walk);
-        const bool is_segment = walk.state == CORE_WALK_SEGMENT;
-        sum += is_segment ? walk.leave - walk.enter : elvis_real(0);
-        n_estimated += is_segment && walk.is_estimated ? 1u : 0u;
+    while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
+        n_elements += 1u;
+        const core_reach reach = core_chain_reach(ray, chain, part);
+        flags |= reach.flags;
+        n_evaluations += part.turns;
+        n_failures += part.has_failed ? 1u : 0u;
+        const elvis_real leave_error = reach.is_met ? part.leave_error : chain_error;
+        const elvis_real errors = done_error + leave_error;
+        // A chain that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
+        const elvis_real rounding = elvis_real(2) * (done_error + chain_error), gap = chain.at - chain.done;
+        const bool is_joined = gap <= max(rounding, (is_first ? elvis_real(1) : elvis_real(CORE_WIDEST_BREAK)) * ray.tolerance);
+        const bool is_behind = gap < elvis_real(0);
+        n_overlaps += reach.is_met && gap < -rounding && reach.leave - chain.at > errors ? 1u : 0u;
+        const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
+        // What was settled before but for rounding does not count.
+        const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
         for (uint turn = 0u; turn < (is_segment && core_capacity > 0u ? 1u : 0u); ++turn) {
+            const uint word = chain.element | (part.is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
             core_segments[index * core_capacity + n_segments] =
-                core_segment(walk.enter, walk.leave, walk.error, walk.element | (walk.is_estimated ? CORE_ESTIMATED_PART : 0u));
+                core_segment(from, until, max(is_joined ? done_error : chain_error, leave_error), word);
         }
+        sum += is_segment ? until - from : elvis_real(0);
         n_segments += is_segment ? 1u : 0u;
-    }
-    const bool is_cut_short = core_has_driver_given_up(core_zero);
-    for (uint turn = 0u; turn < (is_ray ? 1u : 0u); ++turn) {
-        core_states[index].n_segments = is_open ? n_segments : 0u;
-    }
-    for (uint turn = 0u; turn < (is_open ? 1u : 0u); ++turn) {
-        core_states[index].done = walk.done;
-        core_states[index].done_error = walk.done_error;
-        core_states[index].is_over = walk.state == CORE_WALK_DONE && !is_cut_short ? 1u : 0u;
-        for (uint second = 0u; second < (core_capacity == 0u ? 1u : 0u); ++second) {
-            core_segments[index].enter += sum;
+        n_made += is_segment ? 1u : 0u;
+        n_estimated += is_segment && part.is_estimated ? 1u : 0u;
+        chain.done = is_segment ? until : chain.done;
+        done_error = is_segment ? leave_error : done_error;
+        chain_error = leave_error;
+        is_first = false;
+        const bool is_over = reach.is_met && reach.leave >= to;
+        for (uint turn = 0u; turn < (is_over ? 0u : 1u); ++turn) {
+            n_breaks += core_chain_go_on(ray, chain, part, reach, from) ? 1u : 0u;
         }
+        chain.status = is_over ? CORE_RAY_ENDS : chain.status;
+        goes = core_chain_goes(chain);
     }
-    const bool is_left = is_open && (walk.state != CORE_WALK_DONE || is_cut_short);
-    const uint all_segments = subgroupAdd(is_open ? n_segments : 0u), all_evaluations = subgroupAdd(is_open ? walk.n_evaluations : 0u);
-    const uint all_overlaps = subgroupAdd(is_open ? walk.n_overlaps : 0u), all_failures = subgroupAdd(is_open ? walk.n_failures : 0u);
-    const uint all_estimated = subgroupAdd(is_open ? n_estimated : 0u), all_left = subgroupAdd(is_left ? 1u : 0u);
-    const uint all_turns = subgroupAdd(is_open ? n_turns : 0u), all_breaks = subgroupAdd(is_open ? walk.n_breaks : 0u);
+    const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = chain.status == CORE_RAY_SEEKS;
+    const bool is_full = n_segments >= most;
+    flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
+    for (uint turn = 0u; turn < (is_mine ? 1u : 0u); ++turn) {
+        state.done = chain.done;
+        state.chain = seeks ? CORE_FAR : chain.at;
+        state.start = chain.start;
+        state.start_element = chain.start_element;
+        state.done_error = done_error;
+        state.chain_error = chain_error;
+        state.sum = sum;
+        state.element = seeks ? CORE_NO_ELEMENT : chain.element;
+        state.status = is_cut_short ? CORE_RAY_ENDS : chain.status;
+        state.flags |= flags;
+        state.n_segments = n_segments;
+        core_states[index] = state;
+    }
+    const uint all_moved = subgroupAdd(is_mine ? 1u : 0u), all_segments = subgroupAdd(n_made), all_evaluations = subgroupAdd(n_evaluations);
+    const uint all_overlaps = subgroupAdd(n_overlaps), all_failures = subgroupAdd(n_failures), all_estimated = subgroupAdd(n_estimated);
+    const uint all_breaks = subgroupAdd(n_breaks), all_full = subgroupAdd(is_mine && is_full ? 1u : 0u);
     if (subgroupElect()) {
-        atomicAdd(core_counts[0], all_segments);
-        atomicAdd(core_counts[1], all_evaluations);
-        atomicAdd(core_counts[2], all_overlaps);
-        atomicAdd(core_counts[3], all_failures);
-        atomicAdd(core_counts[4], all_estimated);
-        atomicAdd(core_counts[5], all_left);
-        atomicAdd(core_counts[6], all_turns);
-        atomicAdd(core_counts[7], all_breaks);
+        atomicAdd(core_counts[0], all_moved);
+        atomicAdd(core_counts[1], all_segments);
+        atomicAdd(core_counts[2], all_evaluations);
+        atomicAdd(core_counts[3], all_overlaps);
+        atomicAdd(core_counts[4], all_failures);
+        atomicAdd(core_counts[5], all_estimated);
+        atomicAdd(core_counts[6], all_breaks);
+        atomicAdd(core_counts[7], all_full);
     }
 }

@@ -69,10 +69,6 @@ layout(push_constant) uniform core_parameters {
 #ifndef CORE_WORK_A_SAMPLE
 #define CORE_WORK_A_SAMPLE 1u
 #endif
-// Parts on end that are too short to matter, before the element around the ray is looked for.
-#define CORE_MOST_GRAZES 4u
-// Over the volume's size: gaps between elements of a chain that are rounding's.
-#define CORE_WIDEST_GAP 1e-6
 // Below this share nothing behind can be seen.
 #define CORE_OPAQUE 0.125
 
@@ -94,61 +90,37 @@ void main() {
     const elvis_real to = min(end, stop);
     const uint status_at_end = stop < end ? CORE_RAY_WAITS : CORE_RAY_ENDS;
 
-    uint element = state.element, status = is_pixel ? state.status : CORE_RAY_ENDS, flags = 0u;
-    const bool is_without = status == CORE_RAY_HAS_SOUGHT && element == CORE_NO_ELEMENT;
-    const bool is_own = element >= core_first_element && element - core_first_element < core_n_elements;
-    const bool is_mine = is_without || ((status == CORE_RAY_HAS_SOUGHT || status == CORE_RAY_GOES) && is_own);
-    const bool begins = is_mine && status == CORE_RAY_HAS_SOUGHT && !is_without;
-    elvis_real chain = state.chain, done = state.done, step = state.step;
-    const elvis_real start = begins ? chain : state.start;
-    const uint start_element = begins ? element : state.start_element;
-    status = is_without ? CORE_RAY_ENDS : is_mine && chain >= to ? status_at_end : begins ? CORE_RAY_GOES : status;
+    uint flags = 0u;
+    core_chain chain = core_chain(state.done, state.chain, state.start, state.start_element, state.element,
+                                  is_pixel ? state.status : CORE_RAY_ENDS, 0u);
+    bool is_mine;
+    bool goes = core_chain_begin(chain, to, status_at_end, is_mine);
+    elvis_real step = state.step;
     core_light light = core_light(state.red, state.green, state.blue, state.left, state.error);
     const elvis_real tolerance = elvis_real(core_tolerance);
 
     uint n_elements = 0u, n_evaluations = 0u, n_mappings = 0u, n_segments = 0u, n_empty = 0u, n_steps = 0u, n_breakpoints = 0u;
-    // How often on end the element was not met where it was to be.
-    uint n_failures = 0u, work = 0u, n_lost = 0u;
+    uint n_failures = 0u, work = 0u;
     core_part part;
     part.element = 0u;
     part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
     part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
     part.turns = 0u;
     core_held_piece held = core_hold_piece(0u);
-    bool goes = is_mine && status == CORE_RAY_GOES;
     while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
         n_elements += 1u;
         const uint work_before = work;
-        const uint local = element - core_first_element;
-        // Where the ray leaves.
-        uint ending = CORE_PART_NONE;
-        for (uint turn = 0u; turn < 1u; ++turn) {
-            const bool is_possible = core_part_begin(ray, local, chain, chain + ray.reach, true, part);
-            ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
-        }
-        while (ending == CORE_PART_OPEN) {
-            ending = core_part_turn(ray, true, part);
-            n_mappings += 1u;
-            work += 1u;
-            if (ending != CORE_PART_OPEN) {
-                break;
-            }
-        }
-        if (part.has_failed) {
-            core_leave_roughly(ray, chain, part);
-            flags |= CORE_FLAG_UNDECIDED;
-            ending = CORE_PART_FOUND;
-        }
-        // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
-        const elvis_real gap = part.enter - chain - part.enter_error;
-        const bool is_met = ending == CORE_PART_FOUND && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
-        const bool is_estimated = is_met && part.is_estimated;
-        flags |= is_estimated ? CORE_FLAG_ESTIMATED : 0u;
-        const elvis_real leave = is_met ? max(part.leave, chain) : chain;
+        const uint local = chain.element - core_first_element;
+        const core_reach reach = core_chain_reach(ray, chain, part);
+        const bool is_met = reach.is_met;
+        const elvis_real leave = reach.leave;
+        flags |= reach.flags;
+        n_mappings += part.turns;
+        work += part.turns;
         // What is too short to matter is the next one's.
-        const bool is_joined = chain - done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
-        flags |= is_met && !is_joined && done > start ? CORE_FLAG_UNDECIDED : 0u;
-        const elvis_real from = is_joined ? done : chain, until = min(leave, to);
+        const bool is_joined = chain.at - chain.done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
+        flags |= is_met && !is_joined && chain.done > chain.start ? CORE_FLAG_UNDECIDED : 0u;
+        const elvis_real from = is_joined ? chain.done : chain.at, until = min(leave, to);
 
         // What lies between.
         const bool has_segment = is_met && from < until;
@@ -159,7 +131,7 @@ void main() {
         n_segments += has_segment ? 1u : 0u;
         n_empty += is_level ? 1u : 0u;
         core_integral integral = core_integral_begin(from, has_segment && !is_level ? until : from, ray.speed, step);
-        const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - start), until - from);
+        const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - chain.start), until - from);
         const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
                                   (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
         core_follower follower;
@@ -255,26 +227,14 @@ void main() {
         // Where to go on: in the same element, if there was no time for all of it.
         const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed;
         step = is_left_open ? core_integral_step(integral) : CORE_FAR;
-        done = max(done, is_left_open ? core_integral_done(integral) : until);
+        chain.done = max(chain.done, is_left_open ? core_integral_done(integral) : until);
         const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
         const bool is_over = is_opaque || is_stopped || is_left_open;
-        chain = is_over ? chain : leave;
-        const uint link = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
-        uint next = link;
-        // Elements on both sides of a face that the ray grazes may hand it to and fro.
-        const bool is_stuck = leave - from <= elvis_real(4) * ray.tolerance;
-        const bool is_lost = !is_over && (!is_met || part.leave_face < 0 || (is_stuck && n_lost >= CORE_MOST_GRAZES));
-        if (is_lost) {
-            const elvis_real probe = chain + elvis_real(4) * exp2(float(min(n_lost, 30u))) * ray.tolerance;
-            uint other;
-            const uint found = core_find_around(ray, local, probe, other);
-            next = found != CORE_NO_ELEMENT ? core_first_element + found : other;
-            chain = probe;
+        if (!is_over) {
+            core_chain_go_on(ray, chain, part, reach, from);
         }
-        n_lost = is_lost || is_stuck ? n_lost + 1u : 0u;
-        element = is_over ? element : next;
-        status = is_opaque ? CORE_RAY_ENDS : is_left_open ? CORE_RAY_GOES : is_stopped ? status_at_end : next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
-        goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;
+        chain.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? status_at_end : chain.status;
+        goes = core_chain_goes(chain);
         // Lanes wait for each other.
         work = work_before + subgroupMax(work - work_before);
         if (!goes) {
@@ -282,21 +242,21 @@ void main() {
         }
     }
     const bool is_cut_short = core_has_driver_given_up(core_zero);
-    const bool seeks = status == CORE_RAY_SEEKS;
+    const bool seeks = chain.status == CORE_RAY_SEEKS;
     flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
     if (is_mine) {
-        state.done = done;
+        state.done = chain.done;
         state.step = step;
-        state.chain = seeks ? CORE_FAR : chain;
-        state.start = start;
-        state.start_element = start_element;
+        state.chain = seeks ? CORE_FAR : chain.at;
+        state.start = chain.start;
+        state.start_element = chain.start_element;
         state.red = light.red;
         state.green = light.green;
         state.blue = light.blue;
         state.left = light.left;
         state.error = light.error;
-        state.element = seeks ? CORE_NO_ELEMENT : element;
-        state.status = is_cut_short ? CORE_RAY_ENDS : status;
+        state.element = seeks ? CORE_NO_ELEMENT : chain.element;
+        state.status = is_cut_short ? CORE_RAY_ENDS : chain.status;
         state.flags |= flags;
         core_states[pixel] = state;
     }

@@ -1,17 +1,26 @@
-// From element to element through shared faces: the way on where a ray's end in an element does not tell it.
+// From element to element through shared faces (library/chain_state.glsl):
 //
-// The kernel brings library/ray_part.glsl; core_links; and core_first_element and core_n_elements, the class's among all elements of the
-// volume, which links are of.
+//     chain = where the ray has got to;
+//     goes = core_chain_begin(chain, its end, its status there)
+//     while (goes) {
+//         core_reach reach = core_chain_reach(ray, chain, part): how far it is in the chain's next element
+//         the ray is in that element from reach.from to reach.leave, where what is settled already does not count
+//         core_chain_go_on(ray, chain, part, reach): the next element
+//         goes = core_chain_goes(chain)
+//     }
+//
+// The kernel brings library/ray_part.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
+// volume, which links are of; and core_extent, the diagonal of the volume's bounds.
 
 #ifndef CORE_CHAIN_WALK
 #define CORE_CHAIN_WALK
 
-#ifndef CORE_NO_LINK
-#define CORE_NO_LINK 0xffffffffu
-#endif
-#ifndef CORE_NO_ELEMENT
-#define CORE_NO_ELEMENT 0xffffffffu
-#endif
+#include "library/chain_state.glsl"
+
+// Parts on end that are too short to matter, before the element around the ray is looked for.
+#define CORE_MOST_GRAZES 4u
+// Over the volume's size: gaps between elements of a chain that are rounding's.
+#define CORE_WIDEST_GAP 1e-6
 
 // Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
 #define CORE_MOST_HOPS 16u
@@ -103,6 +112,82 @@ void core_leave_roughly(core_walk_ray ray, elvis_real from, inout core_part part
     part.leave_face = leave_face;
     part.step = elvis_real(3e38LF);
     part.is_estimated = true;
+}
+
+bool core_is_own(uint element) { return element >= core_first_element && element - core_first_element < core_n_elements; }
+
+bool core_chain_goes(core_chain chain) { return chain.status == CORE_RAY_GOES && core_is_own(chain.element); }
+
+// Whether the ray goes on here, at least to its end; `is_mine`: whether this class has to do with it at all. Behind `to` it has the
+// status `status_at_end`.
+bool core_chain_begin(inout core_chain chain, elvis_real to, uint status_at_end, out bool is_mine) {
+    const bool has_sought = chain.status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && chain.element == CORE_NO_ELEMENT;
+    is_mine = is_without || ((has_sought || chain.status == CORE_RAY_GOES) && core_is_own(chain.element));
+    const bool begins = is_mine && has_sought && !is_without;
+    chain.start = begins ? chain.at : chain.start;
+    chain.start_element = begins ? chain.element : chain.start_element;
+    chain.status = is_without ? CORE_RAY_ENDS : is_mine && chain.at >= to ? status_at_end : begins ? CORE_RAY_GOES : chain.status;
+    return is_mine && chain.status == CORE_RAY_GOES;
+}
+
+// A ray in the chain's next element.
+struct core_reach {
+    bool is_met;
+    // Where it leaves; chain.at if the element is not met.
+    elvis_real leave;
+    // CORE_FLAG_...
+    uint flags;
+};
+
+core_reach core_chain_reach(core_walk_ray ray, core_chain chain, inout core_part part) {
+    uint ending = CORE_PART_NONE;
+    const bool is_possible = core_part_begin(ray, chain.element - core_first_element, chain.at, chain.at + ray.reach, true, part);
+    ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
+    if (part.curvature > CORE_FOLLOWED_CURVATURE) {
+        const bool is_entered = core_part_enter(ray, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed, part);
+        ending = is_entered ? CORE_PART_OPEN : ending;
+    }
+    while (ending == CORE_PART_OPEN) {
+        ending = core_part_turn(ray, true, part);
+        if (ending != CORE_PART_OPEN) {
+            break;
+        }
+    }
+    core_reach reach;
+    reach.flags = 0u;
+    if (part.has_failed) {
+        core_leave_roughly(ray, chain.at, part);
+        reach.flags |= CORE_FLAG_UNDECIDED;
+        ending = CORE_PART_FOUND;
+    }
+    // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
+    const elvis_real gap = part.enter - chain.at - part.enter_error;
+    reach.is_met = ending == CORE_PART_FOUND && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
+    reach.flags |= reach.is_met && part.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+    reach.leave = reach.is_met ? max(part.leave, chain.at) : chain.at;
+    return reach;
+}
+
+// The next element, where the ray has left this one. `from`: up to where it was settled when it came in. True where the face did not
+// tell, or rounding led past an edge.
+bool core_chain_go_on(core_walk_ray ray, inout core_chain chain, core_part part, core_reach reach, elvis_real from) {
+    chain.at = reach.leave;
+    const uint local = chain.element - core_first_element;
+    uint next = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
+    // Elements on both sides of a face that the ray grazes may hand it to and fro.
+    const bool is_stuck = reach.leave - from <= elvis_real(4) * ray.tolerance;
+    const bool is_lost = !reach.is_met || part.leave_face < 0 || (is_stuck && chain.n_lost >= CORE_MOST_GRAZES);
+    if (is_lost) {
+        const elvis_real probe = chain.at + elvis_real(4) * exp2(float(min(chain.n_lost, 30u))) * ray.tolerance;
+        uint other;
+        const uint found = core_find_around(ray, local, probe, other);
+        next = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+        chain.at = probe;
+    }
+    chain.n_lost = is_lost || is_stuck ? chain.n_lost + 1u : 0u;
+    chain.element = next;
+    chain.status = next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+    return is_lost;
 }
 
 #endif

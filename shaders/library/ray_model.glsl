@@ -47,9 +47,19 @@ struct core_ray_clip {
     int from_face, to_face;
 };
 
-// Within [begin, end], where predictions are off by at most `error`. A face that the ray runs along within rounding does not bound
+// By how much the slope may differ where the point is no farther than `distance` from the one that the model was made from.
+elvis_real core_slope_change(core_ray_model model, elvis_real curvature, elvis_real distance) {
+    // J^-1 changes by a share of 2 C d / (1 - 2 C d).
+    const elvis_real share = elvis_real(2) * curvature * distance;
+    return share < elvis_real(0.5LF) ? core_max_norm(model.slope) * share / (elvis_real(1) - share) : elvis_real(1e30LF);
+}
+
+// Within [begin, end], where predictions are off by at most `error`, and slopes by `slope_change`. `is_inside`: the ray is at `begin`, so that
+// faces that it surely comes in through do not bound what is sure; `is_settled`: nor what is possible, where rounding may say that it is
+// not yet in. A face that the ray runs along within rounding does not bound
 // it: rays in a face that two elements share lie in both.
-core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real begin, elvis_real end) {
+core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real slope_change, bool is_inside, bool is_settled,
+                            elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;
     const elvis_real tiny = elvis_real(1e-30LF);
     core_ray_clip clip = core_ray_clip(low, high, low, high, low, high, CORE_NO_FACE, CORE_NO_FACE);
@@ -73,8 +83,9 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real b
         clip.from_face = is_last_from ? face : clip.from_face;
         clip.possible_to = is_leaving ? min(clip.possible_to, outer) : clip.possible_to;
         clip.sure_to = is_leaving ? min(clip.sure_to, inner) : clip.sure_to;
-        clip.possible_from = is_leaving ? clip.possible_from : max(clip.possible_from, outer);
-        clip.sure_from = is_leaving ? clip.sure_from : max(clip.sure_from, inner);
+        const bool is_kept = is_inside && slope < -(size.x + size.y + size.z) * slope_change;
+        clip.possible_from = is_leaving || (is_kept && is_settled) ? clip.possible_from : max(clip.possible_from, outer);
+        clip.sure_from = is_leaving || is_kept ? clip.sure_from : max(clip.sure_from, inner);
     }
     // The interval's ends themselves without rounding, so that they can be told.
     clip.possible_from = clip.possible_from <= low ? begin : model.anchor + clip.possible_from;

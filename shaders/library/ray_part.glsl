@@ -33,6 +33,13 @@
 #define CORE_PART_CURVATURE(element) elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)))
 #endif
 
+// Newton's method for where a ray enters: starts, and steps from each.
+#define CORE_ENTRY_STARTS 10u
+#define CORE_ENTRY_STEPS 12u
+// Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's neighbourhood are
+// taken for each other.
+#define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
+
 #define CORE_PART_OPEN 0u
 #define CORE_PART_FOUND 1u
 #define CORE_PART_NONE 2u
@@ -51,6 +58,10 @@ struct core_walk_ray {
 struct core_part {
     uint element;
     bool is_inside, is_estimated, has_failed;
+    // Inside as the neighbour says, which nothing has confirmed yet.
+    bool is_assumed;
+    // From a point in the element (core_part_enter): predictions only count as far as they surely follow it.
+    bool is_followed;
     // The interval, the end of what is open, and the parameter to evaluate at.
     elvis_real begin, end, last, next;
     // Known to be inside from an earlier turn; empty if from > to.
@@ -74,7 +85,7 @@ elvis_vec3 core_part_target(core_walk_ray ray, uint element, elvis_real t) {
 }
 
 // Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
-// at `begin`, if it is in it after that at all.
+// at `begin`, if it is in it after that at all: it is taken to be inside until a bound denies that.
 bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_part part) {
     const core_linearization linearization = core_fetch_linearization(element);
     const bool is_linearized = linearization.exponents != 0u;
@@ -90,7 +101,7 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     model.step = model.noise = elvis_vec3(0);
     // Points of the shape are no farther away than its radius, wherever they are predicted.
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
-    const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), begin, end);
+    const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), elvis_real(0), false, false, begin, end);
     const bool is_possible = clip.possible_from <= clip.possible_to && begin < end;
     const bool is_sure = is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
 
@@ -98,9 +109,11 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     part.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
     part.has_failed = false;
     part.curvature = part.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
-    part.is_inside = is_sure && (is_entered || clip.sure_from <= begin);
+    part.is_followed = false;
+    part.is_assumed = is_entered && !is_sure && clip.possible_from <= begin;
+    part.is_inside = part.is_assumed || (is_sure && (is_entered || clip.sure_from <= begin));
     part.last = clip.possible_to;
-    part.begin = part.is_inside ? clip.sure_to : clip.possible_from;
+    part.begin = part.is_inside && is_sure ? clip.sure_to : clip.possible_from;
     part.end = is_sure && !part.is_inside ? clip.sure_from : clip.possible_to;
     part.next = elvis_real(0.5LF) * (part.begin + part.end);
     part.known_from = is_sure ? clip.sure_from : elvis_real(3e38LF);
@@ -120,6 +133,65 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     part.noise = elvis_real(0);
     part.turns = 0u;
     return is_possible;
+}
+
+// How far a prediction may lead in reference coordinates before another point than the ray's may be nearer: half as far as there is surely no
+// other one (Kantorovich).
+elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / curvature; }
+
+// In elements so curved that a point outside of them may be taken for the ray's, the ray is followed from where it enters: there its
+// point lies in the element, and is found by Newton's method from one start after the other. False if it is not. `slack`: by how much of
+// the parameter it may be off.
+bool core_part_enter(core_walk_ray ray, elvis_real slack, inout core_part part) {
+    uint start = 0u, steps = 0u;
+    bool is_found = false;
+    elvis_real x = part.x, y = part.y, z = part.z;
+    core_project(x, y, z);
+    while (!is_found && start < CORE_ENTRY_STARTS) {
+        elvis_vec3 position;
+        elvis_mat3 jacobian;
+        elvis_mapping_jacobian(part.element, elvis_vec3(x, y, z), position, jacobian);
+        const core_frame frame = core_frame_at(position, jacobian, ray.error);
+        const elvis_vec3 step = core_to_xi(frame, core_part_target(ray, part.element, part.anchor) - position);
+        const elvis_vec3 slope = core_to_xi(frame, ray.direction);
+        const elvis_real noise = core_max_norm(frame.xi_error);
+        elvis_real next_x = x + step.x, next_y = y + step.y, next_z = z + step.z;
+        const elvis_real beyond = core_excess(next_x, next_y, next_z);
+        const elvis_real size = core_max_norm(step);
+        const bool is_there = frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
+        const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope) +
+                                                             elvis_real(2) * part.curvature * size * size);
+        steps += 1u;
+        part.turns += 1u;
+        is_found = is_there && is_in;
+        part.x = is_found ? next_x : part.x;
+        part.y = is_found ? next_y : part.y;
+        part.z = is_found ? next_z : part.z;
+        part.slope_x = is_found ? slope.x : part.slope_x;
+        part.slope_y = is_found ? slope.y : part.slope_y;
+        part.slope_z = is_found ? slope.z : part.slope_z;
+        // From the centroid, then from near the corners.
+        const bool is_failed = !frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTRY_STEPS;
+        const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
+        next_x = is_failed ? CORE_CENTROID.x + ((start & 1u) == 0u ? out_to : -out_to) : next_x;
+        next_y = is_failed ? CORE_CENTROID.y + ((start & 2u) == 0u ? out_to : -out_to) : next_y;
+        next_z = is_failed ? CORE_CENTROID.z + ((start & 4u) == 0u ? out_to : -out_to) : next_z;
+        start += is_failed ? 1u : 0u;
+        steps = is_failed ? 0u : steps;
+        core_project(next_x, next_y, next_z);
+        x = next_x;
+        y = next_y;
+        z = next_z;
+    }
+    const elvis_real rate = max(max(abs(part.slope_x), abs(part.slope_y)), abs(part.slope_z));
+    part.is_followed = is_found;
+    part.is_inside = part.is_inside || is_found;
+    part.is_assumed = is_found;
+    part.begin = is_found ? part.anchor : part.begin;
+    part.last = max(part.last, part.begin);
+    part.end = is_found ? min(part.last, part.anchor + core_follow_span(part.curvature) / rate) : part.end;
+    part.next = is_found ? elvis_real(0.5LF) * (part.begin + part.end) : part.next;
+    return is_found;
 }
 
 // Before the entry: where the interval is open, and whether the ray enters in it.
@@ -159,7 +231,9 @@ bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is
     part.last = end == part.last && !is_contradicted ? clip.possible_to : part.last;
     const bool is_all_inside = is_continued && clip.sure_to >= end;
     const bool is_last = is_all_inside && end >= part.last;
-    const bool is_found = is_continued && !is_all_inside && (is_exact || clip.possible_to - clip.sure_to <= ray.tolerance);
+    // Rounding may say that the ray is out already where it was surely inside.
+    const bool is_at_begin = is_exact && clip.to <= begin + error && clip.to >= begin - error && clip.from <= clip.to;
+    const bool is_found = is_at_begin || (is_continued && !is_all_inside && (is_exact || clip.possible_to - clip.sure_to <= ray.tolerance));
     const elvis_real open_begin = is_continued ? clip.sure_to : begin;
     const elvis_real open_end = is_continued ? clip.possible_to : min(clip.possible_to, elvis_real(0.5LF) * (begin + end));
     // Too short to matter, and not decided: as predicted.
@@ -168,7 +242,7 @@ bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is
     const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < part.last;
     const bool is_shrunk = open_end - open_begin <= elvis_real(0.5LF) * (end - begin);
     const bool is_over = is_contradicted || is_last || is_found || (is_short && !is_passed);
-    part.leave = is_contradicted ? begin : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
+    part.leave = is_contradicted && !is_at_begin ? begin : is_at_begin ? clip.to : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
     part.leave_error = is_found ? error : ray.tolerance;
     part.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
     part.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
@@ -216,8 +290,10 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const elvis_real along = max(max(slope.x, slope.y), slope.z) * (part.end - part.begin);
     const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
-    core_ray_clip clip =
-        core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound, part.begin, part.end);
+    const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
+    core_ray_clip clip = core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound,
+                                       core_slope_change(model, curvature, distance), part.is_inside, part.is_followed || !part.is_assumed, part.begin,
+                                       part.end);
     const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
     // Where nothing is known, anything is possible.
     clip.possible_from = is_sound ? clip.possible_from : part.begin;
@@ -226,29 +302,40 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const bool was_inside = part.is_inside;
     const int face = was_inside ? clip.to_face : clip.from_face;
     const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
-    const bool is_exact = face >= 0 && error.distance <= ray.tolerance * ray.speed;
+    const bool is_exact = is_sound && face >= 0 && core_is_near(curvature, core_model_step(model, was_inside ? clip.to : clip.from)) && error.distance <= ray.tolerance * ray.speed;
     core_part entered = part, left = part;
     core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, entered);
-    const bool has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, left);
-    if (was_inside) {
+    const bool is_denied = part.is_assumed && clip.possible_from > min(clip.possible_to, part.begin + ray.tolerance);
+    const bool is_confirmed = is_sure && clip.sure_from <= part.begin + ray.tolerance;
+    const bool has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, left) && !is_denied;
+    left.is_assumed = part.is_assumed && !is_confirmed;
+    entered.is_assumed = false;
+    if (was_inside && !is_denied) {
         part = left;
     } else {
         part = entered;
     }
-    part.x = is_sound ? model.at.x : part.x;
-    part.y = is_sound ? model.at.y : part.y;
-    part.z = is_sound ? model.at.z : part.z;
-    part.slope_x = is_sound ? model.slope.x : part.slope_x;
-    part.slope_y = is_sound ? model.slope.y : part.slope_y;
-    part.slope_z = is_sound ? model.slope.z : part.slope_z;
-    part.anchor = is_sound ? model.anchor : part.anchor;
-    part.step = is_sound ? core_model_step(model, model.anchor) : part.step;
-    part.noise = is_sound ? core_max_norm(model.noise) : part.noise;
+    part.is_followed = part.is_followed && !is_denied;
+    const bool is_anchor = is_sound && (!part.is_followed || core_is_near(curvature, core_max_norm(model.step)));
+    part.x = is_anchor ? model.at.x : part.x;
+    part.y = is_anchor ? model.at.y : part.y;
+    part.z = is_anchor ? model.at.z : part.z;
+    part.slope_x = is_anchor ? model.slope.x : part.slope_x;
+    part.slope_y = is_anchor ? model.slope.y : part.slope_y;
+    part.slope_z = is_anchor ? model.slope.z : part.slope_z;
+    part.anchor = is_anchor ? model.anchor : part.anchor;
+    part.step = is_anchor ? core_model_step(model, model.anchor) : part.step;
+    part.noise = is_anchor ? core_max_norm(model.noise) : part.noise;
+    const elvis_real rate = max(max(abs(part.slope_x), abs(part.slope_y)), abs(part.slope_z));
+    const elvis_real follow_end = max(part.anchor + core_follow_span(part.curvature) / rate, part.begin + ray.tolerance);
+    const bool is_too_far = part.is_followed && follow_end < part.end;
+    part.end = is_too_far ? follow_end : part.end;
+    part.next = is_too_far ? clamp(part.next, part.begin, part.end) : part.next;
 
     const bool is_given_up = part.turns >= CORE_PART_TURNS;
-    const bool is_found = was_inside && (has_left || is_given_up);
+    const bool is_found = was_inside && !is_denied && (has_left || is_given_up);
     part.has_failed = is_given_up && !(was_inside && has_left);
-    const bool is_last = !was_inside && !part.is_inside && (part.begin >= part.last || is_given_up);
+    const bool is_last = (!was_inside || is_denied) && !part.is_inside && (part.begin >= part.last || is_given_up);
     part.resume = is_given_up && !has_left ? part.last : part.resume;
     return is_found ? CORE_PART_FOUND : is_last ? CORE_PART_NONE : CORE_PART_OPEN;
 }

@@ -39,10 +39,9 @@ TEST_CASE("links lead back, from one element class to another too") {
     const RuntimeVolume volume = open_volume(file.path());
     const std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
     REQUIRE(volume.classes().size() > 1);
-    std::size_t n_links = 0, n_lost = 0, n_others = 0, n_wrong = 0;
+    std::size_t n_links = 0, n_lost = 0, n_others = 0;
     for (std::size_t index = 0; index < links.size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
-        const std::vector<std::uint32_t> own = links_in_class(links[index], info);
         for (std::uint64_t element = 0; element < info.n_elements; ++element) {
             CHECK(has_open_face(links[index], info, element) == (n_open_faces(links[index], info, element) > 0));
             for (std::uint32_t face = 0; face < n_faces_of(info.shape); ++face) {
@@ -60,8 +59,6 @@ TEST_CASE("links lead back, from one element class to another too") {
                         links[other].begin() + static_cast<std::ptrdiff_t>(links_an_element * (link - there.first_element));
                     n_lost += std::find(begin, begin + links_an_element, info.first_element + element) == begin + links_an_element;
                     n_others += other != index;
-                    const std::uint32_t local = own[links_an_element * element + face];
-                    n_wrong += local != (other == index ? link - info.first_element : no_link);
                 }
             }
         }
@@ -69,7 +66,6 @@ TEST_CASE("links lead back, from one element class to another too") {
     CHECK(n_links > 100);
     CHECK(n_lost == 0);
     CHECK(n_others > 0);
-    CHECK(n_wrong == 0);
 }
 
 TEST_CASE("rays start in elements with an open face, and around the eye") {

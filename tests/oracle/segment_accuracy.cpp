@@ -179,7 +179,7 @@ SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volu
                                  std::size_t n_rays, std::size_t points_a_ray, unsigned seed) {
     DeviceVolume data(device, volume, precision, nullptr);
     data.select(0, 0, std::vector<double>(volume.fields()[0].n_components, 0.0));
-    const SegmentPass pass(device, volume, data);
+    SegmentPass pass(device, volume, data);
     const std::array<double, 6>& box = data.bounds();
     const Vector lower(box[0], box[1], box[2]), upper(box[3], box[4], box[5]);
     const double size = (upper - lower).norm();

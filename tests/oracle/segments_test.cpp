@@ -38,7 +38,7 @@ std::vector<Segment> along_x(const VolumeData& data, double y, double z, Segment
     const RuntimeVolume volume = open_volume(file.path());
     DeviceVolume on_device(device(), volume, precision, nullptr);
     on_device.select(0, 0, {0.0});
-    const SegmentPass pass(device(), volume, on_device);
+    SegmentPass pass(device(), volume, on_device);
     const SegmentRay ray = near_centre({-10, y, z}, {0, y, z}, on_device.centre(), precision);
     std::vector<Segment> list = pass.lists(std::span(&ray, 1), counts).front();
     for (Segment& segment : list) {
@@ -115,7 +115,7 @@ TEST_CASE("elements without the wanted values are passed over", "[segments]") {
     const RuntimeVolume volume = open_volume(file.path());
     DeviceVolume data(device(), volume, Precision::float32, nullptr);
     data.select(0, 0, {0.0});
-    const SegmentPass pass(device(), volume, data, SegmentPass::SkippedField{});
+    SegmentPass pass(device(), volume, data, SegmentPass::SkippedField{});
     const SegmentRay ray = near_centre({-10, 0.3, 0.4}, {0, 0.3, 0.4}, data.centre(), Precision::float32);
     SegmentCounts counts;
     const std::vector<Segment> list = pass.lists(std::span(&ray, 1), counts, {3.2, 4.5}).front();

@@ -1,18 +1,22 @@
-// For rays that look for their next chain (library/volume_state.glsl): the nearest start in the elements of one class.
+// For rays that look for their next chain (library/chain_state.glsl): the nearest start in the elements of one class.
 //
-// A hierarchy over the elements in which rays can start, of which each tile of pixels has a list (kernels/ray_tiles.comp).
+// A hierarchy over the elements in which rays can start, of which each tile of pixels has a list (kernels/ray_tiles.comp). Rays that are
+// given one by one descend from its root.
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
-#include "library/precision.glsl"
-#include "library/cut_frame.glsl"
-#include "library/ray_tiles.glsl"
-#include "library/hierarchy.glsl"
 #include "library/samples.glsl"
-#include "library/pixel_ray.glsl"
+#include "library/ray_tiles.glsl"
+#if CORE_MAKES_SEGMENTS
+#include "library/segment_state.glsl"
+#define CORE_STATE core_segment_state
+#else
 #include "library/volume_state.glsl"
+#define CORE_STATE core_volume_state
+#endif
 
-layout(set = 0, binding = 1, std430) buffer core_states_block { core_volume_state core_states[]; };
+layout(set = 0, binding = 1, std430) buffer core_states_block { CORE_STATE core_states[]; };
+// Not read where rays are given.
 layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 // Rays that look for a start, evaluations.
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
@@ -27,11 +31,13 @@ layout(push_constant) uniform core_parameters {
     float core_extent;
 };
 
-#define CORE_CENTRE core_reference.xyz
+#define CORE_RAYS_BINDING 4
+#include "library/chain_ray.glsl"
 #include "library/driver_limit.glsl"
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
 #include "library/chain_start.glsl"
+#include "library/curved_start.glsl"
 
 // Turns of a ray, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
@@ -56,13 +62,16 @@ void main() {
     const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
     const bool is_pixel = column < core_size.x && row < core_size.y;
     const uint pixel = is_pixel ? row * core_size.x + column : 0u;
-    const uint list = (gl_WorkGroupID.x + row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
-    const core_volume_state state = core_states[pixel];
+    const CORE_STATE state = core_states[pixel];
     const bool is_mine = is_pixel && (state.status == CORE_RAY_SEEKS || state.status == CORE_RAY_HAS_SOUGHT);
+#if CORE_RAYS_ARE_GIVEN
+    const uint n_listed = 1u;
+#else
+    const uint list = (gl_WorkGroupID.x + row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
     const uint n_listed = core_tiles[is_pixel ? list : 0u] & ~CORE_TILE_INNER;
+#endif
     const uint n_entries = is_mine ? n_listed : 0u;
-    const core_cut_column along = core_cut_begin(elvis_real(column));
-    const core_ray pixel_ray = core_pixel_ray(along, elvis_real(row));
+    const core_ray pixel_ray = core_chain_ray(column, row, pixel);
     const core_walk_ray ray = core_walk_ray_of(pixel_ray, elvis_real(core_extent));
 
     // The first chain may start at the eye.
@@ -70,6 +79,9 @@ void main() {
     const elvis_real from = is_first ? pixel_ray.least_t : state.start;
     elvis_real best = state.chain;
     uint best_element = state.element;
+#if CORE_MAKES_SEGMENTS
+    elvis_real best_error = state.chain_error;
+#endif
 
     uint stack[CORE_STACK_SIZE];
     uint stack_size = 0u, entry = 0u, work = 0u, n_evaluations = 0u;
@@ -84,9 +96,15 @@ void main() {
         while (!is_searching && (stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
             work += 1u;
             const bool is_popped = stack_size > 0u;
+#if CORE_RAYS_ARE_GIVEN
+            const uint listed = 0u;
+            const bool is_behind = false;
+#else
             const uint at = list + 1u + 2u * min(entry, n_listed - 1u);
-            const uint word = is_popped ? stack[stack_size - (is_popped ? 1u : 0u)] : core_tiles[at];
+            const uint listed = core_tiles[at];
             const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(best);
+#endif
+            const uint word = is_popped ? stack[stack_size - (is_popped ? 1u : 0u)] : listed;
             stack_size -= is_popped ? 1u : 0u;
             entry = is_popped ? entry : (is_behind ? n_entries : entry + 1u);
             const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
@@ -110,6 +128,36 @@ void main() {
                 break;
             }
         }
+        // Where bounds tell little.
+        const bool is_curved = is_searching && part.curvature > CORE_FOLLOWED_CURVATURE;
+        for (uint turn = 0u; turn < (is_curved && is_first && part.anchor <= from ? 1u : 0u); ++turn) {
+            const bool is_in = core_part_enter(ray, elvis_real(0), part);
+            const uint element = core_first_element + part.element;
+            const bool is_better = is_in && (from < best || (from == best && element < best_element));
+            n_evaluations += part.turns;
+            best = is_better ? from : best;
+            best_element = is_better ? element : best_element;
+        }
+        for (uint attempt = 0u; attempt < (is_curved ? uint(CORE_N_FACES) * CORE_FACE_STARTS : 0u); ++attempt) {
+            const int face = int(attempt / CORE_FACE_STARTS);
+            const bool is_open = elvis_fetch_core_links(part.element, uint(face)) == CORE_NO_LINK;
+            for (uint turn = 0u; turn < (is_open ? 1u : 0u); ++turn) {
+                const core_face_entry entry = core_enter_face(ray, part.element, part.curvature, face, attempt % CORE_FACE_STARTS);
+                const uint element = core_first_element + part.element;
+                n_evaluations += entry.n_evaluations;
+                work += 1u;
+                const bool is_tied = abs(entry.t - state.start) <= elvis_real(2) * ray.tolerance;
+                const bool is_after = is_first ? entry.t >= from : is_tied ? element > state.start_element : entry.t > state.start;
+                const bool is_better =
+                    entry.is_found && is_after && (entry.t < best || (entry.t == best && element < best_element));
+                best = is_better ? entry.t : best;
+                best_element = is_better ? element : best_element;
+#if CORE_MAKES_SEGMENTS
+                best_error = is_better ? entry.error : best_error;
+#endif
+            }
+        }
+        is_searching = is_searching && !is_curved;
         // A start that is not the one wanted is followed to where the ray leaves.
         const uint ending = is_searching ? core_part_turn(ray, is_searching, part) : CORE_PART_NONE;
         n_evaluations += is_searching ? 1u : 0u;
@@ -128,6 +176,9 @@ void main() {
         const bool is_better = is_start && (part.enter < best || (part.enter == best && element < best_element));
         best = is_better ? part.enter : best;
         best_element = is_better ? element : best_element;
+#if CORE_MAKES_SEGMENTS
+        best_error = is_better ? part.enter_error : best_error;
+#endif
         const bool goes_on = ending == CORE_PART_FOUND && !is_start && part.resume < part.last;
         const elvis_real resume = max(part.resume, part.leave) + ray.tolerance;
         is_searching = is_searching && !is_start && ending == CORE_PART_OPEN;
@@ -144,6 +195,9 @@ void main() {
         core_states[pixel].status = CORE_RAY_HAS_SOUGHT;
         core_states[pixel].chain = best;
         core_states[pixel].element = best_element;
+#if CORE_MAKES_SEGMENTS
+        core_states[pixel].chain_error = best_error;
+#endif
         core_states[pixel].flags |= (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) | (has_failed ? CORE_FLAG_UNDECIDED : 0u);
     }
     const uint all_open = subgroupAdd(is_mine ? 1u : 0u), all_evaluations = subgroupAdd(n_evaluations);

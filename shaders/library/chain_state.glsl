@@ -1,0 +1,32 @@
+// Rays go through a volume in chains: into it through a face without known neighbour (or where the eye is), then through shared faces
+// from element to element, until they leave through a face without neighbour. Then the next chain is looked for, in the order of where
+// they begin. Parts that another chain has settled before do not count again.
+//
+// So a ray's way is a state that goes from dispatch to dispatch, and from one element class to another.
+
+#ifndef CORE_CHAIN_STATE
+#define CORE_CHAIN_STATE
+
+#define CORE_RAY_SEEKS 0u
+#define CORE_RAY_GOES 1u
+#define CORE_RAY_ENDS 2u
+// At the depth of a transparent surface, in the middle of an element.
+#define CORE_RAY_WAITS 3u
+// All starts of the classes that have been asked so far are looked through.
+#define CORE_RAY_HAS_SOUGHT 4u
+
+#define CORE_NO_ELEMENT 0xffffffffu
+#define CORE_NO_LINK 0xffffffffu
+
+struct core_chain {
+    // Up to here everything is settled; where the chain has got to; where it began, and the element in which it began.
+    elvis_real done, at, start;
+    uint start_element;
+    // Of all elements of the volume: the chain's next one; of a ray that seeks, that of the nearest start found so far.
+    uint element;
+    uint status;
+    // How often on end the element was not met where it was to be.
+    uint n_lost;
+};
+
+#endif
