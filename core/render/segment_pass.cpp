@@ -158,6 +158,7 @@ KernelRequest SegmentPass::request_of(const ClassKernels& kernels, const char* n
     }
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                       {"CORE_FOLLOWS", m_chains.has_strongly_curved(kernels.element_class) ? "1" : "0"},
                        {"CORE_LEAF_WORD", "index"},
                        {"CORE_MAKES_SEGMENTS", "1"},
                        {"CORE_RAYS_ARE_GIVEN", are_given ? "1" : "0"}};

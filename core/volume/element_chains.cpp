@@ -60,6 +60,11 @@ ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, 
     keep_only({});
 }
 
+bool ElementChains::has_strongly_curved(std::uint32_t element_class) const {
+    constexpr float followed_curvature = 0.25f;
+    return !std::ranges::all_of(m_data.curvatures(element_class), [](float curvature) { return curvature <= followed_curvature; });
+}
+
 bool ElementChains::is_kept(std::uint32_t element) const {
     for (std::size_t index = 0; index < m_classes.size(); ++index) {
         const ClassInfo& info = m_volume.classes()[index];

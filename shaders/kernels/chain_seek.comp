@@ -37,7 +37,9 @@ layout(push_constant) uniform core_parameters {
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
 #include "library/chain_start.glsl"
+#if CORE_FOLLOWS
 #include "library/curved_start.glsl"
+#endif
 
 // Turns of a ray, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
@@ -128,9 +130,10 @@ void main() {
                 break;
             }
         }
+#if CORE_FOLLOWS
         // Where bounds tell little.
         const bool is_curved = is_searching && part.curvature > CORE_FOLLOWED_CURVATURE;
-        for (uint turn = 0u; turn < (is_curved && is_first && part.anchor <= from ? 1u : 0u); ++turn) {
+        if (is_curved && is_first && part.anchor <= from) {
             const bool is_in = core_part_enter(ray, elvis_real(0), part);
             const uint element = core_first_element + part.element;
             const bool is_better = is_in && (from < best || (from == best && element < best_element));
@@ -141,7 +144,7 @@ void main() {
         for (uint attempt = 0u; attempt < (is_curved ? uint(CORE_N_FACES) * CORE_FACE_STARTS : 0u); ++attempt) {
             const int face = int(attempt / CORE_FACE_STARTS);
             const bool is_open = elvis_fetch_core_links(part.element, uint(face)) == CORE_NO_LINK;
-            for (uint turn = 0u; turn < (is_open ? 1u : 0u); ++turn) {
+            if (is_open) {
                 const core_face_entry entry = core_enter_face(ray, part.element, part.curvature, face, attempt % CORE_FACE_STARTS);
                 const uint element = core_first_element + part.element;
                 n_evaluations += entry.n_evaluations;
@@ -158,6 +161,7 @@ void main() {
             }
         }
         is_searching = is_searching && !is_curved;
+#endif
         // A start that is not the one wanted is followed to where the ray leaves.
         const uint ending = is_searching ? core_part_turn(ray, is_searching, part) : CORE_PART_NONE;
         n_evaluations += is_searching ? 1u : 0u;

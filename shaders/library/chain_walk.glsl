@@ -10,7 +10,8 @@
 //     }
 //
 // The kernel brings library/ray_part.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
-// volume, which links are of; and core_extent, the diagonal of the volume's bounds.
+// volume, which links are of; core_extent, the diagonal of the volume's bounds; and CORE_FOLLOWS, whether the class has elements above
+// CORE_FOLLOWED_CURVATURE.
 
 #ifndef CORE_CHAIN_WALK
 #define CORE_CHAIN_WALK
@@ -143,10 +144,12 @@ core_reach core_chain_reach(core_walk_ray ray, core_chain chain, inout core_part
     uint ending = CORE_PART_NONE;
     const bool is_possible = core_part_begin(ray, chain.element - core_first_element, chain.at, chain.at + ray.reach, true, part);
     ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
+#if CORE_FOLLOWS
     if (part.curvature > CORE_FOLLOWED_CURVATURE) {
         const bool is_entered = core_part_enter(ray, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed, part);
         ending = is_entered ? CORE_PART_OPEN : ending;
     }
+#endif
     while (ending == CORE_PART_OPEN) {
         ending = core_part_turn(ray, true, part);
         if (ending != CORE_PART_OPEN) {
