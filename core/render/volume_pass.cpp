@@ -188,6 +188,7 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
     for (ClassKernels& kernels : m_kernels) {
         if (!kernels.seek) {
             KernelRequest tiles = request_of(kernels, "ray_tiles");
+            tiles.defines.emplace_back("CORE_TESTS_STARTS", "1");
             tiles.bindings.push_back({1, BindingType::storage_buffer});
             tiles.bindings.push_back({2, BindingType::storage_buffer});
             tiles.push_constant_bytes = sizeof(TilesParameters);

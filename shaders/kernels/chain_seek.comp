@@ -95,35 +95,48 @@ void main() {
     bool is_searching = false, has_entered = false, has_failed = false;
     while ((is_searching || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
         work += 1u;
+        // An element that may hold a start.
         while (!is_searching && (stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
-            work += 1u;
-            const bool is_popped = stack_size > 0u;
+            bool is_leaf = false;
+            uint candidate = 0u;
+            elvis_real box_from = elvis_real(0), box_to = elvis_real(0);
+            while (!is_leaf && (stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
+                work += 1u;
+                const bool is_popped = stack_size > 0u;
 #if CORE_RAYS_ARE_GIVEN
-            const uint listed = 0u;
-            const bool is_behind = false;
+                const uint listed = 0u;
+                const bool is_behind = false;
 #else
-            const uint at = list + 1u + 2u * min(entry, n_listed - 1u);
-            const uint listed = core_tiles[at];
-            const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(best);
+                const uint at = list + 1u + 2u * min(entry, n_listed - 1u);
+                const uint listed = core_tiles[at];
+                const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(best);
 #endif
-            const uint word = is_popped ? stack[stack_size - (is_popped ? 1u : 0u)] : listed;
-            stack_size -= is_popped ? 1u : 0u;
-            entry = is_popped ? entry : (is_behind ? n_entries : entry + 1u);
-            const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
-            const vec2 span = core_box_span(node, pixel_ray);
-            const bool is_touched = !is_behind && span.x <= span.y && span.y >= float(from) && span.x <= float(best);
-            if (is_touched && !node.is_leaf) {
-                stack[stack_size] = node.child + 1u;
-                stack[stack_size + 1u] = node.child;
-                stack_size += 2u;
+                const uint word = is_popped ? stack[stack_size - (is_popped ? 1u : 0u)] : listed;
+                stack_size -= is_popped ? 1u : 0u;
+                entry = is_popped ? entry : (is_behind ? n_entries : entry + 1u);
+                const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
+                const vec2 span = core_box_span(node, pixel_ray);
+                const bool is_touched = !is_behind && span.x <= span.y && span.y >= float(from) && span.x <= float(best);
+                if (is_touched && !node.is_leaf) {
+                    stack[stack_size] = node.child + 1u;
+                    stack[stack_size + 1u] = node.child;
+                    stack_size += 2u;
+                }
+                is_leaf = is_touched && node.is_leaf;
+                candidate = node.child;
+                box_from = elvis_real(span.x);
+                box_to = elvis_real(span.y);
+                if (is_leaf || (stack_size == 0u && entry >= n_entries)) {
+                    break;
+                }
             }
-            if (is_touched && node.is_leaf) {
-                const elvis_real begin = is_first ? max(elvis_real(span.x), from) : elvis_real(span.x);
-                const elvis_real end = min(elvis_real(span.y), begin + ray.reach);
-                const bool is_around_eye = is_first && elvis_real(span.x) <= from;
-                const bool is_taken = !is_first && core_first_element + node.child == state.start_element && from > pixel_ray.least_t;
-                const bool may_start = is_around_eye || core_may_start(ray, node.child, begin, end, is_first ? begin : from, is_taken);
-                is_searching = core_part_begin(ray, node.child, begin, end, false, part) && may_start;
+            if (is_leaf) {
+                const elvis_real begin = is_first ? max(box_from, from) : box_from;
+                const elvis_real end = min(box_to, begin + ray.reach);
+                const bool is_around_eye = is_first && box_from <= from;
+                const bool is_taken = !is_first && core_first_element + candidate == state.start_element && from > pixel_ray.least_t;
+                const bool may_start = is_around_eye || core_may_start(ray, candidate, begin, end, is_first ? begin : from, is_taken);
+                is_searching = core_part_begin(ray, candidate, begin, end, false, part) && may_start;
                 has_entered = false;
             }
             if (is_searching || (stack_size == 0u && entry >= n_entries)) {

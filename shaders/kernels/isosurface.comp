@@ -122,7 +122,7 @@ void main() {
         uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
         bool best_is_certain = true;
         const bool was_hit = core_marks[pixel].owner != 0u;
-        for (uint turn = 0u; turn < (was_hit ? 1u : 0u); ++turn) {
+        if (was_hit) {
             best_t = core_samples[pixel].depth / stretch - along.reference_distance;
             best_number = core_samples[pixel].number;
             best_slack = elvis_real(16) * CORE_ROUNDOFF * core_samples[pixel].depth;
@@ -142,20 +142,20 @@ void main() {
                 uint index = word;
                 bool is_cell = !is_behind;
 #if CORE_DESCENDS
-                for (uint turn = 0u; turn < ((word & CORE_TILE_INNER) != 0u && !is_behind ? 1u : 0u); ++turn) {
+                if ((word & CORE_TILE_INNER) != 0u && !is_behind) {
                     const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
                     const vec2 in_box = core_box_span(node, ray);
                     const bool is_touched = max(in_box.x, float(ray.least_t)) <= min(in_box.y, end_t);
                     is_cell = is_touched && node.is_leaf;
                     index = node.child;
-                    for (uint inner = 0u; inner < (is_touched && !node.is_leaf ? 1u : 0u); ++inner) {
+                    if (is_touched && !node.is_leaf) {
                         stack[stack_size] = (node.child + 1u) | CORE_TILE_INNER;
                         stack[stack_size + 1u] = node.child | CORE_TILE_INNER;
                         stack_size += 2u;
                     }
                 }
 #endif
-                for (uint turn = 0u; turn < (is_cell ? 1u : 0u); ++turn) {
+                if (is_cell) {
                     const core_level_cell cell = core_fetch_level_cell(index);
                     const vec3 start = core_cell_turn(cell, ray.box_origin - cell.middle);
                     const vec3 motion = core_cell_turn(cell, vec3(ray.direction));
@@ -177,6 +177,9 @@ void main() {
                     wide = elvis_real(0);
                     const elvis_real half_side = elvis_real(core_cell_half_side(cell.code));
                     bend = elvis_real(2) * elvis_real(cell.error) / (half_side * half_side);
+                }
+                if (element != CORE_NO_ELEMENT || (stack_size == 0u && entry >= n_entries)) {
+                    break;
                 }
             }
 
@@ -331,28 +334,34 @@ void main() {
             x += share * (next_x - x);
             y += share * (next_y - y);
             z += share * (next_z - z);
+            if (element == CORE_NO_ELEMENT && stack_size == 0u && entry >= n_entries) {
+                break;
+            }
         }
         const bool is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
         flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
         const bool is_hit = best_element != CORE_NO_ELEMENT;
         flags |= is_hit ? CORE_FLAG_ISOSURFACE : 0u;
         flags |= is_hit && !best_is_certain ? CORE_FLAG_UNDECIDED : 0u;
-        for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
+        if (flags != 0u) {
             core_marks[pixel].flags |= flags;
         }
-        for (uint turn = 0u; turn < (is_hit ? 1u : 0u); ++turn) {
+        if (is_hit) {
             core_store_crossing(pixel, core_surface, best_isovalue, (best_t + along.reference_distance) * stretch, best_number,
                                 elvis_vec3(normal_x, normal_y, normal_z), ray.direction,
                                 core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS), best_bend);
         }
         row += 1u;
+        if (row >= end_row) {
+            break;
+        }
     }
     // Then no pixel of the column is to be trusted.
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
     for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
         core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
-    for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {
+    if (end_row > first_row) {
         const uint evaluations = subgroupAdd(n_evaluations), excluded = subgroupAdd(n_excluded), outside = subgroupAdd(n_outside);
         const uint undecided = subgroupAdd(n_undecided), crossings = subgroupAdd(n_crossings);
         if (subgroupElect()) {

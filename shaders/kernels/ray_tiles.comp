@@ -86,6 +86,8 @@ core_beam core_tile_beam(elvis_real column, elvis_real row) {
 
 #ifdef CORE_TESTS_LEVELS
 #include "library/level_leaf_test.glsl"
+#elif defined(CORE_TESTS_STARTS)
+#include "library/chain_leaf_test.glsl"
 #else
 bool core_leaf_is_met(uint item, core_beam beam, vec2 span) { return true; }
 #endif
@@ -108,12 +110,12 @@ void main() {
         const vec2 span = core_beam_span(node, beam);
         const float entry = span.x;
         bool is_met = entry < 3.2e38;
-        for (uint turn = 0u; turn < (is_met && node.is_leaf ? 1u : 0u); ++turn) {
+        if (is_met && node.is_leaf) {
             is_met = core_leaf_is_met(node.child, beam, span);
         }
         // A node that could leave too many entries behind stays an entry itself, for the pixels to descend from.
         const bool is_entry = node.is_leaf || n_entries + stack_size + 2u > CORE_TILE_CAPACITY;
-        for (uint turn = 0u; turn < (is_met && is_entry ? 1u : 0u); ++turn) {
+        if (is_met && is_entry) {
             uint place = n_entries;
             while (place > 0u && entries[max(place, 1u) - 1u] > entry) {
                 entries[place] = entries[place - 1u];
@@ -125,7 +127,7 @@ void main() {
             n_entries += 1u;
             n_inner += node.is_leaf ? 0u : 1u;
         }
-        for (uint turn = 0u; turn < (is_met && !is_entry ? 1u : 0u); ++turn) {
+        if (is_met && !is_entry) {
             // The nearer one first, so that far ones stay unopened where there are too many.
             const core_node one = core_fetch_node(node.child), other = core_fetch_node(node.child + 1u);
             const bool is_first_nearer = dot(beam.axis, one.lower + one.upper) < dot(beam.axis, other.lower + other.upper);
@@ -133,9 +135,12 @@ void main() {
             stack[stack_size + 1u] = node.child + (is_first_nearer ? 0u : 1u);
             stack_size += 2u;
         }
+        if (stack_size == 0u) {
+            break;
+        }
     }
     const uint first = tile * CORE_TILE_STRIDE;
-    for (uint turn = 0u; turn < (is_wanted ? 1u : 0u); ++turn) {
+    if (is_wanted) {
         core_tiles[first] = n_entries | (n_inner > 0u ? CORE_TILE_INNER : 0u);
     }
     for (uint i = 0u; i < n_entries; ++i) {

@@ -31,6 +31,9 @@ uint core_isovalue_from(elvis_real least) {
         const bool is_below = core_isovalues[middle] < least;
         low = is_below ? middle + 1u : low;
         high = is_below ? high : middle;
+        if (low >= high) {
+            break;
+        }
     }
     return low;
 }

@@ -6,6 +6,9 @@
 // core_min_offset_exponent, in the upper five bits; and the three bits between hold the curvature (library/prediction.glsl) rounded
 // up to a power of two. exponents == 0: there is no linearization.
 
+#ifndef CORE_LINEARIZATION
+#define CORE_LINEARIZATION
+
 // A smaller offset needs no exponent of its own; beyond 2^10 (positions far from their origin, in elements' lengths) too few digits
 // would be left.
 const uint core_min_offset_exponent = 119u;
@@ -37,6 +40,15 @@ vec3 core_linear_inverse(core_linearization packed, vec3 x) {
     return vec3(offset * w4.y + core_scale(packed.exponents, 0) * dot(vec3(w0, w1.x), x),
                 offset * w5.x + core_scale(packed.exponents, 1) * dot(vec3(w1.y, w2), x),
                 offset * w5.y + core_scale(packed.exponents, 2) * dot(vec3(w3, w4.x), x));
+}
+
+// How that changes along a direction.
+vec3 core_linear_motion(core_linearization packed, vec3 direction) {
+    const vec2 w0 = unpackSnorm2x16(packed.words[0]), w1 = unpackSnorm2x16(packed.words[1]), w2 = unpackSnorm2x16(packed.words[2]);
+    const vec2 w3 = unpackSnorm2x16(packed.words[3]), w4 = unpackSnorm2x16(packed.words[4]);
+    return vec3(core_scale(packed.exponents, 0) * dot(vec3(w0, w1.x), direction),
+                core_scale(packed.exponents, 1) * dot(vec3(w1.y, w2), direction),
+                core_scale(packed.exponents, 2) * dot(vec3(w3, w4.x), direction));
 }
 
 // Exponent of a power of two that no entry exceeds; 0 if there is none.
@@ -74,3 +86,5 @@ core_linearization core_pack_linearization(vec3 row0, vec3 row1, vec3 row2, vec3
     packed.words[5] = packSnorm2x16(o.yz);
     return packed;
 }
+
+#endif

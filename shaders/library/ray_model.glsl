@@ -7,6 +7,9 @@
 //
 // All within the interval that the error was bounded on.
 
+#ifndef CORE_RAY_MODEL
+#define CORE_RAY_MODEL
+
 #include "library/element_frame.glsl"
 #include "library/prediction.glsl"
 #include "library/shape_region.glsl"
@@ -112,3 +115,5 @@ core_root_error core_root_error_at(core_ray_model model, core_frame frame, elvis
     return core_root_error(is_face ? error * inversesqrt(dot(normal, normal)) : elvis_real(0),
                            is_face ? (error + dot(size, model.noise)) / slope : elvis_real(0));
 }
+
+#endif

@@ -27,7 +27,9 @@
 #define CORE_PART_TURNS 128u
 #endif
 // In the record of core_links, behind the faces.
+#ifndef CORE_LINKS_CURVATURE
 #define CORE_LINKS_CURVATURE 7u
+#endif
 // A kernel without core_links has it from elsewhere.
 #ifndef CORE_PART_CURVATURE
 #define CORE_PART_CURVATURE(element) elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)))

@@ -36,8 +36,6 @@
 // Share of how far the field may be from a line that a cubic is taken to be off at least.
 #define CORE_CUBIC_DOUBT elvis_real(0.0625LF)
 #define CORE_MARGIN elvis_real(15)
-// How many times as much as is allowed a cubic may be off in the steepest piece, of which there may be little.
-#define CORE_HOPELESS elvis_real(16)
 // Share of what a step may be off that a line may be.
 #define CORE_LINE_SHARE elvis_real(0.125LF)
 // Of pairs of Chebyshev coefficients: none is believed to be faster; one that is slower is none.
@@ -170,17 +168,15 @@ core_judgement core_judge_step(core_integral integral, core_fitted fitted, core_
     // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
     const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
     const bool is_whole = core_least(fitted.p) - fitted.error >= held.lower && core_most(fitted.p) + fitted.error < held.upper;
-    // What cannot be good, and a cubic that is far from that, is not tried: another sample is.
+    // What cannot be good, and a cubic that may not be, is not tried: another sample is.
     const elvis_real worst = light.left * width * per_parameter * fitted.error;
     core_judgement judgement;
     judgement.allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
     judgement.is_exhausted = integral.has_inner && (core_is_shortest(integral) || fitted.error <= elvis_real(2) * integral.error);
     // Of a line the bound is what it may well be off.
     const elvis_real acceptable = integral.is_line ? CORE_LINE_SHARE * judgement.allowed : judgement.allowed;
-    const bool is_hopeful =
-        is_whole ? worst * held.steepness <= acceptable
-                 : integral.has_inner ||
-                       worst * elvis_real(core_steepest) <= (integral.is_line ? acceptable : CORE_HOPELESS * judgement.allowed);
+    const bool is_hopeful = is_whole ? worst * held.steepness <= acceptable
+                                     : integral.has_inner || worst * elvis_real(core_steepest) <= acceptable;
     judgement.is_tried = is_hopeful || judgement.is_exhausted;
     return judgement;
 }
