@@ -57,6 +57,35 @@ bool core_enters_chain(core_part part, core_walk_ray ray) {
     return enters;
 }
 
+// Whether the ray may come into the element through a face without neighbour behind `after`, as the mapping linearized tells: not if it
+// surely goes out through each of them, or meets another face later.
+bool core_may_enter_chain(core_walk_ray ray, uint element, elvis_real after) {
+    const core_linearization linearization = core_fetch_linearization(element);
+    const uvec4 first = elvis_fetch4_core_links(element, 0u), second = elvis_fetch4_core_links(element, 1u);
+    const elvis_real curvature = elvis_real(uintBitsToFloat(second.w)), share = elvis_real(2) * curvature * CORE_SHAPE_RADIUS;
+    // Relative to `after`.
+    const elvis_vec3 from = core_part_target(ray, element, after);
+    const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(from)));
+    const elvis_vec3 there = elvis_vec3(core_linear_inverse(linearization, vec3(from + ray.reach * ray.direction)));
+    const elvis_vec3 slope = (there - here) / ray.reach;
+    const elvis_real change = core_max_norm(slope) * (share / (elvis_real(1) - share) + CORE_START_ERROR);
+    const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
+    elvis_real latest_open = elvis_real(-3e38LF), earliest = latest_open;
+    bool may_enter = linearization.exponents == 0u || share > elvis_real(0.5LF);
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        const elvis_real size = dot(abs(constraint.xyz), elvis_vec3(1)), rate = dot(constraint.xyz, slope);
+        const elvis_real value = dot(constraint.xyz, here) + constraint.w;
+        const bool is_open = (face < 4 ? first[face] : second[face - 4]) == CORE_NO_LINK;
+        const bool is_doubtful = abs(rate) <= size * change, is_entry = rate < elvis_real(0) && !is_doubtful;
+        const elvis_real inverse = elvis_real(1) / max(abs(rate), elvis_real(1e-30LF));
+        may_enter = may_enter || (is_open && is_doubtful);
+        earliest = is_entry ? max(earliest, (value - size * error) * inverse) : earliest;
+        latest_open = is_entry && is_open ? max(latest_open, (value + size * error) * inverse) : latest_open;
+    }
+    return may_enter || latest_open >= max(earliest, elvis_real(-2) * ray.tolerance);
+}
+
 void main() {
     const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
     const bool is_pixel = column < core_size.x && row < core_size.y;
@@ -116,7 +145,9 @@ void main() {
             }
             for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
                 const elvis_real begin = is_first ? max(elvis_real(span.x), from) : elvis_real(span.x);
-                is_searching = core_part_begin(ray, node.child, begin, min(elvis_real(span.y), begin + ray.reach), false, part);
+                const bool may_hold_eye = is_first && span.x <= float(from);
+                is_searching = (may_hold_eye || core_may_enter_chain(ray, node.child, is_first ? begin : state.start)) &&
+                               core_part_begin(ray, node.child, begin, min(elvis_real(span.y), begin + ray.reach), false, part);
                 has_entered = false;
             }
         }
