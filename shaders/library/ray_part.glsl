@@ -305,17 +305,16 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const int face = was_inside ? clip.to_face : clip.from_face;
     const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
     const bool is_exact = is_sound && face >= 0 && core_is_near(curvature, core_model_step(model, was_inside ? clip.to : clip.from)) && error.distance <= ray.tolerance * ray.speed;
-    core_part entered = part, left = part;
-    core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, entered);
     const bool is_denied = part.is_assumed && clip.possible_from > min(clip.possible_to, part.begin + ray.tolerance);
     const bool is_confirmed = is_sure && clip.sure_from <= part.begin + ray.tolerance;
-    const bool has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, left) && !is_denied;
-    left.is_assumed = part.is_assumed && !is_confirmed;
-    entered.is_assumed = false;
-    if (was_inside && !is_denied) {
-        part = left;
-    } else {
-        part = entered;
+    const bool is_kept_in = was_inside && !is_denied;
+    part.is_assumed = part.is_assumed && is_kept_in && !is_confirmed;
+    bool has_left = false;
+    for (uint turn = 0u; turn < (is_kept_in ? 1u : 0u); ++turn) {
+        has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, part);
+    }
+    for (uint turn = 0u; turn < (is_kept_in ? 0u : 1u); ++turn) {
+        core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, part);
     }
     part.is_followed = part.is_followed && !is_denied;
     const bool is_anchor = is_sound && (!part.is_followed || core_is_near(curvature, core_max_norm(model.step)));
@@ -335,9 +334,9 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     part.next = is_too_far ? clamp(part.next, part.begin, part.end) : part.next;
 
     const bool is_given_up = part.turns >= CORE_PART_TURNS;
-    const bool is_found = was_inside && !is_denied && (has_left || is_given_up);
-    part.has_failed = is_given_up && !(was_inside && has_left);
-    const bool is_last = (!was_inside || is_denied) && !part.is_inside && (part.begin >= part.last || is_given_up);
+    const bool is_found = is_kept_in && (has_left || is_given_up);
+    part.has_failed = is_given_up && !has_left;
+    const bool is_last = !is_kept_in && !part.is_inside && (part.begin >= part.last || is_given_up);
     part.resume = is_given_up && !has_left ? part.last : part.resume;
     return is_found ? CORE_PART_FOUND : is_last ? CORE_PART_NONE : CORE_PART_OPEN;
 }
