@@ -53,23 +53,18 @@ void FrameSchedule::touch(Time now) {
     m_touched = now;
 }
 
-std::optional<FrameSchedule::Step> FrameSchedule::next(Time now, const FrameRequest& request) const {
-    const FrameStage at_full_size = has_refinement(request) ? FrameStage::full : FrameStage::exact;
-    const FrameStage on_screen = shown();
-    if (moves(now)) {
-        if (on_screen != FrameStage::none) {
-            return {};
-        }
-        return m_divisor == 1 ? Step{at_full_size, 1, m_version} : Step{FrameStage::moving, m_divisor, m_version};
-    }
-    switch (on_screen) {
-    case FrameStage::exact:
-        return {};
+std::optional<FrameSchedule::Step> FrameSchedule::next(Time now) const {
+    switch (shown()) {
+    case FrameStage::none:
+        return m_divisor == 1 ? Step{FrameStage::full, 1, m_version} : Step{FrameStage::moving, m_divisor, m_version};
+    case FrameStage::moving:
+        return moves(now) ? std::nullopt : std::optional(Step{FrameStage::full, 1, m_version});
     case FrameStage::full:
-        return Step{FrameStage::exact, 1, m_version};
-    default:
-        return Step{at_full_size, 1, m_version};
+        return moves(now) ? std::nullopt : std::optional(Step{FrameStage::exact, 1, m_version});
+    case FrameStage::exact:
+        break;
     }
+    return {};
 }
 
 bool FrameSchedule::is_outdated(const Step& step, Time now) const {
@@ -80,11 +75,11 @@ bool FrameSchedule::is_outdated(const Step& step, Time now) const {
     return step.stage != FrameStage::moving || !moves(now);
 }
 
-void FrameSchedule::drawn(const Step& step, const FrameRequest& request, double milliseconds) {
-    m_shown = step.stage;
+void FrameSchedule::drawn(const Step& step, bool is_refinable, double milliseconds) {
+    m_shown = step.stage == FrameStage::full && !is_refinable ? FrameStage::exact : step.stage;
     m_shown_version = step.version;
     // What is exact takes longer than what would be drawn while things move, if it is anything else.
-    if (step.stage != FrameStage::exact || !has_refinement(request)) {
+    if (step.stage != FrameStage::exact) {
         choose_divisor(step.divisor, milliseconds);
     }
 }

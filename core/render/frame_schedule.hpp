@@ -38,7 +38,8 @@ bool has_refinement(const FrameRequest& request);
  *     step = next(); if there is one: draw request_for(request, step.stage, step.divisor); then drawn()
  *     while it is drawn: if is_outdated(step), cancel it and take the next one
  *
- * Without release() things have come to rest when nothing changes for `rest`.
+ * Without release() things have come to rest when nothing changes for `rest`. Where all pixels would take longer than a moving
+ * picture may, fewer come first also at rest: something to look at meanwhile.
  */
 class FrameSchedule {
 public:
@@ -63,12 +64,15 @@ public:
     void change() { ++m_version, m_is_moving = false; }
     void release() { m_is_moving = false; }
 
-    /** What to draw now; nothing if the screen shows it, or until something happens. `request` is what is asked for. */
-    std::optional<Step> next(Time now, const FrameRequest& request) const;
+    /** What to draw now; nothing if the screen shows it, or until something happens. */
+    std::optional<Step> next(Time now) const;
     /** Whether the step is no longer worth its time: another one is wanted, which a pixel-exact picture must not delay. */
     bool is_outdated(const Step& step, Time now) const;
-    /** It is on the screen; `milliseconds` without compilation and upload, as Frame::render_milliseconds. */
-    void drawn(const Step& step, const FrameRequest& request, double milliseconds);
+    /**
+     * It is on the screen; `milliseconds` without compilation and upload, as Frame::render_milliseconds. `is_refinable`:
+     * has_refinement() of what was asked for; if not, `full` is exact.
+     */
+    void drawn(const Step& step, bool is_refinable, double milliseconds);
 
     /** Of the last picture that was drawn. FrameStage::none once something else is asked for and nothing of it was drawn. */
     FrameStage shown() const { return m_shown_version == m_version ? m_shown : FrameStage::none; }

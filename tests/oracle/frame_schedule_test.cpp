@@ -33,7 +33,7 @@ struct MadeUp {
     }
     /** Draws what is wanted; returns how long that took, nothing if nothing is wanted. */
     std::optional<double> draw(const FrameRequest& request) {
-        const auto step = schedule.next(now, request);
+        const auto step = schedule.next(now);
         if (!step) {
             return {};
         }
@@ -41,7 +41,7 @@ struct MadeUp {
         const double share = double(drawn.width) * drawn.height / (double(request.width) * request.height);
         const double milliseconds = fixed + share * all * (step->stage == Stage::exact && has_refinement(request) ? 3 : 1);
         wait(milliseconds);
-        schedule.drawn(*step, request, milliseconds);
+        schedule.drawn(*step, has_refinement(request), milliseconds);
         return milliseconds;
     }
 };
@@ -94,10 +94,29 @@ TEST_CASE("when the hand rests all pixels come, then exact ones, then nothing") 
     made.schedule.release();
     made.draw(request);
     CHECK(made.schedule.shown() == Stage::full);
-    // Something typed in.
+    // Something typed in: something to look at until all pixels are there.
+    made.schedule.change();
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::moving);
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::full);
+}
+
+TEST_CASE("what is quick comes with all pixels at once") {
+    MadeUp made;
+    made.all = 30;
+    const FrameRequest request = request_of(true);
+    for (int frame = 0; frame < 3; ++frame) {
+        made.schedule.change();
+        made.draw(request);
+        made.draw(request);
+        made.draw(request);
+    }
     made.schedule.change();
     made.draw(request);
     CHECK(made.schedule.shown() == Stage::full);
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::exact);
 }
 
 TEST_CASE("surfaces without lines are exact when all pixels are drawn") {
@@ -116,13 +135,14 @@ TEST_CASE("surfaces without lines are exact when all pixels are drawn") {
 TEST_CASE("a large picture is outdated by the next movement, a small one is not") {
     MadeUp made;
     const FrameRequest request = request_of(true);
-    const auto full = made.schedule.next(made.now, request);
+    made.draw(request);
+    const auto full = made.schedule.next(made.now);
     REQUIRE(full);
     CHECK(full->stage == Stage::full);
     CHECK_FALSE(made.schedule.is_outdated(*full, made.now));
     made.schedule.touch(made.now);
     CHECK(made.schedule.is_outdated(*full, made.now));
-    const auto moving = made.schedule.next(made.now, request);
+    const auto moving = made.schedule.next(made.now);
     REQUIRE(moving);
     CHECK(moving->stage == Stage::moving);
     made.schedule.touch(made.now);

@@ -51,17 +51,18 @@ def opens_by_dialog(window):
 
 def orbits(window):
     before = window.screen()["scene"]["camera"]
-    states = set()
-    window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: states.add(screen["state"]))
+    stages = set()
+    window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: stages.add(screen["stage"]))
     window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != before["eye"], "the camera to move")
     screen = window.settle()
     after = screen["scene"]["camera"]
     distance = [sum((a - b) ** 2 for a, b in zip(camera["eye"], camera["look_at"])) for camera in (before, after)]
     require(abs(distance[0] - distance[1]) < 1e-6 * distance[0], f"the distance has changed: {distance}")
-    require("reduced" in states, f"no reduced picture was shown while moving, only {states}")
-    require(screen["state"] == "full", "at rest the picture is not full")
+    require("moving" in stages, f"no coarse picture was shown while moving, only {stages}")
+    require(screen["stage"] == "exact", "at rest the picture is not exact")
     print(f"while orbiting: {screen['frames_per_second']:.1f} pictures a second; "
-          f"from rest to the full picture: {screen['rest_to_full_seconds']:.2f} s")
+          f"from rest to all pixels: {screen['rest_to_full_seconds']:.2f} s, "
+          f"to pixel-exact ones: {screen['rest_to_exact_seconds']:.2f} s")
 
 
 def zooms_to_the_cursor(window):

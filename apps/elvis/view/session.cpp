@@ -61,24 +61,6 @@ std::vector<std::uint8_t> shown_bytes(const Frame& frame) {
     return bytes;
 }
 
-/** Of a scene in which everything is hidden. */
-Picture blank(const Scene& scene, const Camera& camera) {
-    Frame frame;
-    frame.width = scene.size[0];
-    frame.height = scene.size[1];
-    frame.color.resize(std::size_t{4} * frame.width * frame.height);
-    for (std::size_t i = 0; i < frame.color.size(); ++i) {
-        frame.color[i] = scene.background[i % 4];
-    }
-    Picture picture;
-    picture.width = frame.width;
-    picture.height = frame.height;
-    picture.rgba = shown_bytes(frame);
-    picture.camera = camera;
-    picture.counts.pixels = std::uint64_t{frame.width} * frame.height;
-    return picture;
-}
-
 void write_annotation(const Scene& scene, const FrameRequest& request, Frame& frame, const RuntimeVolume& volume,
                       std::vector<std::string>& remarks) {
     if (!scene.annotation) {
@@ -125,23 +107,17 @@ void Session::need_precision(const Scene& scene) {
     }
 }
 
-Picture Session::draw(const Scene& scene, double scale) {
+Picture Session::draw(const Scene& scene, FrameStage stage, std::uint32_t divisor) {
     need_precision(scene);
-    Scene smaller = scene;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        smaller.size[axis] = std::max(1u, static_cast<std::uint32_t>(std::lround(scale * scene.size[axis])));
-    }
-    FrameRequest request = make_frame_request(smaller, *m_volume, *m_renderer);
+    FrameRequest request = make_frame_request(scene, *m_volume, *m_renderer);
     request.with_buffers = false;
-    if (request.surfaces.empty() && !request.volume) {
-        return blank(scene, request.camera);
-    }
-    Frame frame = m_renderer->render(request, &m_control);
+    Frame frame = m_renderer->render(request_for(request, stage, divisor), &m_control);
     const double frame_milliseconds = frame.render_milliseconds;
     const Clock::time_point drawn = Clock::now();
     Picture picture;
-    if (scale < 1 && scene.annotation) {
-        frame = stretched(frame, scene.size[0], scene.size[1]);
+    picture.is_refinable = has_refinement(request);
+    if (scene.annotation && frame.width != request.width) {
+        frame = stretched(frame, request.width, request.height);
     }
     write_annotation(scene, request, frame, *m_volume, picture.remarks);
     picture.width = frame.width;

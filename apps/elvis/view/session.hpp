@@ -10,6 +10,7 @@
 #include <core/base/cancel.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/probe.hpp>
+#include <core/render/frame_schedule.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/scene.hpp>
 
@@ -31,6 +32,8 @@ struct Picture {
     Camera camera;
     /** Without what only the first picture of its kind takes: upload and compilation. */
     double milliseconds = 0;
+    /** FrameStage::exact differs from FrameStage::full. */
+    bool is_refinable = false;
     /** What finds no room on it, and the like. */
     std::vector<std::string> remarks;
 };
@@ -56,10 +59,10 @@ public:
     Scene first_scene(const std::string& volume);
 
     /**
-     * At `scale` times the size of the scene. Annotation is written at full size also on coarser pictures, which are then of full
-     * size themselves.
+     * As a stage shows it, one pixel for `divisor` across and down. Annotation is written at full size also on coarser pictures,
+     * which are then of full size themselves.
      */
-    Picture draw(const Scene& scene, double scale);
+    Picture draw(const Scene& scene, FrameStage stage, std::uint32_t divisor);
     /** The full picture, to a file. Returns remarks. */
     std::vector<std::string> save_picture(const Scene& scene, const std::string& path, int bits);
 
