@@ -84,14 +84,29 @@ void FrameSchedule::drawn(const Step& step, bool is_refinable, double millisecon
     }
 }
 
-/** Time goes with the number of pixels, but for a part that does not: going on from the size at hand finds that, too. */
+/**
+ * Time is taken as a part that goes with the number of pixels and one that does not: a line through the picture just drawn and
+ * the last with all pixels, or through the origin while that is not known or was no slower.
+ */
+double FrameSchedule::expected(std::uint32_t divisor, std::uint32_t drawn, double milliseconds) const {
+    const auto share = [](double d) { return 1 / (d * d); };
+    if (drawn > 1 && m_full_milliseconds && *m_full_milliseconds > milliseconds) {
+        const double slope = (*m_full_milliseconds - milliseconds) / (1 - share(drawn));
+        return std::max(milliseconds + slope * (share(divisor) - share(drawn)), 0.0);
+    }
+    return milliseconds * share(divisor) / share(drawn);
+}
+
 void FrameSchedule::choose_divisor(std::uint32_t drawn, double milliseconds) {
-    const auto expected = [&](std::uint32_t divisor) {
-        const double ratio = static_cast<double>(drawn) / divisor;
-        return milliseconds * ratio * ratio;
-    };
+    if (drawn == 1) {
+        m_full_milliseconds = milliseconds;
+    }
+    // Fewer pixels than that are no use: the rest takes its time.
+    constexpr double hardly_slower = 1.3;
+    const double least = hardly_slower * expected(divisors.back(), drawn, milliseconds);
     const auto fits = [&](std::uint32_t divisor) {
-        return expected(divisor) <= (divisor < m_divisor ? most_of_budget : 1.0) * m_budget;
+        const double budget = (divisor < m_divisor ? most_of_budget : 1.0) * m_budget;
+        return expected(divisor, drawn, milliseconds) <= std::max(budget, least);
     };
     const auto found = std::find_if(divisors.begin(), divisors.end(), fits);
     std::uint32_t wanted = found == divisors.end() ? divisors.back() : *found;

@@ -81,6 +81,8 @@ public:
 
 private:
     bool moves(Time now) const { return m_is_moving && now - m_touched < rest; }
+    /** From the time that one size took, that of another. */
+    double expected(std::uint32_t divisor, std::uint32_t drawn, double milliseconds) const;
     void choose_divisor(std::uint32_t drawn, double milliseconds);
 
     double m_budget;
@@ -89,6 +91,8 @@ private:
     bool m_is_moving = false;
     Time m_touched{};
     std::uint32_t m_divisor = 4;
+    /** What the last picture with all pixels took. */
+    std::optional<double> m_full_milliseconds;
 };
 
 } // namespace elvis

@@ -73,6 +73,27 @@ TEST_CASE("while things move ten frames a second are drawn, as large as that all
     }
 }
 
+TEST_CASE("time that no pixel takes is not mended by fewer pixels") {
+    const FrameRequest request = request_of(true);
+    for (const double fixed : {60.0, 150.0}) {
+        MadeUp made;
+        made.fixed = fixed;
+        made.all = 400;
+        // Once at rest, so that it is known what all pixels take.
+        while (made.draw(request)) {
+        }
+        double last = 0;
+        for (int frame = 0; frame < 12; ++frame) {
+            made.schedule.touch(made.now);
+            last = made.draw(request).value();
+        }
+        CAPTURE(fixed, made.schedule.moving_divisor(), last);
+        CHECK(last <= std::max(100.0, 1.35 * fixed));
+        // 400 / 16 and 400 / 9 milliseconds of pixels, or one size less.
+        CHECK(made.schedule.moving_divisor() <= 6);
+    }
+}
+
 TEST_CASE("when the hand rests all pixels come, then exact ones, then nothing") {
     MadeUp made;
     const FrameRequest request = request_of(true);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "pick.hpp"
+#include "picture.hpp"
 #include "volume_facts.hpp"
 
 #include <core/base/cancel.hpp>
@@ -22,21 +23,6 @@
 #include <vector>
 
 namespace elvis::view {
-
-/** A picture as the window shows it. */
-struct Picture {
-    std::uint32_t width = 0, height = 0;
-    /** Eight bits a channel, rounded as in PNG files; over grey where the background is not opaque. */
-    std::vector<std::uint8_t> rgba;
-    FrameCounts counts;
-    Camera camera;
-    /** Without what only the first picture of its kind takes: upload and compilation. */
-    double milliseconds = 0;
-    /** FrameStage::exact differs from FrameStage::full. */
-    bool is_refinable = false;
-    /** What finds no room on it, and the like. */
-    std::vector<std::string> remarks;
-};
 
 /** One thread at a time. Everything throws Error. */
 class Session {
@@ -77,8 +63,7 @@ public:
     std::vector<double> samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count, unsigned seed);
 
 private:
-    struct Open;
-    Frame finished_frame(const Scene& scene, std::vector<std::string>& remarks);
+    FrameRequest drawn_request(const Scene& scene);
     void need_precision(const Scene& scene);
 
     PluginRegistry m_registry;

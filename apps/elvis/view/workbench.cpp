@@ -222,7 +222,7 @@ void Workbench::convert(const std::string& input, const std::string& output) {
     m_conversion.start({input}, output);
 }
 
-void Workbench::take(DrawAnswer answer) {
+void Workbench::take(DrawAnswer answer, double showing_milliseconds) {
     const Clock::time_point now = Clock::now();
     if (!answer.error.empty()) {
         if (m_drawing_error != answer.error) {
@@ -234,7 +234,7 @@ void Workbench::take(DrawAnswer answer) {
     }
     m_drawing_error.clear();
     m_picture = std::move(answer.picture);
-    m_schedule.drawn(answer.step, m_picture.is_refinable, m_picture.milliseconds);
+    m_schedule.drawn(answer.step, m_picture.is_refinable, m_picture.milliseconds + showing_milliseconds);
     const bool is_full = answer.step.stage == FrameStage::full;
     m_stage = is_full && !m_picture.is_refinable ? FrameStage::exact : answer.step.stage;
     m_divisor = answer.step.divisor;
@@ -302,19 +302,23 @@ void Workbench::follow(bool is_moving) {
     m_was_moving = is_moving;
 }
 
-bool Workbench::update(bool is_moving) {
+bool Workbench::collect(double showing_milliseconds) {
     std::optional<DrawAnswer> answer = m_worker.collect();
     const bool has_news = answer.has_value();
     if (answer) {
-        take(std::move(*answer));
+        take(std::move(*answer), showing_milliseconds);
     }
     if (const std::optional<ConversionResult> result = m_conversion.collect()) {
         take(*result);
     }
+    return has_news;
+}
+
+void Workbench::go_on(bool is_moving) {
     follow(is_moving);
     const std::uint64_t revision = m_model.revision();
     if (!m_model.volume() || m_failed_revision == revision) {
-        return has_news;
+        return;
     }
     const Clock::time_point now = Clock::now();
     const std::optional<FrameSchedule::Step> drawing = m_worker.drawing();
@@ -327,7 +331,6 @@ bool Workbench::update(bool is_moving) {
             m_worker.draw({m_model.scene(), *step, revision});
         }
     }
-    return has_news;
 }
 
 bool Workbench::is_settled() const {

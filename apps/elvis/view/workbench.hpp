@@ -63,8 +63,12 @@ public:
     void convert(const std::string& input, const std::string& output);
     ConversionTask& conversion() { return m_conversion; }
 
-    /** To be called often. `is_moving`: the hand is at work. Returns whether there is a new picture. */
-    bool update(bool is_moving);
+    /** To be called often: takes what has come. Returns whether there is a new picture. `showing`: what a picture takes to show. */
+    bool collect(double showing_milliseconds);
+    /** To be called after that, and after changes: sees to the next picture. `is_moving`: the hand is at work. */
+    void go_on(bool is_moving);
+    /** A picture is on its way. */
+    bool is_drawing() const { return m_worker.drawing().has_value(); }
     /** The last picture; its width is 0 if there is none. */
     const Picture& picture() const { return m_picture; }
     /** Of the last picture, whatever has changed since. */
@@ -96,7 +100,7 @@ private:
     void sample(const std::optional<std::string>& field, const std::string& key, unsigned piece);
     void open_scene(Scene scene, std::string file, std::string path);
     std::string field_key(const std::optional<std::string>& field) const;
-    void take(DrawAnswer answer);
+    void take(DrawAnswer answer, double showing_milliseconds);
     void take(const ConversionResult& result);
     /** Tells the schedule what has changed since the last call, and whether the hand is at work. */
     void follow(bool is_moving);
