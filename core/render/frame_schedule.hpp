@@ -17,7 +17,7 @@ namespace elvis {
 enum class FrameStage {
     /** Nothing that was asked for. */
     none,
-    /** Fewer pixels, and as coarse as `full`: while things move. */
+    /** Fewer pixels, and as coarse as `full`, without lines where these take too long: while things move. */
     moving,
     /** Every pixel, but volume rendering to a hundredth of a channel, and lines that are looked for in few parts of a pixel. */
     full,
@@ -25,8 +25,8 @@ enum class FrameStage {
     exact
 };
 
-/** The request as a stage draws it, `divisor` pixels across and down in one. */
-FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor);
+/** The request as a stage draws it, `divisor` pixels across and down in one; contours and mesh lines may be left out while things move. */
+FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor, bool with_lines = true);
 
 /** Whether `full` leaves anything to `exact`: surfaces without lines are pixel-exact as soon as every pixel is drawn. */
 bool has_refinement(const FrameRequest& request);
@@ -35,7 +35,7 @@ bool has_refinement(const FrameRequest& request);
  * Decides from measured times. Calls come from one thread, with the time they happen; nothing is drawn here:
  *
  *     touch() whenever the camera or anything else changes; release() when the hand lets go, if that is known
- *     step = next(); if there is one: draw request_for(request, step.stage, step.divisor); then drawn()
+ *     step = next(); if there is one: draw request_for(request, step.stage, step.divisor, step.with_lines); then drawn()
  *     while it is drawn: if is_outdated(step), cancel it and take the next one
  *
  * Without release() things have come to rest when nothing changes for `rest`. Where all pixels would take longer than a moving
@@ -50,6 +50,7 @@ public:
         std::uint32_t divisor = 1;
         /** Of what is asked for. */
         std::uint64_t version = 0;
+        bool with_lines = true;
     };
 
     static constexpr std::chrono::milliseconds rest{200};
@@ -81,9 +82,16 @@ public:
 
 private:
     bool moves(Time now) const { return m_is_moving && now - m_touched < rest; }
-    /** From the time that one size took, that of another. */
-    double expected(std::uint32_t divisor, std::uint32_t drawn, double milliseconds) const;
-    void choose_divisor(std::uint32_t drawn, double milliseconds);
+    /** What a picture of one size took. */
+    struct Sample {
+        std::uint32_t divisor;
+        double milliseconds;
+    };
+    /** What another size would take. */
+    double expected(std::uint32_t divisor, const Sample& drawn) const;
+    void choose_divisor(const Sample& drawn);
+    /** Whether lines are worth their time while things move. */
+    void choose_lines(const Step& drawn, double milliseconds);
 
     double m_budget;
     std::uint64_t m_version = 1, m_shown_version = 0;
@@ -91,8 +99,11 @@ private:
     bool m_is_moving = false;
     Time m_touched{};
     std::uint32_t m_divisor = 4;
-    /** What the last picture with all pixels took. */
-    std::optional<double> m_full_milliseconds;
+    /** With or without lines, as m_with_lines says. */
+    std::optional<Sample> m_last, m_other_size;
+    bool m_with_lines = true;
+    /** What all pixels took the last time that lines were not given up. */
+    double m_full_with_lines = 0;
 };
 
 } // namespace elvis

@@ -91,7 +91,7 @@ DrawAnswer FrameWorker::drawn(const DrawRequest& request) {
     answer.step = request.step;
     answer.revision = request.revision;
     try {
-        answer.picture = m_session->draw(request.scene, request.step.stage, request.step.divisor);
+        answer.picture = m_session->draw(request.scene, request.step);
     } catch (const Cancelled&) {
         throw;
     } catch (const std::exception& error) {

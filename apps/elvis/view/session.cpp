@@ -69,10 +69,10 @@ void Session::need_precision(const Scene& scene) {
     }
 }
 
-Picture Session::draw(const Scene& scene, FrameStage stage, std::uint32_t divisor) {
+Picture Session::draw(const Scene& scene, const FrameSchedule::Step& step) {
     need_precision(scene);
     const FrameRequest request = drawn_request(scene);
-    const Frame frame = m_renderer->render(request_for(request, stage, divisor), &m_control);
+    const Frame frame = m_renderer->render(request_for(request, step.stage, step.divisor, step.with_lines), &m_control);
     const Clock::time_point drawn = Clock::now();
     Picture picture =
         picture_of(frame, annotation_of(scene, request, frame, *m_volume), request.width, request.height);

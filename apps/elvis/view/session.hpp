@@ -44,11 +44,8 @@ public:
     /** A new scene of a volume: what a picture of it shows first. */
     Scene first_scene(const std::string& volume);
 
-    /**
-     * As a stage shows it, one pixel for `divisor` across and down. Annotation is written at full size also on coarser pictures,
-     * which are then of full size themselves.
-     */
-    Picture draw(const Scene& scene, FrameStage stage, std::uint32_t divisor);
+    /** As the step shows it, but of full size, as is its annotation. */
+    Picture draw(const Scene& scene, const FrameSchedule::Step& step);
     /** The full picture, to a file. Returns remarks. */
     std::vector<std::string> save_picture(const Scene& scene, const std::string& path, int bits);
 

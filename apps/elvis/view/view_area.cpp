@@ -168,7 +168,7 @@ StageMark mark_of(const Workbench& bench) {
     case FrameStage::moving: {
         std::string words = "moving, 1 : ";
         words += std::to_string(bench.divisor());
-        return {words, amber, "Stage 1 of 3: fewer pixels, to keep up with the hand. All of them come when it rests"};
+        return {words, amber, "Stage 1 of 3: fewer pixels, perhaps without lines, to keep up with the hand. All comes when it rests"};
     }
     case FrameStage::full:
         return {"full", blue,
