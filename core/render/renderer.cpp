@@ -373,7 +373,9 @@ std::uint32_t Renderer::Impl::flags_of_range(const Surface& surface, std::uint32
     if (precision == Precision::float64 || surface.colors.points.size() < 2) {
         return 0;
     }
-    const double extent = surface.colors.points.back().value - surface.colors.points.front().value;
+    const double lower = surface.colors.points.front().value, upper = surface.colors.points.back().value;
+    // Over which all colours come if they change as fast as anywhere: at the lower end of a logarithmic scale.
+    const double extent = surface.colors.is_logarithmic ? lower * (std::log(upper) - std::log(lower)) : upper - lower;
     const double error = fields.float32_error(surface.field, time_step, offset);
     return error > channel_tolerance * extent ? pixel_flag::range_too_fine : 0;
 }

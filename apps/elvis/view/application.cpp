@@ -242,6 +242,9 @@ private:
         handle_shortcuts(m_ui);
         draw_layout();
         draw_dialogs(m_ui);
+        if (!ImGui::IsAnyItemHovered()) {
+            m_ui.hovered.clear();
+        }
         if (!ImGui::IsAnyItemActive()) {
             model.end_gesture();
         }

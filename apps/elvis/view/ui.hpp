@@ -55,6 +55,9 @@ struct Ui {
     bool is_dragging = false;
     /** Since the last frame. ImGui 1.86 misses those that go up again before the next one. */
     std::vector<KeyPress> keys{};
+    /** The control below the cursor, and since when: explanations wait a little, or they would be in the way. */
+    std::string hovered{};
+    double hovered_since = 0;
     /** Texts that are being written, by control, and when they last were. */
     struct Written {
         std::string text;

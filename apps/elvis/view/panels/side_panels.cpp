@@ -151,7 +151,9 @@ void draw_statistics(Ui& ui) {
         ImGui::TextWrapped("%s: %llu elements, read by %s", volume->path.c_str(),
                            static_cast<unsigned long long>(volume->n_elements), volume->plugin.c_str());
     }
-    if (bench.stage() == FrameStage::exact && ImGui::BeginTable("counts", 2, ImGuiTableFlags_RowBg)) {
+    if (bench.stage() == FrameStage::exact && ImGui::BeginTable("counts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+        ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("count", ImGuiTableColumnFlags_WidthFixed);
         const FrameCounts& counts = bench.picture().counts;
         const auto row = [](const char* name, std::uint64_t count, bool is_always = true) {
             if (is_always || count > 0) {
