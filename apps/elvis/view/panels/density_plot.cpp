@@ -16,7 +16,7 @@ constexpr float point_radius = 5;
 /** How near the cursor must be to take a point. */
 constexpr float reach = 9;
 
-/** What can be taken by the hand: a point of the density, the top of a peak, or where it ends above. */
+/** What can be taken by the hand: a point of the density, the top of a peak, or the middle of its right side. */
 struct Grip {
     enum class Kind { point, top, side };
     Kind kind;
@@ -59,7 +59,7 @@ std::vector<std::pair<Grip, ImVec2>> grips_of(const SceneVolumeRendering& render
     for (std::size_t i = 0; i < rendering.peaks.size(); ++i) {
         const ScenePeak& peak = rendering.peaks[i];
         grips.push_back({{Grip::Kind::top, i}, plot.place(peak.value, peak.density)});
-        grips.push_back({{Grip::Kind::side, i}, plot.place(peak.value + 0.5 * peak.width, 0)});
+        grips.push_back({{Grip::Kind::side, i}, plot.place(peak.value + 0.25 * peak.width, 0.5 * peak.density)});
     }
     return grips;
 }
@@ -124,7 +124,7 @@ bool drag(SceneVolumeRendering& rendering, const Grip& grip, const Plot& plot, c
         peak.value = value;
         peak.density = std::max(density, 1e-3 * plot.top);
     } else {
-        peak.width = 2 * std::max(value - peak.value, 0.0);
+        peak.width = 4 * std::max(value - peak.value, 0.0);
     }
     const ScenePeak& before = rendering.peaks[grip.index];
     const bool is_changed = peak.value != before.value || peak.density != before.density || peak.width != before.width;
@@ -157,7 +157,7 @@ bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array
               most > 0 ? 1.25 * most : usual};
     ImGui::InvisibleButton("curve", ImVec2(plot.width, plot.height), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     const bool is_hovered = ImGui::IsItemHovered(), is_active = ImGui::IsItemActive(), is_started = ImGui::IsItemActivated();
-    explain(ui, "volume/curve", is_active ? "" : "Density by value, over the field's histogram. Drag points, and tops and ends of peaks. With a density of its own, a double click adds a point; the right button removes a point or a peak");
+    explain(ui, "volume/curve", is_active ? "" : "Density by value, over the field's histogram. Drag points, and tops and sides of peaks. With a density of its own, a double click adds a point; the right button removes a point or a peak");
     ImGuiStorage* storage = ImGui::GetStateStorage();
     const ImGuiID held_id = ImGui::GetID("held"), top_id = ImGui::GetID("top");
     if (is_started) {
