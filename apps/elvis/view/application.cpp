@@ -80,7 +80,7 @@ private:
         }
         // Where the device is the CPU, panels that are drawn too often are in the way of the picture that is being drawn.
         constexpr double share = 0.25;
-        constexpr double longest = 0.15;
+        constexpr double longest = 0.1;
         return m_bench.is_drawing() ? std::clamp(m_panel_seconds / share, frame_seconds, longest) : frame_seconds;
     }
 
@@ -165,6 +165,13 @@ private:
         const float height = std::max(1.0f, whole.y - top - status_height);
         const float edge = 5 * m_ui.scale;
         auto& [left, right] = m_settings.panel_widths;
+        // Large texts in a small window must leave room for the picture.
+        const float most = 0.6f * whole.x / m_ui.scale;
+        if (left + right > most) {
+            const float share = most / (left + right);
+            left *= share;
+            right *= share;
+        }
 
         side_panel("left", 0, top, left, height, false, [this] {
             draw_items(m_ui);

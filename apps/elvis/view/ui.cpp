@@ -170,6 +170,16 @@ bool text(Ui& ui, const std::string& name, const char* label, std::string& value
     return is_changed;
 }
 
+double round_middle(const std::array<double, 2>& range) {
+    const double middle = 0.5 * (range[0] + range[1]), extent = range[1] - range[0];
+    if (!(extent > 0)) {
+        return middle;
+    }
+    const double step = std::pow(10.0, std::floor(std::log10(extent)) - 2);
+    const double rounded = std::round(middle / step) * step;
+    return std::abs(rounded - middle) < extent ? rounded : middle;
+}
+
 bool number_list(Ui& ui, const std::string& name, const char* label, std::vector<double>& values, const char* help) {
     std::string shown;
     for (const double value : values) {

@@ -89,6 +89,8 @@ bool optional_color(Ui& ui, const std::string& name, const char* label, std::opt
                     const std::array<double, 3>& start, const char* help);
 /** Changes the value when editing ends, so that no half-written expression is drawn. */
 bool text(Ui& ui, const std::string& name, const char* label, std::string& value, const char* help, const char* hint = "");
+/** Near the middle of a range, with few digits: where to start from. */
+double round_middle(const std::array<double, 2>& range);
 /** Values separated by blanks or commas, sorted. */
 bool number_list(Ui& ui, const std::string& name, const char* label, std::vector<double>& values, const char* help);
 /** One of a few words. */

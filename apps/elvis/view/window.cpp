@@ -67,6 +67,8 @@ void set_style(float scale, bool is_dark) {
     style.FrameRounding = 3;
     style.GrabRounding = 3;
     style.WindowBorderSize = 1;
+    // What is below would make texts hard to read.
+    style.Colors[ImGuiCol_WindowBg].w = style.Colors[ImGuiCol_PopupBg].w = 1;
     style.ScaleAllSizes(scale);
     ImGui::GetStyle() = style;
 }
@@ -170,7 +172,7 @@ bool Window::wants_to_close() const { return glfwWindowShouldClose(m_window) == 
 void Window::keep_open() { glfwSetWindowShouldClose(m_window, GLFW_FALSE); }
 
 bool Window::wait(double seconds) {
-    if (seconds > 0) {
+    if (seconds > 0 && !m_has_events) {
         glfwWaitEventsTimeout(seconds);
     } else {
         glfwPollEvents();
@@ -185,7 +187,24 @@ std::vector<KeyPress> Window::pressed_keys() { return std::exchange(m_keys, {});
 void Window::begin_frame() {
     m_presenter->begin_frame();
     ImGui_ImplGlfw_NewFrame();
+    hold_presses();
     ImGui::NewFrame();
+}
+
+void Window::hold_presses() {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool has_moved = io.MousePos.x != m_cursor[0] || io.MousePos.y != m_cursor[1];
+    m_cursor = {io.MousePos.x, io.MousePos.y};
+    for (std::size_t button = 0; button < m_is_down.size(); ++button) {
+        const bool is_pressed = io.MouseDown[button] && !m_is_down[button] && !m_is_held[button];
+        io.MouseDown[button] = io.MouseDown[button] || m_is_held[button];
+        m_is_held[button] = is_pressed && has_moved;
+        if (m_is_held[button]) {
+            io.MouseDown[button] = false;
+            m_has_events = true;
+        }
+        m_is_down[button] = io.MouseDown[button];
+    }
 }
 
 void Window::end_frame(const PixelBox& picture) {

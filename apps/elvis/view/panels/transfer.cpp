@@ -46,7 +46,7 @@ bool edit_density(Ui& ui, SceneVolumeRendering& rendering) {
         }
     }
     if (small_button(ui, "volume/add peak", "Add a peak", "A thin layer around one value, like a semi-transparent isosurface")) {
-        rendering.peaks.push_back({0.5 * (range[0] + range[1]), 0.05 * (range[1] - range[0]), 10 * usual, std::nullopt});
+        rendering.peaks.push_back({round_middle(range), 0.05 * (range[1] - range[0]), 10 * usual, std::nullopt});
         is_changed = true;
     }
     std::optional<std::size_t> removed;
