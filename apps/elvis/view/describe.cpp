@@ -36,8 +36,7 @@ std::string description(Ui& ui) {
     json["frames_per_second"] = bench.motion().frames_per_second();
     json["rest_to_full_seconds"] = bench.motion().rest_to_full_seconds.value_or(-1);
     json["rest_to_exact_seconds"] = bench.motion().rest_to_exact_seconds.value_or(-1);
-    json["cancelled"] = bench.cancel_times().count;
-    json["largest_cancel_milliseconds"] = bench.cancel_times().largest_milliseconds;
+    json["cancel_milliseconds"] = bench.cancel_times();
     json["volume"] = model.volume() ? model.volume()->path : std::string();
     json["scene"] = scene_json(model.scene(), "scene.json");
     json["undo"] = model.undo_name().value_or("");

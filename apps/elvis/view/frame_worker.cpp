@@ -2,7 +2,6 @@
 
 #include <core/base/error.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace elvis::view {
@@ -141,9 +140,10 @@ void FrameWorker::run(const std::stop_token& stop) {
             m_activity.clear();
             m_drawing.reset();
             if (m_cancelled) {
-                ++m_cancel_times.count;
-                m_cancel_times.largest_milliseconds =
-                    std::max(m_cancel_times.largest_milliseconds, milliseconds_since(*std::exchange(m_cancelled, {})));
+                m_cancel_times.push_back(milliseconds_since(*std::exchange(m_cancelled, {})));
+                if (m_cancel_times.size() > most_cancel_times) {
+                    m_cancel_times.pop_front();
+                }
             } else if (answer) {
                 m_drawn = std::move(answer);
             }

@@ -35,11 +35,9 @@ struct DrawAnswer {
     std::string error;
 };
 
-/** From the wish that a picture be stopped to its end. */
-struct CancelTimes {
-    std::uint64_t count = 0;
-    double largest_milliseconds = 0;
-};
+/** From the wish that a picture be stopped to its end, of the last ones, in milliseconds. */
+using CancelTimes = std::deque<double>;
+inline constexpr std::size_t most_cancel_times = 200;
 
 /**
  * Jobs are done in their order, before pictures; of pictures that wait only the last one is drawn. The session belongs to the
