@@ -31,7 +31,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class Application {
 public:
     explicit Application(const Options& options)
-        : m_options(options), m_settings(settings_of(options)), m_window(m_settings, options.device, options.validation),
+        : m_options(options), m_settings(read_settings(settings_file())),
+          m_window(with_options(m_settings, options), options.device, options.validation),
           m_bench(std::make_unique<Session>(options.device, options.validation)),
           m_ui{m_bench, m_settings, m_window.scale()} {
         m_bench.on_file = [this](const std::string& path) {
@@ -88,8 +89,8 @@ private:
         return m_view.is_moving() || m_ui.is_playing || m_ui.is_dragging || m_bench.model().is_in_gesture();
     }
 
-    static Settings settings_of(const Options& options) {
-        Settings settings = read_settings(settings_file());
+    /** For this start only. */
+    static Settings with_options(Settings settings, const Options& options) {
         if (options.size) {
             settings.window_size = *options.size;
         }
