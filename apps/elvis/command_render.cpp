@@ -148,6 +148,7 @@ void add_render(CLI::App& app) {
     command->add_flag("--mesh-lines", a->mesh_lines, "Draw where boundaries of elements meet the surfaces");
     command->add_option("--color-map", a->color_map, "Built-in name, or file (ParaView JSON, ElVis XML)");
     command->add_option("--range", a->range, "LOW,HIGH: values at the ends of the colour map");
+    command->add_flag("--log-scale", a->log_scale, "Colours by the logarithm of values, which have none of their own where they are not above 0");
     command->add_option("--eye", a->eye, "x,y,z of the camera");
     command->add_option("--look-at", a->look_at, "x,y,z in the middle of the picture");
     command->add_option("--up", a->up, "x,y,z of the direction that is up in the picture");

@@ -189,6 +189,10 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
         }
         scene.color_map.range = {list[0], list[1]};
     }
+    scene.color_map.is_logarithmic = scene.color_map.is_logarithmic || arguments.log_scale;
+    if (scene.color_map.is_logarithmic && scene.color_map.range && !((*scene.color_map.range)[0] > 0)) {
+        throw UsageError(arguments.range.empty() ? "--log-scale" : "--range", "the range must be above 0 on a logarithmic scale");
+    }
     if (!arguments.eye.empty()) {
         scene.camera.eye = vector3("--eye", arguments.eye);
     }

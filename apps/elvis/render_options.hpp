@@ -34,6 +34,7 @@ struct RenderArguments {
     bool mesh_lines = false;
     std::string color_map;
     std::string range;
+    bool log_scale = false;
     std::string eye, look_at, up;
     double field_of_view = 0;
     double orthographic = 0;

@@ -1,4 +1,5 @@
 #include <core/annotation/items.hpp>
+#include <core/annotation/plan.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,7 @@ namespace {
 /** Hands out places of the picture, each once. */
 class Layout {
 public:
-    Layout(const Frame& frame, int margin)
-        : m_picture{0, 0, static_cast<int>(frame.width), static_cast<int>(frame.height)}, m_margin(margin) {}
+    Layout(const PixelBox& picture, int margin) : m_picture(picture), m_margin(margin) {}
 
     const PixelBox& picture() const { return m_picture; }
     int margin() const { return m_margin; }
@@ -151,13 +151,13 @@ Drawing text_block(const Font& font, const std::string& text, double size, doubl
     return drawing;
 }
 
-std::vector<std::string> annotate(Frame& frame, const AnnotationRequest& request) {
-    std::vector<std::string> left_out;
+AnnotationPlan plan_annotation(std::uint32_t width, std::uint32_t height, const AnnotationRequest& request) {
+    AnnotationPlan plan;
     if (request.title.empty() && request.color_bars.empty() && !request.axes && request.texts.empty()) {
-        return left_out;
+        return plan;
     }
     const Font font(request.font);
-    const double side = std::min(frame.width, frame.height);
+    const double side = std::min(width, height);
     const auto pixels = [side](double fraction) { return std::max(1, static_cast<int>(std::lround(fraction * side))); };
     ItemStyle style;
     style.text = std::max(request.least_text_pixels, request.text_size * side);
@@ -165,45 +165,53 @@ std::vector<std::string> annotate(Frame& frame, const AnnotationRequest& request
     style.bar_length = pixels(request.bar_length);
     style.bar_width = std::max(6, pixels(request.bar_width));
     style.axes = std::max(2 * style.text, request.axes_size * side);
-    const double halo = std::max(1.0, 0.1 * style.text);
-    Layout layout(frame, std::max(2, static_cast<int>(std::lround(0.8 * style.text))));
+    plan.halo_radius = std::max(1.0, 0.1 * style.text);
+    Layout layout({0, 0, static_cast<int>(width), static_cast<int>(height)},
+                  std::max(2, static_cast<int>(std::lround(0.8 * style.text))));
 
-    const auto finish = [&](const Drawing& drawing, bool has_place, const std::optional<Color>& color,
-                            const std::string& name) {
+    const auto finish = [&](Drawing drawing, bool has_place, const std::optional<Color>& color, const std::string& name) {
         if (has_place) {
-            drawing.paint(frame, color, halo);
+            plan.items.push_back({std::move(drawing), color});
         } else if (!drawing.is_empty()) {
-            left_out.push_back(name);
+            plan.left_out.push_back(name);
         }
     };
     for (const AnnotationText& text : request.texts) {
         const double size = text.size ? std::max(request.least_text_pixels, *text.size * side) : style.text;
         Drawing drawing = text_block(font, text.text, size, text.anchor[0]);
         const bool has_place = !drawing.is_empty() && place_text(drawing, text, layout);
-        finish(drawing, has_place, text.color ? text.color : request.color, "text '" + text.text + "'");
+        finish(std::move(drawing), has_place, text.color ? text.color : request.color, "text '" + text.text + "'");
     }
     if (!request.title.empty()) {
         double size = request.title_scale * style.text;
         Drawing drawing = text_block(font, request.title, size, 0.5);
-        const double room = static_cast<double>(frame.width) - 2 * layout.margin();
+        const double room = static_cast<double>(width) - 2 * layout.margin();
         if (drawing.box().width() > room) {
             size = std::max(request.least_text_pixels, size * room / drawing.box().width());
             drawing = text_block(font, request.title, size, 0.5);
         }
         const bool has_place = !drawing.is_empty() && place_title(drawing, layout);
-        finish(drawing, has_place, request.color, "title");
+        finish(std::move(drawing), has_place, request.color, "title");
     }
     for (const ColorBar& bar : request.color_bars) {
         Drawing drawing;
         const bool has_place = place_fitting_bar(drawing, font, bar, style, request.bars_at_left, layout);
-        finish(drawing, has_place, request.color, "color bar" + (bar.name.empty() ? "" : " of " + bar.name));
+        finish(std::move(drawing), has_place, request.color, "color bar" + (bar.name.empty() ? "" : " of " + bar.name));
     }
     if (request.axes) {
         Drawing drawing = axes_triad(font, *request.axes, style);
         const bool has_place = place_axes(drawing, layout);
-        finish(drawing, has_place, request.color, "axes");
+        finish(std::move(drawing), has_place, request.color, "axes");
     }
-    return left_out;
+    return plan;
+}
+
+std::vector<std::string> annotate(Frame& frame, const AnnotationRequest& request) {
+    const AnnotationPlan plan = plan_annotation(frame.width, frame.height, request);
+    for (const AnnotationPlan::Item& item : plan.items) {
+        item.drawing.paint(frame, item.ink, plan.halo_radius);
+    }
+    return plan.left_out;
 }
 
 } // namespace elvis

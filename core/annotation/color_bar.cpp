@@ -17,10 +17,21 @@ Mask rectangle(int left, int top, int right, int bottom) {
 
 Color opaque(const std::array<double, 3>& rgb) { return {rgb[0], rgb[1], rgb[2], 1}; }
 
-/** The same colour for all values outside as the bar has at its end. */
 double range_at(const ColorTable& table, double fraction) {
     const double low = table.points.front().value, high = table.points.back().value;
+    if (table.is_logarithmic) {
+        return std::exp((1 - fraction) * std::log(low) + fraction * std::log(high));
+    }
     return (1 - fraction) * low + fraction * high;
+}
+
+/** The inverse. */
+double fraction_of(const ColorTable& table, double value) {
+    const double low = table.points.front().value, high = table.points.back().value;
+    if (!(high > low)) {
+        return 0.5;
+    }
+    return table.is_logarithmic ? (std::log(value) - std::log(low)) / (std::log(high) - std::log(low)) : (value - low) / (high - low);
 }
 
 /** Height of the triangles that stand for values outside. */
@@ -97,7 +108,7 @@ Mask name_mask(const Font& font, const ColorBar& bar, const ItemStyle& style) {
 } // namespace
 
 Color table_color(const ColorTable& table, double value) {
-    if (!std::isfinite(value)) {
+    if (!std::isfinite(value) || (table.is_logarithmic && value <= 0)) {
         return table.nan;
     }
     const auto above = std::upper_bound(table.points.begin(), table.points.end(), value,
@@ -127,7 +138,7 @@ Drawing color_bar(const Font& font, const ColorBar& bar, const ItemStyle& style)
     const double low = bar.colors.points.front().value, high = bar.colors.points.back().value;
     // Numbers stand apart by at least their own height and a half.
     const int most = std::clamp(static_cast<int>(style.bar_length / (2.5 * style.text)) + 1, 2, 8);
-    const Ticks ticks = round_ticks(low, high, most);
+    const Ticks ticks = bar.colors.is_logarithmic ? logarithmic_ticks(low, high, most) : round_ticks(low, high, most);
     const int gap = std::max(2, static_cast<int>(std::lround(0.3 * style.text)));
     const int tick_begin = style.bar_width + style.line, tick_end = tick_begin + gap;
     const auto digits = static_cast<int>(std::lround(font.digit_height(style.text)));
@@ -135,8 +146,12 @@ Drawing color_bar(const Font& font, const ColorBar& bar, const ItemStyle& style)
     std::vector<Mask> labels;
     int label_width = 0;
     for (const Tick& tick : ticks.ticks) {
-        const double fraction = high > low ? (tick.value - low) / (high - low) : 0.5;
-        const auto center = static_cast<int>(std::lround((1 - fraction) * style.bar_length - 0.5 * style.line));
+        const auto center =
+            static_cast<int>(std::lround((1 - fraction_of(bar.colors, tick.value)) * style.bar_length - 0.5 * style.line));
+        if (tick.label.empty()) {
+            drawing.add(rectangle(tick_begin, center, tick_begin + std::max(1, gap / 2), center + style.line));
+            continue;
+        }
         drawing.add(rectangle(tick_begin, center, tick_end, center + style.line));
         labels.push_back(text_at(font, tick.label, style.text, 0, center + (style.line + digits) / 2));
         label_width = std::max(label_width, labels.back().box.right);
@@ -167,7 +182,8 @@ Drawing color_bar(const Font& font, const ColorBar& bar, const ItemStyle& style)
         const int line = style.line, width = style.bar_width;
         drawing.add(rectangle(-line, top - line, width + line, top + width + line));
         drawing.add(rectangle(0, top, width, top + width), bar.colors.nan);
-        drawing.add(text_at(font, "NaN", style.text, label_begin, top + (width + digits) / 2));
+        const char* text = bar.colors.is_logarithmic ? "≤ 0, NaN" : "NaN";
+        drawing.add(text_at(font, text, style.text, label_begin, top + (width + digits) / 2));
     }
     return drawing;
 }

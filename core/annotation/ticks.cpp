@@ -186,4 +186,43 @@ Ticks round_ticks(double low, double high, int most) {
     return result;
 }
 
+Ticks logarithmic_ticks(double low, double high, int most) {
+    if (!(0 < low && low < high) || !std::isfinite(high)) {
+        return round_ticks(low, high, most);
+    }
+    const auto inside = [&](std::int64_t n, int power) { return low <= value_of({n, power}) && value_of({n, power}) <= high; };
+    const int first = static_cast<int>(std::floor(std::log10(low))) - 1, last = static_cast<int>(std::ceil(std::log10(high))) + 1;
+    std::vector<int> powers;
+    for (int power = first; power <= last; ++power) {
+        if (inside(1, power)) {
+            powers.push_back(power);
+        }
+    }
+    Ticks result;
+    if (powers.size() >= 2) {
+        const int stride = (static_cast<int>(powers.size()) + most - 1) / most;
+        for (int power = first; power <= last; ++power) {
+            if (inside(1, power)) {
+                // Multiples of the stride: the same labels for ranges that differ a little.
+                const bool has_label = ((power % stride) + stride) % stride == 0;
+                result.ticks.push_back({value_of({1, power}), has_label ? "10" + superscript(power) : std::string()});
+            }
+            for (std::int64_t n = 2; stride == 1 && n < 10; ++n) {
+                if (inside(n, power)) {
+                    result.ticks.push_back({value_of({n, power}), {}});
+                }
+            }
+        }
+        return result;
+    }
+    for (int power = first; power <= last; ++power) {
+        for (const std::int64_t n : {1, 2, 5}) {
+            if (inside(n, power)) {
+                result.ticks.push_back({value_of({n, power}), plain_text({n, power})});
+            }
+        }
+    }
+    return result.ticks.size() >= 2 ? result : round_ticks(low, high, most);
+}
+
 } // namespace elvis

@@ -12,7 +12,7 @@ namespace elvis {
 struct Tick {
     /** The double nearest to the round number; inside the range. */
     double value = 0;
-    /** (value - offset) / 10^exponent, with as many decimals as all labels of the axis need. */
+    /** (value - offset) / 10^exponent, with as many decimals as all labels of the axis need. Empty: only a short line. */
     std::string label;
 };
 
@@ -31,5 +31,11 @@ struct Ticks {
  * ones as multiples of a power of ten. A range without extent, or of numbers that are not finite, gives one tick or none.
  */
 Ticks round_ticks(double low, double high, int most);
+
+/**
+ * On a logarithmic scale from low to high, above 0: at most `most` powers of ten with a label, and where there is room for it the
+ * multiples between them, without. Less than two powers: 1, 2 and 5 times those; less than two of these: as round_ticks().
+ */
+Ticks logarithmic_ticks(double low, double high, int most);
 
 } // namespace elvis

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace elvis {
 
@@ -36,6 +37,22 @@ float reach(const LineStyle& style) { return static_cast<float>(0.5 * (std::max(
 void append(std::vector<double>& numbers, const std::optional<std::array<double, 3>>& color) {
     const std::array<double, 3> rgb = color.value_or(std::array<double, 3>{});
     numbers.insert(numbers.end(), {rgb[0], rgb[1], rgb[2], 1.0});
+}
+
+/**
+ * Values up to the first have no place on the table's scale; below the second and above the third they are outside by more than
+ * rounding may have done (core/render/frame.hpp).
+ */
+std::array<double, 3> special_limits(const ColorTable& table, Precision precision) {
+    constexpr double beyond = 1e-4;
+    const double lower = table.points.front().value, upper = table.points.back().value;
+    if (table.is_logarithmic) {
+        const double factor = std::exp(beyond * (std::log(upper) - std::log(lower)));
+        return {0, lower / factor, upper * factor};
+    }
+    const double least = precision == Precision::float64 ? std::numeric_limits<double>::lowest()
+                                                         : static_cast<double>(std::numeric_limits<float>::lowest());
+    return {least, lower - beyond * (upper - lower), upper + beyond * (upper - lower)};
 }
 
 KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines) {
@@ -101,6 +118,8 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
     }
     const std::array<double, 3> outside = surface.outside.value_or(std::array<double, 3>{});
     numbers.insert(numbers.end(), {surface.opacity, outside[0], outside[1], outside[2]});
+    const std::array<double, 3> limits = special_limits(table, m_precision);
+    numbers.insert(numbers.end(), {limits[0] - offset, limits[1] - offset, limits[2] - offset, 0});
     for (const std::array<double, 4>& plane : surface.clip) {
         // Relative to the reference point of the rays.
         const std::array<double, 4>& reference = view.rows[6];

@@ -12,6 +12,11 @@ constexpr double coarse_tolerance = 1e-2;
 constexpr std::uint32_t coarse_subdivisions = 2;
 /** Of the budget that a picture of a larger size may be expected to take: less, so that the size does not go up and down. */
 constexpr double most_of_budget = 0.7;
+/**
+ * At so few pixels lines are given up: they would be as wide as what they show, and the certain ones take the longer, the more
+ * elements a pixel covers.
+ */
+constexpr std::uint32_t coarsest_with_lines = 4;
 
 bool has_tolerance(Integrator integrator) { return !has_steps(integrator); }
 
@@ -26,7 +31,7 @@ bool has_refinement(const FrameRequest& request) {
            std::any_of(request.surfaces.begin(), request.surfaces.end(), [](const Surface& surface) { return is_coarser(surface); });
 }
 
-FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor) {
+FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor, bool with_lines) {
     FrameRequest result = request;
     if (stage == FrameStage::exact) {
         return result;
@@ -43,6 +48,10 @@ FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uin
         if (is_coarser(surface)) {
             surface.subdivisions = coarse_subdivisions;
         }
+        if (!with_lines) {
+            surface.contours.reset();
+            surface.mesh_lines.reset();
+        }
     }
     return result;
 }
@@ -53,23 +62,18 @@ void FrameSchedule::touch(Time now) {
     m_touched = now;
 }
 
-std::optional<FrameSchedule::Step> FrameSchedule::next(Time now, const FrameRequest& request) const {
-    const FrameStage at_full_size = has_refinement(request) ? FrameStage::full : FrameStage::exact;
-    const FrameStage on_screen = shown();
-    if (moves(now)) {
-        if (on_screen != FrameStage::none) {
-            return {};
-        }
-        return m_divisor == 1 ? Step{at_full_size, 1, m_version} : Step{FrameStage::moving, m_divisor, m_version};
-    }
-    switch (on_screen) {
-    case FrameStage::exact:
-        return {};
+std::optional<FrameSchedule::Step> FrameSchedule::next(Time now) const {
+    switch (shown()) {
+    case FrameStage::none:
+        return m_divisor == 1 ? Step{FrameStage::full, 1, m_version} : Step{FrameStage::moving, m_divisor, m_version, m_with_lines};
+    case FrameStage::moving:
+        return moves(now) ? std::nullopt : std::optional(Step{FrameStage::full, 1, m_version});
     case FrameStage::full:
-        return Step{FrameStage::exact, 1, m_version};
-    default:
-        return Step{at_full_size, 1, m_version};
+        return moves(now) ? std::nullopt : std::optional(Step{FrameStage::exact, 1, m_version});
+    case FrameStage::exact:
+        break;
     }
+    return {};
 }
 
 bool FrameSchedule::is_outdated(const Step& step, Time now) const {
@@ -80,27 +84,66 @@ bool FrameSchedule::is_outdated(const Step& step, Time now) const {
     return step.stage != FrameStage::moving || !moves(now);
 }
 
-void FrameSchedule::drawn(const Step& step, const FrameRequest& request, double milliseconds) {
-    m_shown = step.stage;
+void FrameSchedule::drawn(const Step& step, bool is_refinable, double milliseconds) {
+    m_shown = step.stage == FrameStage::full && !is_refinable ? FrameStage::exact : step.stage;
     m_shown_version = step.version;
     // What is exact takes longer than what would be drawn while things move, if it is anything else.
-    if (step.stage != FrameStage::exact || !has_refinement(request)) {
-        choose_divisor(step.divisor, milliseconds);
+    if (step.stage == FrameStage::exact) {
+        return;
+    }
+    choose_lines(step, milliseconds);
+    if (step.with_lines == m_with_lines) {
+        choose_divisor({step.divisor, milliseconds});
     }
 }
 
-/** Time goes with the number of pixels, but for a part that does not: going on from the size at hand finds that, too. */
-void FrameSchedule::choose_divisor(std::uint32_t drawn, double milliseconds) {
-    const auto expected = [&](std::uint32_t divisor) {
-        const double ratio = static_cast<double>(drawn) / divisor;
-        return milliseconds * ratio * ratio;
-    };
+void FrameSchedule::choose_lines(const Step& drawn, double milliseconds) {
+    const bool had_lines = m_with_lines;
+    if (drawn.stage == FrameStage::full) {
+        // Again where there is less to draw than when they were given up.
+        m_with_lines = m_with_lines || milliseconds < 0.5 * m_full_with_lines;
+        m_full_with_lines = had_lines || m_full_with_lines == 0 ? milliseconds : m_full_with_lines;
+    } else if (drawn.with_lines && drawn.divisor >= coarsest_with_lines && milliseconds > m_budget) {
+        m_with_lines = false;
+    }
+    if (m_with_lines != had_lines) {
+        m_last.reset();
+        m_other_size.reset();
+    }
+}
+
+/**
+ * Time is taken as a part that goes with the number of pixels and one that does not: a line through the picture just drawn and the
+ * last one of another size, or through the origin while there is none.
+ */
+double FrameSchedule::expected(std::uint32_t divisor, const Sample& drawn) const {
+    const auto share = [](double d) { return 1 / (d * d); };
+    if (!m_other_size) {
+        return drawn.milliseconds * share(divisor) / share(drawn.divisor);
+    }
+    // More pixels that took less time tell that pixels hardly matter.
+    const double slope = std::max(0.0, (drawn.milliseconds - m_other_size->milliseconds) /
+                                           (share(drawn.divisor) - share(m_other_size->divisor)));
+    return std::max(0.0, drawn.milliseconds + slope * (share(divisor) - share(drawn.divisor)));
+}
+
+void FrameSchedule::choose_divisor(const Sample& drawn) {
+    if (m_last && m_last->divisor != drawn.divisor) {
+        m_other_size = m_last;
+    }
+    m_last = drawn;
+    // Fewer pixels than that are no use: the rest takes its time.
+    constexpr double hardly_slower = 1.3;
+    const double least = hardly_slower * expected(divisors.back(), drawn);
     const auto fits = [&](std::uint32_t divisor) {
-        return expected(divisor) <= (divisor < m_divisor ? most_of_budget : 1.0) * m_budget;
+        const double budget = (divisor < m_divisor ? most_of_budget : 1.0) * m_budget;
+        return expected(divisor, drawn) <= std::max(budget, least);
     };
-    const auto found = std::find_if(divisors.begin(), divisors.end(), fits);
+    // All pixels come with lines.
+    const auto first = divisors.begin() + (m_with_lines ? 0 : 1);
+    const auto found = std::find_if(first, divisors.end(), fits);
     std::uint32_t wanted = found == divisors.end() ? divisors.back() : *found;
-    if (wanted < m_divisor && drawn != m_divisor) {
+    if (wanted < m_divisor && drawn.divisor != m_divisor) {
         // A picture of another size tells less than one of this.
         wanted = m_divisor;
     }

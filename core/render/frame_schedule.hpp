@@ -17,7 +17,7 @@ namespace elvis {
 enum class FrameStage {
     /** Nothing that was asked for. */
     none,
-    /** Fewer pixels, and as coarse as `full`: while things move. */
+    /** Fewer pixels, and as coarse as `full`, without lines where these take too long: while things move. */
     moving,
     /** Every pixel, but volume rendering to a hundredth of a channel, and lines that are looked for in few parts of a pixel. */
     full,
@@ -25,8 +25,8 @@ enum class FrameStage {
     exact
 };
 
-/** The request as a stage draws it, `divisor` pixels across and down in one. */
-FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor);
+/** The request as a stage draws it, `divisor` pixels across and down in one; contours and mesh lines may be left out while things move. */
+FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor, bool with_lines = true);
 
 /** Whether `full` leaves anything to `exact`: surfaces without lines are pixel-exact as soon as every pixel is drawn. */
 bool has_refinement(const FrameRequest& request);
@@ -35,10 +35,11 @@ bool has_refinement(const FrameRequest& request);
  * Decides from measured times. Calls come from one thread, with the time they happen; nothing is drawn here:
  *
  *     touch() whenever the camera or anything else changes; release() when the hand lets go, if that is known
- *     step = next(); if there is one: draw request_for(request, step.stage, step.divisor); then drawn()
+ *     step = next(); if there is one: draw request_for(request, step.stage, step.divisor, step.with_lines); then drawn()
  *     while it is drawn: if is_outdated(step), cancel it and take the next one
  *
- * Without release() things have come to rest when nothing changes for `rest`.
+ * Without release() things have come to rest when nothing changes for `rest`. Where all pixels would take longer than a moving
+ * picture may, fewer come first also at rest: something to look at meanwhile.
  */
 class FrameSchedule {
 public:
@@ -49,6 +50,7 @@ public:
         std::uint32_t divisor = 1;
         /** Of what is asked for. */
         std::uint64_t version = 0;
+        bool with_lines = true;
     };
 
     static constexpr std::chrono::milliseconds rest{200};
@@ -63,12 +65,15 @@ public:
     void change() { ++m_version, m_is_moving = false; }
     void release() { m_is_moving = false; }
 
-    /** What to draw now; nothing if the screen shows it, or until something happens. `request` is what is asked for. */
-    std::optional<Step> next(Time now, const FrameRequest& request) const;
+    /** What to draw now; nothing if the screen shows it, or until something happens. */
+    std::optional<Step> next(Time now) const;
     /** Whether the step is no longer worth its time: another one is wanted, which a pixel-exact picture must not delay. */
     bool is_outdated(const Step& step, Time now) const;
-    /** It is on the screen; `milliseconds` without compilation and upload, as Frame::render_milliseconds. */
-    void drawn(const Step& step, const FrameRequest& request, double milliseconds);
+    /**
+     * It is on the screen; `milliseconds` without compilation and upload, as Frame::render_milliseconds. `is_refinable`:
+     * has_refinement() of what was asked for; if not, `full` is exact.
+     */
+    void drawn(const Step& step, bool is_refinable, double milliseconds);
 
     /** Of the last picture that was drawn. FrameStage::none once something else is asked for and nothing of it was drawn. */
     FrameStage shown() const { return m_shown_version == m_version ? m_shown : FrameStage::none; }
@@ -77,7 +82,16 @@ public:
 
 private:
     bool moves(Time now) const { return m_is_moving && now - m_touched < rest; }
-    void choose_divisor(std::uint32_t drawn, double milliseconds);
+    /** What a picture of one size took. */
+    struct Sample {
+        std::uint32_t divisor;
+        double milliseconds;
+    };
+    /** What another size would take. */
+    double expected(std::uint32_t divisor, const Sample& drawn) const;
+    void choose_divisor(const Sample& drawn);
+    /** Whether lines are worth their time while things move. */
+    void choose_lines(const Step& drawn, double milliseconds);
 
     double m_budget;
     std::uint64_t m_version = 1, m_shown_version = 0;
@@ -85,6 +99,11 @@ private:
     bool m_is_moving = false;
     Time m_touched{};
     std::uint32_t m_divisor = 4;
+    /** With or without lines, as m_with_lines says. */
+    std::optional<Sample> m_last, m_other_size;
+    bool m_with_lines = true;
+    /** What all pixels took the last time that lines were not given up. */
+    double m_full_with_lines = 0;
 };
 
 } // namespace elvis

@@ -35,6 +35,27 @@ std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
     return order;
 }
 
+/** What is seen where everything is hidden. */
+Frame background_of(const FrameRequest& request) {
+    Frame frame;
+    frame.width = request.width;
+    frame.height = request.height;
+    const std::size_t n_pixels = std::size_t{request.width} * request.height;
+    frame.counts.pixels = n_pixels;
+    frame.color.reserve(4 * n_pixels);
+    for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
+        frame.color.insert(frame.color.end(), request.background.begin(), request.background.end());
+    }
+    if (request.with_buffers) {
+        frame.value.assign(n_pixels, not_a_number);
+        frame.depth.assign(n_pixels, not_a_number);
+        frame.normal.assign(3 * n_pixels, not_a_number);
+        frame.element.assign(n_pixels, -1);
+        frame.flags.assign(n_pixels, 0);
+    }
+    return frame;
+}
+
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
 
 /** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
@@ -85,9 +106,6 @@ void Renderer::Impl::check(const FrameRequest& request) const {
     if (n_pixels == 0 || n_pixels >= 0x7fffffffu) {
         throw Error("image", "a picture of " + std::to_string(request.width) + " x " + std::to_string(request.height) +
                                  " pixels cannot be drawn");
-    }
-    if (request.surfaces.empty() && !request.volume) {
-        throw Error("picture", "has nothing to show");
     }
     for (const Surface& surface : request.surfaces) {
         const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry);
@@ -144,7 +162,9 @@ std::uint32_t Renderer::Impl::flags_of_range(const Surface& surface, std::uint32
     if (precision == Precision::float64 || surface.colors.points.size() < 2) {
         return 0;
     }
-    const double extent = surface.colors.points.back().value - surface.colors.points.front().value;
+    const double lower = surface.colors.points.front().value, upper = surface.colors.points.back().value;
+    // Over which all colours come if they change as fast as anywhere: at the lower end of a logarithmic scale.
+    const double extent = surface.colors.is_logarithmic ? lower * (std::log(upper) - std::log(lower)) : upper - lower;
     const double error = fields.float32_error(surface.field, time_step, offset);
     return error > channel_tolerance * extent ? pixel_flag::range_too_fine : 0;
 }
@@ -297,6 +317,9 @@ FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_st
 Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     Impl& impl = *m_impl;
     impl.check(wanted);
+    if (wanted.surfaces.empty() && !wanted.volume) {
+        return background_of(wanted);
+    }
     const DeviceTask task(impl.device, control);
     const FrameRequest request = impl.with_offsets(wanted);
     Frame frame;

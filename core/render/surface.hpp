@@ -31,6 +31,8 @@ struct ColorTable {
     Color below{};             ///< for values below the first point
     Color above{};
     Color nan{};
+    /** Made for equal ratios of values: all values of the points are above 0, and what is not has the colour of NaN. */
+    bool is_logarithmic = false;
 };
 
 class Expression;

@@ -8,6 +8,7 @@
 #include <core/render/transfer_function.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace elvis {
@@ -37,6 +38,8 @@ struct VolumeRendering {
     /** What people know the field by, if not by its own name or text. */
     std::string field_label{};
     TransferFunction transfer;
+    /** What annotation tells of its colours; by default those of the transfer function. */
+    std::optional<ColorTable> legend{};
     Integrator integrator = Integrator::exact;
     /** World length; of riemann, trapezoid and categories. */
     double step = 0;

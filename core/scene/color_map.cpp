@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace elvis {
 
@@ -125,6 +126,65 @@ std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map, double t
     return out;
 }
 
+ColorScale::ColorScale(const std::array<double, 2>& range, bool is_logarithmic)
+    : m_range(range), m_is_logarithmic(is_logarithmic) {
+    if (is_logarithmic && !(range[0] > 0)) {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "cannot be logarithmic from %.6g to %.6g: all of its range must be above 0. Give it a range of its own",
+                      range[0], range[1]);
+        throw Error("color map", text);
+    }
+}
+
+double ColorScale::position(double value) const {
+    const auto [lower, upper] = m_range;
+    if (m_is_logarithmic) {
+        // Quotients of the ends may overflow, differences of logarithms do not.
+        return value > 0 ? (std::log(value) - std::log(lower)) / (std::log(upper) - std::log(lower)) : -1;
+    }
+    return (value - lower) / (upper - lower);
+}
+
+double ColorScale::value(double position) const {
+    const auto [lower, upper] = m_range;
+    if (position == 0 || position == 1) {
+        return m_range[position == 1 ? 1 : 0];
+    }
+    if (!m_is_logarithmic) {
+        return lower + position * (upper - lower);
+    }
+    const double root = std::exp(0.5 * position * (std::log(upper) - std::log(lower)));
+    return lower * root * root;
+}
+
+std::uint32_t logarithmic_parts(double length, double change, double tolerance) {
+    // A chord of the logarithm over a length of L is off by at most an eighth of L of what it rises.
+    return static_cast<std::uint32_t>(std::clamp(std::ceil(std::sqrt(change * length / (8 * tolerance))), 1.0, 1e4));
+}
+
+namespace {
+
+/** Between two points of the map, which are `from` and `to` on the scale. */
+void refine_logarithmic(const ColorScale& scale, double length, double from, double to, const Rgb& rgb_from, const Rgb& rgb_to,
+                        double tolerance, ColorTable& table) {
+    double change = 0;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        change = std::max(change, std::abs(rgb_to[channel] - rgb_from[channel]));
+    }
+    const std::uint32_t n_parts = logarithmic_parts(length * (to - from), change, tolerance);
+    for (std::uint32_t part = 1; part < n_parts; ++part) {
+        const double t = static_cast<double>(part) / n_parts;
+        Rgb rgb{};
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            rgb[channel] = rgb_from[channel] + t * (rgb_to[channel] - rgb_from[channel]);
+        }
+        table.points.push_back({scale.value(from + t * (to - from)), rgb});
+    }
+}
+
+} // namespace
+
 ColorTable make_color_table(const SceneColorMap& scene, const std::array<double, 2>& range, double tolerance) {
     ColorMap map;
     if (!scene.points.empty()) {
@@ -136,11 +196,21 @@ ColorTable make_color_table(const SceneColorMap& scene, const std::array<double,
     }
     const double first = map.points.front().position;
     const double extent = map.points.back().position - first;
+    const ColorScale scale(range, scene.is_logarithmic);
+    const double length = scene.is_logarithmic ? std::log(range[1]) - std::log(range[0]) : 0;
+    // The map bends, and so does the scale: half of the tolerance each.
+    const double part = scene.is_logarithmic ? 0.5 * tolerance : tolerance;
     ColorTable table;
-    for (const SceneColorMap::Point& point : piecewise_linear(map, tolerance)) {
+    table.is_logarithmic = scene.is_logarithmic;
+    double before = 0;
+    for (const SceneColorMap::Point& point : piecewise_linear(map, part)) {
         const double t = extent > 0 ? (point.position - first) / extent : 0;
-        // Exact at both ends.
-        table.points.push_back({t == 1 ? range[1] : range[0] + t * (range[1] - range[0]), point.rgb});
+        if (scene.is_logarithmic && t > before) {
+            const Rgb rgb_before = table.points.back().rgb;
+            refine_logarithmic(scale, length, before, t, rgb_before, point.rgb, part, table);
+        }
+        table.points.push_back({scale.value(t), point.rgb});
+        before = t;
     }
     table.below = opaque(scene.below.value_or(map.points.front().rgb));
     table.above = opaque(scene.above.value_or(map.points.back().rgb));

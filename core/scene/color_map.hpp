@@ -6,6 +6,8 @@
 
 #include <core/scene/scene.hpp>
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +40,28 @@ inline constexpr double volume_table_tolerance = 1e-4;
 
 /** Points of the map and between them, linear in display RGB and within `tolerance` of the map in every channel. */
 std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map, double tolerance);
+
+/** Where values lie between the ends of a map. */
+class ColorScale {
+public:
+    /** An Error if a logarithmic scale does not begin above 0. */
+    ColorScale(const std::array<double, 2>& range, bool is_logarithmic);
+
+    /** 0 and 1 at the ends; less than 0 for what a logarithmic scale does not have. */
+    double position(double value) const;
+    /** The inverse; exact at both ends. */
+    double value(double position) const;
+
+private:
+    std::array<double, 2> m_range;
+    bool m_is_logarithmic;
+};
+
+/**
+ * So many equal parts of a logarithmic scale that lines between values at their ends are within `tolerance` of a function that
+ * changes evenly by `change` over them. `length`: of the part looked at, as a difference of natural logarithms.
+ */
+std::uint32_t logarithmic_parts(double length, double change, double tolerance);
 
 /**
  * The table for values from `range`: piecewise linear in display RGB, within `tolerance` of the map in every channel. Values

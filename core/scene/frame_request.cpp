@@ -47,14 +47,17 @@ std::vector<CutPlane> planes_looked_at(const std::vector<SceneSurface>& surfaces
 
 LineStyle line_style(const SceneLineStyle& style) { return {style.width, style.color, style.undecided_color}; }
 
-std::optional<Contours> contours_of(const std::optional<SceneContours>& scene, const std::array<double, 2>& color_range) {
+std::optional<Contours> contours_of(const std::optional<SceneContours>& scene, const SceneColorMap& map,
+                                    const std::array<double, 2>& color_range) {
     if (!scene || (scene->values.empty() && scene->count == 0)) {
         return {};
     }
     Contours contours{scene->values, line_style(scene->style)};
-    const std::array<double, 2> range = scene->range.value_or(color_range);
-    for (std::uint32_t i = 1; i <= scene->count; ++i) {
-        contours.values.push_back(range[0] + (range[1] - range[0]) * i / (scene->count + 1.0));
+    if (scene->count > 0) {
+        const ColorScale scale(scene->range.value_or(color_range), map.is_logarithmic);
+        for (std::uint32_t i = 1; i <= scene->count; ++i) {
+            contours.values.push_back(scale.value(i / (scene->count + 1.0)));
+        }
     }
     return contours;
 }
@@ -117,6 +120,9 @@ VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Sce
         range = range_of(map, rendering.field, scene, renderer);
     }
     rendering.transfer = make_transfer_function(own, map, range, diagonal);
+    if (own.is_colored_by_map() && map.is_logarithmic) {
+        rendering.legend = make_color_table(map, range);
+    }
     rendering.integrator = own.integrator;
     rendering.step = own.step.value_or(diagonal / 256);
     rendering.tolerance = own.tolerance;
@@ -148,8 +154,12 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
     const std::array<double, 2> range = range_of(map, surface.field, scene, renderer);
     surface.colors = make_color_table(map, range);
+    if (map.is_logarithmic && !surface.field.expression) {
+        // Small values keep their digits: nothing is subtracted from them.
+        surface.field.offset = 0;
+    }
     if (!std::holds_alternative<WireFrame>(surface.geometry)) {
-        surface.contours = contours_of(own.contours ? own.contours : scene.contours, range);
+        surface.contours = contours_of(own.contours ? own.contours : scene.contours, map, range);
         surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
     }
     surface.subdivisions = scene.subdivisions;

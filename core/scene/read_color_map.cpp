@@ -29,10 +29,14 @@ SceneColorMap read_color_map(const JsonObject& object, const std::string& scene)
                     : space == "step"      ? ColorSpace::step
                                            : ColorSpace::rgb;
     }
+    map.is_logarithmic = object.has("scale") && object.word("scale") == "logarithmic";
     if (object.has("range")) {
         map.range = fixed<2>(object.numbers("range"));
         if (!((*map.range)[0] < (*map.range)[1])) {
             object.fail("range", "must go from a smaller to a larger value");
+        }
+        if (map.is_logarithmic && !((*map.range)[0] > 0)) {
+            object.fail("range", "must be above 0 on a logarithmic scale");
         }
     }
     if (object.has("below")) {

@@ -33,6 +33,8 @@ struct SceneColorMap {
     };
     std::vector<Point> points;
     ColorSpace space = ColorSpace::rgb;
+    /** Equal parts of the map are for equal ratios of values, all above 0. */
+    bool is_logarithmic = false;
     std::optional<std::array<double, 2>> range;
     std::optional<Rgb> below, above, nan;
 };

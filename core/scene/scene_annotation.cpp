@@ -19,7 +19,7 @@ bool is_same(const ColorTable& a, const ColorTable& b) {
         return p.value == q.value && p.rgb == q.rgb;
     };
     return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), is_equal) &&
-           is_same(a.below, b.below) && is_same(a.above, b.above) && is_same(a.nan, b.nan);
+           a.is_logarithmic == b.is_logarithmic && is_same(a.below, b.below) && is_same(a.above, b.above) && is_same(a.nan, b.nan);
 }
 
 ColorTable table_of(const TransferFunction& transfer) {
@@ -35,7 +35,7 @@ ColorTable table_of(const TransferFunction& transfer) {
 
 /** Whether no one could tell the bars of two tables of the same map from each other, but for the colours of special values. */
 bool look_same(const ColorTable& a, const ColorTable& b) {
-    if (a.points.front().value != b.points.front().value || a.points.back().value != b.points.back().value) {
+    if (a.is_logarithmic != b.is_logarithmic || a.points.front().value != b.points.front().value || a.points.back().value != b.points.back().value) {
         return false;
     }
     constexpr double visible = 1e-3;
@@ -112,7 +112,7 @@ AnnotationRequest make_annotation_request(const SceneAnnotation& annotation, con
         result.color_bars[bar].has_nan |= special.nan;
     }
     if (request.volume && request.volume->transfer.color.size() >= 2) {
-        const ColorTable colors = table_of(request.volume->transfer);
+        const ColorTable colors = request.volume->legend ? *request.volume->legend : table_of(request.volume->transfer);
         bool is_shown = false;
         for (std::size_t bar = 0; bar < fields.size(); ++bar) {
             is_shown = is_shown || (fields[bar] == request.volume->field && look_same(result.color_bars[bar].colors, colors));

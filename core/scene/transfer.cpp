@@ -13,6 +13,10 @@ std::array<double, 3> rgb_of(const Color& color) { return {color[0], color[1], c
 std::vector<TransferFunction::ColorPoint> colors_of(const SceneColorMap& map, const std::array<double, 2>& range) {
     const ColorTable table = make_color_table(map, range, volume_table_tolerance);
     std::vector<TransferFunction::ColorPoint> points;
+    if (map.is_logarithmic) {
+        points.push_back({0, rgb_of(table.nan)});
+        points.push_back({0, rgb_of(table.below)});
+    }
     if (const auto below = rgb_of(table.below); below != table.points.front().rgb) {
         points.push_back({table.points.front().value, below});
     }
@@ -25,8 +29,8 @@ std::vector<TransferFunction::ColorPoint> colors_of(const SceneColorMap& map, co
     return points;
 }
 
-std::vector<TransferFunction::DensityPoint> density_of(const SceneVolumeRendering& scene, const std::array<double, 2>& range,
-                                                       double diagonal) {
+std::vector<TransferFunction::DensityPoint> density_of(const SceneVolumeRendering& scene, bool is_logarithmic,
+                                                       const std::array<double, 2>& range, double diagonal) {
     if (!scene.density.empty()) {
         return scene.density;
     }
@@ -37,6 +41,17 @@ std::vector<TransferFunction::DensityPoint> density_of(const SceneVolumeRenderin
         return {};
     }
     const double top = default_density(diagonal);
+    if (is_logarithmic && range[0] < range[1]) {
+        // To a thousandth of what is densest.
+        const ColorScale scale(range, true);
+        const std::uint32_t n_parts = logarithmic_parts(std::log(range[1]) - std::log(range[0]), 1, 1e-3);
+        std::vector<TransferFunction::DensityPoint> points;
+        for (std::uint32_t part = 0; part <= n_parts; ++part) {
+            const double t = static_cast<double>(part) / n_parts;
+            points.push_back({scale.value(t), t * top});
+        }
+        return points;
+    }
     // A field that has one value is as dense as it gets.
     return range[0] < range[1] ? std::vector<TransferFunction::DensityPoint>{{range[0], 0}, {range[1], top}}
                                : std::vector<TransferFunction::DensityPoint>{{range[0], top}};
@@ -55,7 +70,7 @@ TransferFunction make_transfer_function(const SceneVolumeRendering& scene, const
         transfer = *scene.transfer;
     } else {
         transfer.color = colors_of(map, range);
-        transfer.density = density_of(scene, range, diagonal);
+        transfer.density = density_of(scene, map.is_logarithmic, range, diagonal);
     }
     add_peaks(scene.peaks, transfer);
     return transfer;

@@ -64,6 +64,9 @@ SceneJson color_map_json(const SceneColorMap& map, const std::string& scene) {
     if (map.space != ColorSpace::rgb) {
         json["space"] = space_name(map.space);
     }
+    if (map.is_logarithmic) {
+        json["scale"] = "logarithmic";
+    }
     if (map.range) {
         json["range"] = *map.range;
     }

@@ -16,7 +16,8 @@ layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 // In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of contours, of undecided
-// ones, of mesh lines and undecided ones; opacity, and colour outside of elements; planes that clip; isovalues.
+// ones, of mesh lines and undecided ones; opacity, and colour outside of elements; limits of values: up to the first they have no
+// place on the table's scale, and below the second and above the third they are outside of it; planes that clip; isovalues.
 layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
@@ -61,7 +62,7 @@ bool core_is_clipped(uint pixel, elvis_real depth) {
     const elvis_vec3 position = core_position(pixel, depth, direction);
     bool is_clipped = false;
     for (uint i = 0u; i < core_n_clips; ++i) {
-        const elvis_vec4 plane = core_special(9u + i);
+        const elvis_vec4 plane = core_special(10u + i);
         is_clipped = is_clipped || dot(plane.xyz, position) + plane.w < elvis_real(0);
     }
     return is_clipped;
@@ -71,7 +72,7 @@ bool core_is_clipped(uint pixel, elvis_real depth) {
 elvis_real core_nearest_isovalue(elvis_real value) {
     elvis_real nearest = value, distance = elvis_real(3.0e38LF);
     for (uint i = 0u; i < core_n_isovalues; ++i) {
-        const elvis_real isovalue = core_special(9u + core_n_clips + i).x;
+        const elvis_real isovalue = core_special(10u + core_n_clips + i).x;
         nearest = abs(isovalue - value) < distance ? isovalue : nearest;
         distance = min(distance, abs(isovalue - value));
     }
@@ -145,8 +146,10 @@ void main() {
     const elvis_real t = extent > elvis_real(0) ? (value - from.x) / extent : elvis_real(0);
     const bool is_below = low == 0u, is_above = low == core_n_points && value > from.x;
     const bool is_seen = is_drawn && !is_clipped;
-    const uint special = is_seen ? (is_nan ? 2u : (is_below ? 0u : 1u)) : 3u;
-    const bool is_special = !is_seen || is_nan || is_below || is_above;
+    const elvis_vec4 limits = core_special(9u);
+    const bool has_no_place = is_nan || (value <= limits.x && !is_outside);
+    const uint special = is_seen ? (has_no_place ? 2u : (is_below ? 0u : 1u)) : 3u;
+    const bool is_special = !is_seen || has_no_place || is_below || is_above;
     elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
     color = is_seen && is_outside ? elvis_vec4(core_special(8u).yzw, elvis_real(1)) : color;
 #if CORE_IS_LIT
@@ -160,11 +163,9 @@ void main() {
     }
 #endif
 
-    // Outside by more than rounding may have done (core/render/frame.hpp).
-    const elvis_real beyond = elvis_real(1.0e-4LF) * (core_rows[core_n_points - 1u].x - core_rows[0].x);
-    const bool is_far = !is_outside && (value < core_rows[0].x - beyond || value > core_rows[core_n_points - 1u].x + beyond);
-    for (uint turn = 0u; turn < (is_seen && (is_nan || is_far) ? 1u : 0u); ++turn) {
-        core_special_values[3u * core_surface + (is_nan ? 2u : (is_below ? 0u : 1u))] = 1u;
+    const bool is_far = !is_outside && (value < limits.y || value > limits.z);
+    for (uint turn = 0u; turn < (is_seen && (has_no_place || is_far) ? 1u : 0u); ++turn) {
+        core_special_values[3u * core_surface + (has_no_place ? 2u : (is_below ? 0u : 1u))] = 1u;
     }
 
 #if CORE_HAS_LINES

@@ -136,3 +136,34 @@ TEST_CASE("ranges at the limits of double precision do no harm") {
     CHECK(round_ticks(0, 0, 8).ticks.at(0).label == "0");
     CHECK(round_ticks(-1.5e12, -1.5e12, 8).ticks.at(0).label == "−1.5×10¹²");
 }
+
+TEST_CASE("a logarithmic scale has powers of ten, and what is between them where there is room") {
+    const Ticks two = logarithmic_ticks(0.5, 300, 8);
+    std::string labels;
+    std::vector<double> values;
+    for (const Tick& tick : two.ticks) {
+        labels += tick.label.empty() ? "" : tick.label + " ";
+        values.push_back(tick.value);
+    }
+    CHECK(labels == "10⁰ 10¹ 10² ");
+    CHECK(values == std::vector<double>{0.5, 0.6, 0.7, 0.8, 0.9, 1,  2,  3,  4,  5,   6,   7,
+                                        8,   9,   10,  20,  30,  40, 50, 60, 70, 80,  90,  100, 200, 300});
+    const Ticks many = logarithmic_ticks(1e-12, 1e9, 6);
+    int n_labels = 0;
+    for (const Tick& tick : many.ticks) {
+        n_labels += tick.label.empty() ? 0 : 1;
+    }
+    CHECK((n_labels >= 4 && n_labels <= 6));
+    CHECK(many.ticks.size() == 22);
+    // Not enough powers: numbers that are round in another way, all with labels.
+    const Ticks one = logarithmic_ticks(0.15, 0.9, 8);
+    REQUIRE(one.ticks.size() == 2);
+    CHECK((one.ticks[0].label == "0.2" && one.ticks[1].label == "0.5"));
+    const Ticks none = logarithmic_ticks(101, 104, 8);
+    CHECK(none.ticks.size() >= 2);
+    for (const Tick& tick : none.ticks) {
+        CHECK_FALSE(tick.label.empty());
+    }
+    CHECK_FALSE(logarithmic_ticks(1e-320, 1e308, 8).ticks.empty());
+    CHECK_FALSE(logarithmic_ticks(-1, 1, 8).ticks.empty());
+}

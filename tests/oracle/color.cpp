@@ -5,7 +5,7 @@
 namespace elvis::oracle {
 
 Color color_of(const ColorTable& table, double value) {
-    if (std::isnan(value))
+    if (std::isnan(value) || (table.is_logarithmic && value <= 0))
         return table.nan;
     if (value < table.points.front().value)
         return table.below;

@@ -25,6 +25,8 @@ FrameRequest request_of(bool has_lines) {
 /** Takes `fixed` milliseconds and so many for all pixels of a picture of full size. */
 struct MadeUp {
     double fixed = 2, all = 1000;
+    /** Of lines, at any size. */
+    double lines = 0;
     FrameSchedule::Time now{};
     FrameSchedule schedule{10};
 
@@ -33,15 +35,16 @@ struct MadeUp {
     }
     /** Draws what is wanted; returns how long that took, nothing if nothing is wanted. */
     std::optional<double> draw(const FrameRequest& request) {
-        const auto step = schedule.next(now, request);
+        const auto step = schedule.next(now);
         if (!step) {
             return {};
         }
-        const FrameRequest drawn = request_for(request, step->stage, step->divisor);
+        const FrameRequest drawn = request_for(request, step->stage, step->divisor, step->with_lines);
+        const bool has_lines = !drawn.surfaces.empty() && drawn.surfaces[0].has_lines();
         const double share = double(drawn.width) * drawn.height / (double(request.width) * request.height);
-        const double milliseconds = fixed + share * all * (step->stage == Stage::exact && has_refinement(request) ? 3 : 1);
+        const double milliseconds = fixed + (has_lines ? lines : 0) + share * all * (step->stage == Stage::exact && has_refinement(request) ? 3 : 1);
         wait(milliseconds);
-        schedule.drawn(*step, request, milliseconds);
+        schedule.drawn(*step, has_refinement(request), milliseconds);
         return milliseconds;
     }
 };
@@ -73,6 +76,60 @@ TEST_CASE("while things move ten frames a second are drawn, as large as that all
     }
 }
 
+TEST_CASE("time that no pixel takes is not mended by fewer pixels") {
+    const FrameRequest request = request_of(true);
+    for (const double fixed : {60.0, 150.0}) {
+        MadeUp made;
+        made.fixed = fixed;
+        made.all = 400;
+        // Once at rest, so that it is known what all pixels take.
+        while (made.draw(request)) {
+        }
+        double last = 0;
+        for (int frame = 0; frame < 12; ++frame) {
+            made.schedule.touch(made.now);
+            last = made.draw(request).value();
+        }
+        CAPTURE(fixed, made.schedule.moving_divisor(), last);
+        CHECK(last <= std::max(100.0, 1.35 * fixed));
+        // 400 / 16 and 400 / 9 milliseconds of pixels, or one size less.
+        CHECK(made.schedule.moving_divisor() <= 6);
+    }
+}
+
+TEST_CASE("lines that take too long are left out while things move") {
+    MadeUp made;
+    made.lines = 300;
+    const FrameRequest request = request_of(true);
+    double last = 0;
+    for (int round = 0; round < 3; ++round) {
+        for (int frame = 0; frame < 12; ++frame) {
+            made.schedule.touch(made.now);
+            last = made.draw(request).value();
+        }
+        CHECK(last <= 100);
+        CHECK(made.schedule.moving_divisor() <= 4);
+        made.schedule.touch(made.now);
+        CHECK_FALSE(made.schedule.next(made.now)->with_lines);
+        made.schedule.release();
+        made.draw(request);
+        CHECK(made.schedule.next(made.now)->with_lines);
+        while (made.draw(request)) {
+        }
+        CHECK(made.schedule.shown() == Stage::exact);
+    }
+    // Something else is opened.
+    made.lines = 2;
+    made.all = 100;
+    for (int frame = 0; frame < 12; ++frame) {
+        made.schedule.change();
+        while (made.draw(request)) {
+        }
+    }
+    made.schedule.touch(made.now);
+    CHECK(made.schedule.next(made.now)->with_lines);
+}
+
 TEST_CASE("when the hand rests all pixels come, then exact ones, then nothing") {
     MadeUp made;
     const FrameRequest request = request_of(true);
@@ -94,10 +151,29 @@ TEST_CASE("when the hand rests all pixels come, then exact ones, then nothing") 
     made.schedule.release();
     made.draw(request);
     CHECK(made.schedule.shown() == Stage::full);
-    // Something typed in.
+    // Something typed in: something to look at until all pixels are there.
+    made.schedule.change();
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::moving);
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::full);
+}
+
+TEST_CASE("what is quick comes with all pixels at once") {
+    MadeUp made;
+    made.all = 30;
+    const FrameRequest request = request_of(true);
+    for (int frame = 0; frame < 3; ++frame) {
+        made.schedule.change();
+        made.draw(request);
+        made.draw(request);
+        made.draw(request);
+    }
     made.schedule.change();
     made.draw(request);
     CHECK(made.schedule.shown() == Stage::full);
+    made.draw(request);
+    CHECK(made.schedule.shown() == Stage::exact);
 }
 
 TEST_CASE("surfaces without lines are exact when all pixels are drawn") {
@@ -116,13 +192,14 @@ TEST_CASE("surfaces without lines are exact when all pixels are drawn") {
 TEST_CASE("a large picture is outdated by the next movement, a small one is not") {
     MadeUp made;
     const FrameRequest request = request_of(true);
-    const auto full = made.schedule.next(made.now, request);
+    made.draw(request);
+    const auto full = made.schedule.next(made.now);
     REQUIRE(full);
     CHECK(full->stage == Stage::full);
     CHECK_FALSE(made.schedule.is_outdated(*full, made.now));
     made.schedule.touch(made.now);
     CHECK(made.schedule.is_outdated(*full, made.now));
-    const auto moving = made.schedule.next(made.now, request);
+    const auto moving = made.schedule.next(made.now);
     REQUIRE(moving);
     CHECK(moving->stage == Stage::moving);
     made.schedule.touch(made.now);
@@ -141,6 +218,8 @@ TEST_CASE("stages ask for less than the request, and the exact one for the reque
     CHECK(moving.camera.image_shift == std::array<double, 2>{2, -1});
     CHECK(moving.surfaces[0].subdivisions < request.surfaces[0].subdivisions);
     CHECK(moving.volume->tolerance > request.volume->tolerance);
+    CHECK(moving.surfaces[0].has_lines());
+    CHECK_FALSE(request_for(request, Stage::moving, 3, false).surfaces[0].has_lines());
     const FrameRequest full = request_for(request, Stage::full, 1);
     CHECK(full.width == request.width);
     CHECK(full.volume->tolerance == moving.volume->tolerance);

@@ -1,9 +1,8 @@
 // From a scene's volume rendering to what the renderer is asked for.
 
 #include "fixture.hpp"
+#include "stage.hpp"
 
-#include <core/plugin_host/plugin.hpp>
-#include <core/scene/frame_request.hpp>
 #include <core/scene/scene_annotation.hpp>
 #include <core/scene/transfer.hpp>
 
@@ -12,29 +11,6 @@
 using namespace elvis;
 using namespace elvis::test;
 using Catch::Matchers::Contains;
-
-namespace {
-
-/** A volume on a device; there are many cases of scenes for it. */
-struct Stage {
-    RuntimeVolume volume{Plugin::load(ELVIS_ANALYTIC_PLUGIN), ELVIS_ANALYTIC_SAMPLE};
-    Device device{""};
-    Renderer renderer{device, volume, Precision::float32};
-
-    FrameRequest request(const std::string& keys) {
-        const TemporaryFolder folder;
-        Scene scene = read_scene(folder.write("scene.json", R"({"version": 1)" + (keys.empty() ? "" : ", " + keys) + "}"));
-        scene.volume = ELVIS_ANALYTIC_SAMPLE;
-        return make_frame_request(scene, volume, renderer);
-    }
-
-    double diagonal() const {
-        const std::array<double, 6> b = renderer.bounds();
-        return std::sqrt((b[3] - b[0]) * (b[3] - b[0]) + (b[4] - b[1]) * (b[4] - b[1]) + (b[5] - b[2]) * (b[5] - b[2]));
-    }
-};
-
-} // namespace
 
 TEST_CASE("A scene's volume rendering is asked of the renderer with everything decided") {
     Stage stage;

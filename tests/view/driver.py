@@ -136,6 +136,7 @@ class Window:
 
     def write(self, text):
         self.xdotool("key", "ctrl+a")
+        time.sleep(0.2)
         self.xdotool("type", "--delay", 30, text)
         time.sleep(0.2)
 

@@ -4,7 +4,6 @@
 #include <apps/elvis/view/handles.hpp>
 #include <apps/elvis/view/histogram.hpp>
 #include <apps/elvis/view/model.hpp>
-#include <apps/elvis/view/resolution.hpp>
 #include <apps/elvis/view/settings.hpp>
 
 #include <core/scene/write_scene.hpp>
@@ -238,27 +237,6 @@ TEST_CASE("Everything that can be added can be hidden, copied, removed, and writ
         std::filesystem::remove(path);
         remove(scene, copy);
         CHECK(items_of(scene).size() == (info.item == NewItem::volume ? 0u : 1u));
-    }
-}
-
-TEST_CASE("The reduced resolution holds ten pictures a second, and settles") {
-    // Time as a sum of a fixed part and one by pixels, of machines from fast to slow.
-    for (const double full : {20.0, 150.0, 2000.0, 8000.0}) {
-        ResolutionChooser chooser;
-        const double fixed = 10;
-        const auto time = [&](double scale) { return fixed + full * scale * scale; };
-        for (int i = 0; i < 12; ++i) {
-            chooser.measured(chooser.scale(), time(chooser.scale()));
-        }
-        INFO(full);
-        const double settled = chooser.scale();
-        CHECK((time(settled) <= 100 || settled == ResolutionChooser::least_scale));
-        // It is no coarser than it must be.
-        CHECK((settled == 1 || time(settled) >= 40));
-        for (int i = 0; i < 10; ++i) {
-            chooser.measured(chooser.scale(), time(chooser.scale()));
-            CHECK(chooser.scale() == Approx(settled).epsilon(0.15));
-        }
     }
 }
 

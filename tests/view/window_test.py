@@ -12,7 +12,7 @@ import sys
 from driver import Display, Failure, Window, check_programs, pixels, require
 
 VOLUME = {"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [3, 3, 3], "geometry_order": 2, "order": 4,
-          "fields": ["waves", "taylor-green"]}
+          "fields": ["waves", "taylor-green"], "time_steps": 4}
 
 
 def run(elvis, folder, *arguments):
@@ -51,17 +51,18 @@ def opens_by_dialog(window):
 
 def orbits(window):
     before = window.screen()["scene"]["camera"]
-    states = set()
-    window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: states.add(screen["state"]))
+    stages = set()
+    window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: stages.add(screen["stage"]))
     window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != before["eye"], "the camera to move")
     screen = window.settle()
     after = screen["scene"]["camera"]
     distance = [sum((a - b) ** 2 for a, b in zip(camera["eye"], camera["look_at"])) for camera in (before, after)]
     require(abs(distance[0] - distance[1]) < 1e-6 * distance[0], f"the distance has changed: {distance}")
-    require("reduced" in states, f"no reduced picture was shown while moving, only {states}")
-    require(screen["state"] == "full", "at rest the picture is not full")
+    require("moving" in stages, f"no coarse picture was shown while moving, only {stages}")
+    require(screen["stage"] == "exact", "at rest the picture is not exact")
     print(f"while orbiting: {screen['frames_per_second']:.1f} pictures a second; "
-          f"from rest to the full picture: {screen['rest_to_full_seconds']:.2f} s")
+          f"from rest to all pixels: {screen['rest_to_full_seconds']:.2f} s, "
+          f"to pixel-exact ones: {screen['rest_to_exact_seconds']:.2f} s")
 
 
 def zooms_to_the_cursor(window):
@@ -161,6 +162,136 @@ def converts(window):
     window.settle()
 
 
+def drops(window):
+    """A file comes by the protocol that file managers speak."""
+    window.xdotool("mousemove", *window.place("view"))
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "dnd.py")
+    done = subprocess.run([sys.executable, program, "ball.h5"], env=window.environment, capture_output=True, text=True)
+    require(done.returncode == 0, f"the window does not take a file: {done.stderr}")
+    window.wait_for(lambda screen: screen["volume"].endswith("ball.h5"), "the volume that was dropped")
+    window.settle()
+
+
+def time_step(screen):
+    return screen["scene"]["volume"].get("time_step", 0)
+
+
+def steps_through_time(window):
+    window.click("time/on")
+    window.wait_for(lambda screen: time_step(screen) == 1, "the next time step")
+    first = window.settle()
+    window.click("time/play")
+    window.wait_for(lambda screen: time_step(screen) == 3, "the last time step")
+    window.wait_for(lambda screen: time_step(screen) == 0, "the first one again")
+    window.click("time/play")
+    window.settle()
+    window.xdotool("mousemove", *window.place("time/step", 0.4))
+    window.click("time/step", 0.4)
+    window.wait_for(lambda screen: time_step(screen) == 1, "the step that was clicked on")
+    require(window.settle()["scene"]["camera"] == first["scene"]["camera"], "time has moved the camera")
+
+
+def keeps_views(window):
+    window.click("tab/Camera")
+    kept = window.settle()["scene"]["camera"]
+    window.click("camera/keep")
+    window.key("1")
+    window.wait_for(lambda screen: screen["scene"]["camera"] != kept, "another camera")
+    window.click("camera/view0/go")
+    window.wait_for(lambda screen: screen["scene"]["camera"] == kept, "the view that was kept")
+    require(len(window.settle()["scene"]["views"]) == 1, "the view is not in the scene")
+    window.click("tab/Scene")
+
+
+def chooses_elements(window):
+    window.click("items/add")
+    window.click("add/Elements")
+    window.wait_for(lambda screen: len(screen["items"]) == 2, "the elements")
+    window.click("elements/hexahedron", 0.1)
+    window.click("elements/values", 0.1)
+    screen = window.wait_for(lambda screen: "value_range" in screen["scene"]["surfaces"][1], "the condition")
+    require(screen["scene"]["surfaces"][1]["shapes"] == ["hexahedron"], f"chosen are {screen['scene']['surfaces'][1]}")
+    window.click("item/0/shown")
+    window.settle()
+    window.picture("elements.png")
+    for _ in range(4):
+        window.key("ctrl+z")
+    window.wait_for(lambda screen: screen["items"] == ["Boundary"], "the elements to go again")
+    window.settle()
+
+
+def peaks_of(screen):
+    return screen["scene"].get("volume_rendering", {}).get("peaks", [])
+
+
+def pulls_peaks(window):
+    """In the editor of transfer functions, over the histogram."""
+    window.click("items/add")
+    window.click("add/Volume")
+    window.click("volume/add peak")
+    window.wait_for(peaks_of, "a peak")
+    before = peaks_of(window.settle())[0]
+    window.drag(window.place("volume/curve/peak0"), (40, 20))
+    window.wait_for(lambda screen: peaks_of(screen)[0]["value"] > before["value"], "the peak to move")
+    moved = peaks_of(window.settle())[0]
+    require(moved["density"] < before["density"] and moved["width"] == before["width"], f"{before} has become {moved}")
+    window.drag(window.place("volume/curve/side0"), (15, 0))
+    window.wait_for(lambda screen: peaks_of(screen)[0]["width"] > moved["width"], "the peak to get wider")
+    window.settle()
+    window.picture("peaks.png")
+    window.key("ctrl+z")
+    window.wait_for(lambda screen: peaks_of(screen) == [moved], "the width to come back")
+    window.key("ctrl+z")
+    window.wait_for(lambda screen: peaks_of(screen) == [before], "the place to come back")
+    window.key("ctrl+z")
+    window.key("ctrl+z")
+    window.wait_for(lambda screen: screen["items"] == ["Boundary"], "the volume to go again")
+    window.settle()
+
+
+def map_of(screen):
+    return screen["scene"].get("color_map", {})
+
+
+def chooses_ranges(window):
+    """What the editor of colours offers."""
+    window.click("scene/colors/fixed", 0.1)
+    data = window.wait_for(lambda screen: "range" in map_of(screen), "the field's range")["scene"]["color_map"]["range"]
+    ranges = [data]
+    for button in ("scene/colors/percentiles", "scene/colors/percentiles10", "scene/colors/symmetric"):
+        window.click(button)
+        ranges.append(window.wait_for(lambda screen: map_of(screen)["range"] != ranges[-1], f"the range of {button}")
+                      ["scene"]["color_map"]["range"])
+    _, outer, inner, symmetric = ranges
+    require(data[0] < outer[0] < inner[0] < inner[1] < outer[1] < data[1], f"the ranges are {ranges}")
+    require(symmetric[0] == -symmetric[1] == -max(abs(x) for x in data), f"symmetric is {symmetric}")
+    window.click("scene/colors/logarithmic", 0.1)
+    screen = window.wait_for(lambda screen: map_of(screen).get("scale") == "logarithmic", "the logarithmic scale")
+    require(0 < map_of(screen)["range"][0] < map_of(screen)["range"][1], f"its range is {map_of(screen)}")
+    require(not any("logarithmic" in message for message in window.settle()["messages"]), "it cannot be drawn")
+    window.picture("logarithmic.png")
+
+
+def hides_all(window, elvis):
+    """What is seen then is the background, and so it is for elvis render."""
+    window.click("item/0/shown")
+    window.wait_for(lambda screen: screen["scene"]["surfaces"][0].get("visible") is False, "the boundary to be hidden")
+    window.settle()
+    window.key("ctrl+shift+s")
+    window.wait_for(lambda screen: screen["dialog"] == 2, "the dialog")
+    window.write(os.path.join(window.folder, "hidden.json"))
+    window.key("Return")
+    window.wait_for(lambda screen: os.path.exists("hidden.json") and screen["dialog"] == 0, "the scene")
+    run(elvis, window.folder, "render", "hidden.json", "-o", "hidden.png")
+    window.key("ctrl+p")
+    window.wait_for(lambda screen: screen["dialog"] == 3, "the dialog")
+    window.write(os.path.join(window.folder, "nothing.png"))
+    window.key("Return")
+    window.wait_for(lambda screen: any("nothing.png" in message for message in screen["messages"]), "the picture")
+    with open("nothing.png", "rb") as one, open("hidden.png", "rb") as other:
+        require(one.read() == other.read(), "elvis render draws another picture of nothing than the window saves")
+
+
 def quits(window):
     window.key("ctrl+q")
     try:
@@ -196,6 +327,13 @@ def main(elvis, folder):
         undoes(window, *planes)
         saves(window, elvis)
         converts(window)
+        drops(window)
+        steps_through_time(window)
+        keeps_views(window)
+        chooses_elements(window)
+        pulls_peaks(window)
+        chooses_ranges(window)
+        hides_all(window, elvis)
         quits(window)
     finally:
         if window:

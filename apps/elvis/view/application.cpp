@@ -21,7 +21,7 @@ namespace {
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings;
 
-/** Panels are drawn at most that often. */
+/** Panels are drawn at most that often, but for new pictures. */
 constexpr double frame_seconds = 1.0 / 40;
 
 using Clock = std::chrono::steady_clock;
@@ -31,7 +31,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class Application {
 public:
     explicit Application(const Options& options)
-        : m_options(options), m_settings(settings_of(options)), m_window(m_settings, options.device, options.validation),
+        : m_options(options), m_settings(read_settings(settings_file())),
+          m_window(with_options(m_settings, options), options.device, options.validation),
           m_bench(std::make_unique<Session>(options.device, options.validation)),
           m_ui{m_bench, m_settings, m_window.scale()} {
         m_bench.on_file = [this](const std::string& path) {
@@ -45,18 +46,15 @@ public:
 
     void run() {
         while (!m_is_done) {
-            // After an event, ImGui takes some frames to settle; while something is shown that changes by itself, few a second.
-            const bool is_lively = m_frames_wanted > 0 || m_view.is_moving() || m_ui.is_playing;
+            const double due = least_seconds() - seconds_since(m_last_frame);
             // The thread that draws is asked, not waited for: GLFW 3.3 may hang where other threads post events.
-            const double calm = m_bench.is_settled() ? 0.5 : 0.01;
-            const bool has_events = m_window.wait(is_lively ? frame_seconds - seconds_since(m_last_frame) : calm);
+            const bool has_events = m_window.wait(std::clamp(due, 0.0, m_bench.is_settled() ? 0.5 : 0.005));
             const bool has_news = update();
             if (has_events || has_news || m_bench.activity() != m_shown_activity || m_bench.is_settled() != m_was_settled) {
+                // After an event, ImGui takes some frames to settle.
                 m_frames_wanted = 3;
             }
-            // Where the device is the CPU, panels that are drawn too often are in the way of the picture.
-            const double least = has_news ? 0 : m_frames_wanted > 0 || is_lively ? frame_seconds : m_bench.is_settled() ? 0.5 : 0.2;
-            if (seconds_since(m_last_frame) >= least) {
+            if (has_news || seconds_since(m_last_frame) >= least_seconds()) {
                 m_frames_wanted = std::max(0, m_frames_wanted - 1);
                 m_shown_activity = m_bench.activity();
                 m_was_settled = m_bench.is_settled();
@@ -75,8 +73,24 @@ public:
     }
 
 private:
-    static Settings settings_of(const Options& options) {
-        Settings settings = read_settings(settings_file());
+    /** From one drawing of the panels to the next, if no picture comes before. */
+    double least_seconds() const {
+        if (m_frames_wanted == 0 && !m_view.is_moving() && !m_ui.is_playing) {
+            // Nothing happens, but for what changes by itself.
+            return m_bench.is_settled() ? 0.5 : 0.2;
+        }
+        // Where the device is the CPU, panels that are drawn too often are in the way of the picture that is being drawn.
+        constexpr double share = 0.25;
+        constexpr double longest = 0.1;
+        return m_bench.is_drawing() ? std::clamp(m_panel_seconds / share, frame_seconds, longest) : frame_seconds;
+    }
+
+    bool is_moving() {
+        return m_view.is_moving() || m_ui.is_playing || m_ui.is_dragging || m_bench.model().is_in_gesture();
+    }
+
+    /** For this start only. */
+    static Settings with_options(Settings settings, const Options& options) {
         if (options.size) {
             settings.window_size = *options.size;
         }
@@ -90,8 +104,10 @@ private:
         for (const std::string& path : m_window.dropped()) {
             m_bench.open(path);
         }
-        const bool is_moving = m_view.is_moving() || m_ui.is_playing || m_ui.is_dragging || m_bench.model().is_in_gesture();
-        const bool has_news = m_bench.update(is_moving);
+        const bool has_news = m_bench.collect(1000 * m_panel_seconds);
+        if (!has_news) {
+            m_bench.go_on(is_moving());
+        }
         const Picture& picture = m_bench.picture();
         if (has_news && picture.width > 0) {
             m_window.presenter().set_picture(picture.width, picture.height, picture.rgba);
@@ -150,6 +166,13 @@ private:
         const float height = std::max(1.0f, whole.y - top - status_height);
         const float edge = 5 * m_ui.scale;
         auto& [left, right] = m_settings.panel_widths;
+        // Large texts in a small window must leave room for the picture.
+        const float most = 0.6f * whole.x / m_ui.scale;
+        if (left + right > most) {
+            const float share = most / (left + right);
+            left *= share;
+            right *= share;
+        }
 
         side_panel("left", 0, top, left, height, false, [this] {
             draw_items(m_ui);
@@ -227,12 +250,18 @@ private:
         handle_shortcuts(m_ui);
         draw_layout();
         draw_dialogs(m_ui);
+        if (!ImGui::IsAnyItemHovered()) {
+            m_ui.hovered.clear();
+        }
         if (!ImGui::IsAnyItemActive()) {
             model.end_gesture();
         }
         model.set_size({static_cast<std::uint32_t>(m_view.box().width), static_cast<std::uint32_t>(m_view.box().height)});
         set_title();
+        // The next picture is begun before this one is shown.
+        m_bench.go_on(is_moving());
         m_window.end_frame(m_view.box());
+        m_panel_seconds = seconds_since(m_last_frame);
         if (m_ui.has_leave_to_quit) {
             m_is_done = true;
         }
@@ -272,6 +301,8 @@ private:
     bool m_had_picked = false;
     int m_frames_wanted = 3;
     Clock::time_point m_last_frame{};
+    /** What drawing the panels took the last time. */
+    double m_panel_seconds = 0;
     std::string m_shown_activity;
     std::string m_title;
     std::string m_description;

@@ -6,17 +6,37 @@
 
 namespace elvis::view {
 
+namespace {
+
+const char* stage_name(FrameStage stage) {
+    switch (stage) {
+    case FrameStage::moving:
+        return "moving";
+    case FrameStage::full:
+        return "full";
+    case FrameStage::exact:
+        return "exact";
+    case FrameStage::none:
+        break;
+    }
+    return "none";
+}
+
+} // namespace
+
 std::string description(Ui& ui) {
     Workbench& bench = ui.bench;
     const Model& model = bench.model();
     nlohmann::ordered_json json;
     json["settled"] = bench.is_settled();
-    json["state"] = bench.state() == ShownState::full ? "full" : bench.state() == ShownState::reduced ? "reduced" : "nothing";
-    json["scale"] = bench.shown_scale();
+    json["stage"] = stage_name(bench.stage());
+    json["divisor"] = bench.divisor();
     json["activity"] = bench.activity();
     json["milliseconds"] = bench.picture().milliseconds;
     json["frames_per_second"] = bench.motion().frames_per_second();
     json["rest_to_full_seconds"] = bench.motion().rest_to_full_seconds.value_or(-1);
+    json["rest_to_exact_seconds"] = bench.motion().rest_to_exact_seconds.value_or(-1);
+    json["cancel_milliseconds"] = bench.cancel_times();
     json["volume"] = model.volume() ? model.volume()->path : std::string();
     json["scene"] = scene_json(model.scene(), "scene.json");
     json["undo"] = model.undo_name().value_or("");

@@ -2,7 +2,17 @@
 
 #include <core/base/error.hpp>
 
+#include <utility>
+
 namespace elvis::view {
+
+namespace {
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
 
 FrameWorker::FrameWorker(std::unique_ptr<Session> session)
     : m_session(std::move(session)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
@@ -27,11 +37,18 @@ void FrameWorker::post_later(std::string activity, Job job, std::function<void(c
 
 void FrameWorker::draw(DrawRequest request) {
     const std::lock_guard lock(m_mutex);
-    if (m_drawing && m_drawing->second >= 1) {
-        m_session->control().cancelled = true;
-    }
     m_wanted = std::move(request);
     m_changed.notify_all();
+}
+
+void FrameWorker::cancel_drawing() {
+    const std::lock_guard lock(m_mutex);
+    m_wanted.reset();
+    if (m_drawing) {
+        m_session->control().cancelled = true;
+        m_drawing.reset();
+        m_cancelled = std::chrono::steady_clock::now();
+    }
 }
 
 bool FrameWorker::is_idle() const {
@@ -44,9 +61,14 @@ std::string FrameWorker::activity() const {
     return m_activity;
 }
 
-std::optional<std::pair<std::uint64_t, double>> FrameWorker::drawing() const {
+std::optional<FrameSchedule::Step> FrameWorker::drawing() const {
     const std::lock_guard lock(m_mutex);
-    return m_wanted ? std::pair(m_wanted->revision, m_wanted->scale) : m_drawing;
+    return m_wanted ? std::optional(m_wanted->step) : m_drawing;
+}
+
+CancelTimes FrameWorker::cancel_times() const {
+    const std::lock_guard lock(m_mutex);
+    return m_cancel_times;
 }
 
 std::optional<DrawAnswer> FrameWorker::collect() {
@@ -65,10 +87,10 @@ std::optional<DrawAnswer> FrameWorker::collect() {
 
 DrawAnswer FrameWorker::drawn(const DrawRequest& request) {
     DrawAnswer answer;
-    answer.scale = request.scale;
+    answer.step = request.step;
     answer.revision = request.revision;
     try {
-        answer.picture = m_session->draw(request.scene, request.scale);
+        answer.picture = m_session->draw(request.scene, request.step);
     } catch (const Cancelled&) {
         throw;
     } catch (const std::exception& error) {
@@ -105,7 +127,7 @@ void FrameWorker::run(const std::stop_token& stop) {
         } else {
             const DrawRequest request = std::move(*m_wanted);
             m_wanted.reset();
-            m_drawing = {request.revision, request.scale};
+            m_drawing = request.step;
             m_activity = "drawing";
             lock.unlock();
             std::optional<DrawAnswer> answer;
@@ -117,7 +139,12 @@ void FrameWorker::run(const std::stop_token& stop) {
             lock.lock();
             m_activity.clear();
             m_drawing.reset();
-            if (answer) {
+            if (m_cancelled) {
+                m_cancel_times.push_back(milliseconds_since(*std::exchange(m_cancelled, {})));
+                if (m_cancel_times.size() > most_cancel_times) {
+                    m_cancel_times.pop_front();
+                }
+            } else if (answer) {
                 m_drawn = std::move(answer);
             }
         }

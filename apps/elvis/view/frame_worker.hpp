@@ -6,6 +6,7 @@
 
 #include "session.hpp"
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -20,20 +21,23 @@ namespace elvis::view {
 /** A picture that is wanted. */
 struct DrawRequest {
     Scene scene;
-    /** Of the full size; 1 for the picture itself. */
-    double scale = 1;
-    /** What the window knows it by. */
+    FrameSchedule::Step step;
+    /** What the window knows the scene by. */
     std::uint64_t revision = 0;
 };
 
 /** What came of it. */
 struct DrawAnswer {
     Picture picture;
-    double scale = 1;
+    FrameSchedule::Step step;
     std::uint64_t revision = 0;
     /** If not empty, there is no picture. */
     std::string error;
 };
+
+/** From the wish that a picture be stopped to its end, of the last ones, in milliseconds. */
+using CancelTimes = std::deque<double>;
+inline constexpr std::size_t most_cancel_times = 200;
 
 /**
  * Jobs are done in their order, before pictures; of pictures that wait only the last one is drawn. The session belongs to the
@@ -55,14 +59,17 @@ public:
     /** The same, when there is nothing else to do. Jobs that take long should come in pieces. */
     void post_later(std::string activity, Job job, std::function<void(const std::string&)> on_error);
 
-    /** Takes the place of a picture that waits, and stops one that is being drawn, if the renderer can be stopped. */
+    /** Takes the place of a picture that waits; comes after one that is being drawn. */
     void draw(DrawRequest request);
+    /** Stops the picture that is being drawn, and forgets one that waits. Neither gives an answer. */
+    void cancel_drawing();
     /** Neither at work nor asked for. */
     bool is_idle() const;
     /** What is being done now; empty if nothing. */
     std::string activity() const;
-    /** A picture is being drawn, or waits: its revision and scale. */
-    std::optional<std::pair<std::uint64_t, double>> drawing() const;
+    /** Of the picture that waits, or else is being drawn and was not cancelled. */
+    std::optional<FrameSchedule::Step> drawing() const;
+    CancelTimes cancel_times() const;
 
     /** Calls the answers that have come, and returns the last picture among them. */
     std::optional<DrawAnswer> collect();
@@ -81,7 +88,9 @@ private:
     std::condition_variable_any m_changed;
     std::deque<Task> m_tasks, m_later_tasks;
     std::optional<DrawRequest> m_wanted;
-    std::optional<std::pair<std::uint64_t, double>> m_drawing;
+    std::optional<FrameSchedule::Step> m_drawing;
+    std::optional<std::chrono::steady_clock::time_point> m_cancelled;
+    CancelTimes m_cancel_times;
     std::string m_activity;
     std::vector<Answer> m_answers;
     std::optional<DrawAnswer> m_drawn;

@@ -49,8 +49,8 @@ void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkI
 
 } // namespace
 
-PictureImage::PictureImage(VkPhysicalDevice physical, VkDevice device, std::uint32_t width, std::uint32_t height)
-    : m_device(device), m_width(width), m_height(height) {
+PictureImage::PictureImage(VkPhysicalDevice physical, VkDevice device, VkFormat format, std::uint32_t width, std::uint32_t height)
+    : m_device(device), m_format(format), m_width(width), m_height(height) {
     try {
         VkBufferCreateInfo buffer{};
         buffer.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -67,7 +67,7 @@ PictureImage::PictureImage(VkPhysicalDevice physical, VkDevice device, std::uint
         VkImageCreateInfo image{};
         image.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
         image.imageType = VK_IMAGE_TYPE_2D;
-        image.format = VK_FORMAT_R8G8B8A8_UNORM;
+        image.format = format;
         image.extent = {width, height, 1};
         image.mipLevels = 1;
         image.arrayLayers = 1;
@@ -96,7 +96,15 @@ void PictureImage::release() noexcept {
 
 void PictureImage::write(std::span<const std::uint8_t> rgba) const {
     assert(rgba.size() == std::size_t{4} * m_width * m_height);
-    std::memcpy(m_mapped, rgba.data(), rgba.size());
+    if (m_format == VK_FORMAT_R8G8B8A8_UNORM) {
+        std::memcpy(m_mapped, rgba.data(), rgba.size());
+        return;
+    }
+    auto* bytes = static_cast<std::uint8_t*>(m_mapped);
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        const std::array<std::uint8_t, 4> bgra{rgba[i + 2], rgba[i + 1], rgba[i], rgba[i + 3]};
+        std::memcpy(bytes + i, bgra.data(), bgra.size());
+    }
 }
 
 void PictureImage::record_upload(VkCommandBuffer commands) const {
@@ -110,13 +118,11 @@ void PictureImage::record_upload(VkCommandBuffer commands) const {
                VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT);
 }
 
-void PictureImage::record_blit(VkCommandBuffer commands, VkImage target, VkExtent2D target_size, std::array<int, 2> corner,
+void PictureImage::record_copy(VkCommandBuffer commands, VkImage target, VkExtent2D target_size, std::array<int, 2> corner,
                                std::array<int, 2> size) const {
     const std::array<int, 2> limit{static_cast<int>(target_size.width), static_cast<int>(target_size.height)};
     const std::array<int, 2> source{static_cast<int>(m_width), static_cast<int>(m_height)};
-    VkImageBlit blit{};
-    blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    blit.srcOffsets[1].z = blit.dstOffsets[1].z = 1;
+    const bool is_scaled = size[0] != source[0] || size[1] != source[1];
     std::array<std::array<int, 2>, 2> from{}, to{};
     for (std::size_t axis = 0; axis < 2; ++axis) {
         if (size[axis] <= 0) {
@@ -130,15 +136,29 @@ void PictureImage::record_blit(VkCommandBuffer commands, VkImage target, VkExten
             return;
         }
     }
+    constexpr VkImageSubresourceLayers layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    if (!is_scaled) {
+        // Where the device is the CPU, this takes a fraction of the time of a blit.
+        VkImageCopy copy{};
+        copy.srcSubresource = copy.dstSubresource = layer;
+        copy.srcOffset = {from[0][0], from[0][1], 0};
+        copy.dstOffset = {to[0][0], to[0][1], 0};
+        copy.extent = {static_cast<std::uint32_t>(to[1][0] - to[0][0]), static_cast<std::uint32_t>(to[1][1] - to[0][1]), 1};
+        vkCmdCopyImage(commands, m_image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                       &copy);
+        return;
+    }
+    VkImageBlit blit{};
+    blit.srcSubresource = blit.dstSubresource = layer;
+    blit.srcOffsets[1].z = blit.dstOffsets[1].z = 1;
     for (std::size_t end = 0; end < 2; ++end) {
         blit.srcOffsets[end].x = from[end][0];
         blit.srcOffsets[end].y = from[end][1];
         blit.dstOffsets[end].x = to[end][0];
         blit.dstOffsets[end].y = to[end][1];
     }
-    const bool is_scaled = size[0] != source[0] || size[1] != source[1];
     vkCmdBlitImage(commands, m_image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit,
-                   is_scaled ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+                   VK_FILTER_LINEAR);
 }
 
 } // namespace elvis::view

@@ -12,10 +12,11 @@
 
 namespace elvis::view {
 
-/** Four bytes a pixel. Nothing of it may be in use by the device when it is written or goes. */
+/** In the target's format. Nothing of it may be in use by the device when it is written or goes. */
 class PictureImage {
 public:
-    PictureImage(VkPhysicalDevice physical, VkDevice device, std::uint32_t width, std::uint32_t height);
+    /** `format`: B8G8R8A8 or R8G8B8A8. */
+    PictureImage(VkPhysicalDevice physical, VkDevice device, VkFormat format, std::uint32_t width, std::uint32_t height);
     ~PictureImage();
     PictureImage(const PictureImage&) = delete;
     PictureImage& operator=(const PictureImage&) = delete;
@@ -26,14 +27,15 @@ public:
     void write(std::span<const std::uint8_t> rgba) const;
     /** From what was written, to where it can be read from. */
     void record_upload(VkCommandBuffer commands) const;
-    /** Stretched to a box, as far as that lies in the target, which is in the layout for transfers. */
-    void record_blit(VkCommandBuffer commands, VkImage target, VkExtent2D target_size, std::array<int, 2> corner,
+    /** To a box, stretched if need be, as far as that lies in the target, which is in the layout for transfers. */
+    void record_copy(VkCommandBuffer commands, VkImage target, VkExtent2D target_size, std::array<int, 2> corner,
                      std::array<int, 2> size) const;
 
 private:
     void release() noexcept;
 
     VkDevice m_device;
+    VkFormat m_format;
     std::uint32_t m_width, m_height;
     VkBuffer m_buffer = VK_NULL_HANDLE;
     VkDeviceMemory m_buffer_memory = VK_NULL_HANDLE;

@@ -288,7 +288,7 @@ struct Presenter::Impl {
         barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
         vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
                              1, &barrier);
-        picture->record_blit(commands, image, swapchain->size(), {box.x, box.y}, {box.width, box.height});
+        picture->record_copy(commands, image, swapchain->size(), {box.x, box.y}, {box.width, box.height});
     }
 
     void present(ImDrawData* panels, const PixelBox& box, const std::array<float, 4>& background) {
@@ -298,7 +298,12 @@ struct Presenter::Impl {
             return; // Minimised.
         }
         std::uint32_t index = 0;
-        VkResult result = vkAcquireNextImageKHR(target.device, swapchain->handle(), UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
+        // A display server may keep all images, as of a window that nobody sees: the rest of the program goes on.
+        constexpr std::uint64_t patience = 500'000'000; // nanoseconds
+        VkResult result = vkAcquireNextImageKHR(target.device, swapchain->handle(), patience, acquired, VK_NULL_HANDLE, &index);
+        if (result == VK_TIMEOUT || result == VK_NOT_READY) {
+            return;
+        }
         if (result == VK_ERROR_OUT_OF_DATE_KHR) {
             make_swapchain();
             return; // The next frame comes at once: a change of size is followed by a wish to be drawn.
@@ -381,7 +386,7 @@ void Presenter::set_picture(std::uint32_t width, std::uint32_t height, std::span
     Impl& impl = *m_impl;
     if (!impl.picture || impl.picture->width() != width || impl.picture->height() != height) {
         impl.picture.reset();
-        impl.picture = std::make_unique<PictureImage>(impl.target.physical, impl.target.device, width, height);
+        impl.picture = std::make_unique<PictureImage>(impl.target.physical, impl.target.device, impl.format.format, width, height);
     }
     impl.picture->write(rgba);
     impl.submit_and_wait([&](VkCommandBuffer commands) { impl.picture->record_upload(commands); });

@@ -27,66 +27,10 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/** The same picture with more pixels, each a copy of the nearest. */
-Frame stretched(const Frame& frame, std::uint32_t width, std::uint32_t height) {
-    Frame result;
-    result.width = width;
-    result.height = height;
-    result.counts = frame.counts;
-    result.special_values = frame.special_values;
-    result.color.resize(std::size_t{4} * width * height);
-    for (std::uint32_t row = 0; row < height; ++row) {
-        const auto from_row = static_cast<std::size_t>(std::uint64_t{row} * frame.height / height);
-        for (std::uint32_t column = 0; column < width; ++column) {
-            const auto from = 4 * (from_row * frame.width + static_cast<std::size_t>(std::uint64_t{column} * frame.width / width));
-            std::copy_n(frame.color.begin() + static_cast<std::ptrdiff_t>(from), 4,
-                        result.color.begin() + static_cast<std::ptrdiff_t>(4 * (std::size_t{row} * width + column)));
-        }
-    }
-    return result;
-}
-
-std::vector<std::uint8_t> shown_bytes(const Frame& frame) {
-    std::vector<std::uint8_t> bytes(frame.color.size());
-    constexpr double grey = 0.5;
-    for (std::size_t pixel = 0; pixel < frame.color.size(); pixel += 4) {
-        const double alpha = std::clamp(frame.color[pixel + 3], 0.0, 1.0);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            const double value = std::clamp(frame.color[pixel + channel], 0.0, 1.0);
-            const double shown = alpha >= 1 ? value : alpha * value + (1 - alpha) * grey;
-            bytes[pixel + channel] = static_cast<std::uint8_t>(std::lround(255 * shown));
-        }
-        bytes[pixel + 3] = 255;
-    }
-    return bytes;
-}
-
-/** Of a scene in which everything is hidden. */
-Picture blank(const Scene& scene, const Camera& camera) {
-    Frame frame;
-    frame.width = scene.size[0];
-    frame.height = scene.size[1];
-    frame.color.resize(std::size_t{4} * frame.width * frame.height);
-    for (std::size_t i = 0; i < frame.color.size(); ++i) {
-        frame.color[i] = scene.background[i % 4];
-    }
-    Picture picture;
-    picture.width = frame.width;
-    picture.height = frame.height;
-    picture.rgba = shown_bytes(frame);
-    picture.camera = camera;
-    picture.counts.pixels = std::uint64_t{frame.width} * frame.height;
-    return picture;
-}
-
-void write_annotation(const Scene& scene, const FrameRequest& request, Frame& frame, const RuntimeVolume& volume,
-                      std::vector<std::string>& remarks) {
-    if (!scene.annotation) {
-        return;
-    }
-    for (const std::string& name : annotate(frame, make_annotation_request(*scene.annotation, request, frame, volume))) {
-        remarks.push_back("annotation: there is no room for the " + name);
-    }
+AnnotationPlan annotation_of(const Scene& scene, const FrameRequest& request, const Frame& frame, const RuntimeVolume& volume) {
+    return scene.annotation ? plan_annotation(request.width, request.height,
+                                              make_annotation_request(*scene.annotation, request, frame, volume))
+                            : AnnotationPlan{};
 }
 
 } // namespace
@@ -125,43 +69,37 @@ void Session::need_precision(const Scene& scene) {
     }
 }
 
-Picture Session::draw(const Scene& scene, double scale) {
+Picture Session::draw(const Scene& scene, const FrameSchedule::Step& step) {
     need_precision(scene);
-    Scene smaller = scene;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        smaller.size[axis] = std::max(1u, static_cast<std::uint32_t>(std::lround(scale * scene.size[axis])));
-    }
-    FrameRequest request = make_frame_request(smaller, *m_volume, *m_renderer);
-    request.with_buffers = false;
-    if (request.surfaces.empty() && !request.volume) {
-        return blank(scene, request.camera);
-    }
-    Frame frame = m_renderer->render(request, &m_control);
-    const double frame_milliseconds = frame.render_milliseconds;
+    const FrameRequest request = drawn_request(scene);
+    const Frame frame = m_renderer->render(request_for(request, step.stage, step.divisor, step.with_lines), &m_control);
     const Clock::time_point drawn = Clock::now();
-    Picture picture;
-    if (scale < 1 && scene.annotation) {
-        frame = stretched(frame, scene.size[0], scene.size[1]);
-    }
-    write_annotation(scene, request, frame, *m_volume, picture.remarks);
-    picture.width = frame.width;
-    picture.height = frame.height;
-    picture.rgba = shown_bytes(frame);
-    picture.counts = frame.counts;
+    Picture picture =
+        picture_of(frame, annotation_of(scene, request, frame, *m_volume), request.width, request.height);
     picture.camera = request.camera;
-    picture.milliseconds = frame_milliseconds + milliseconds_since(drawn);
+    picture.is_refinable = has_refinement(request);
+    picture.milliseconds = frame.render_milliseconds + milliseconds_since(drawn);
     return picture;
 }
 
 std::vector<std::string> Session::save_picture(const Scene& scene, const std::string& path, int bits) {
     need_precision(scene);
-    FrameRequest request = make_frame_request(scene, *m_volume, *m_renderer);
-    request.with_buffers = false;
+    const FrameRequest request = drawn_request(scene);
     Frame frame = m_renderer->render(request);
     std::vector<std::string> remarks;
-    write_annotation(scene, request, frame, *m_volume, remarks);
+    if (scene.annotation) {
+        for (const std::string& name : annotate(frame, make_annotation_request(*scene.annotation, request, frame, *m_volume))) {
+            remarks.push_back("annotation: there is no room for the " + name);
+        }
+    }
     write_png(frame, path, bits);
     return remarks;
+}
+
+FrameRequest Session::drawn_request(const Scene& scene) {
+    FrameRequest request = make_frame_request(scene, *m_volume, *m_renderer);
+    request.with_buffers = false;
+    return request;
 }
 
 FieldRange Session::range(const Scene& scene, const std::optional<std::string>& field) {

@@ -5,11 +5,13 @@
 #pragma once
 
 #include "pick.hpp"
+#include "picture.hpp"
 #include "volume_facts.hpp"
 
 #include <core/base/cancel.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/probe.hpp>
+#include <core/render/frame_schedule.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/scene.hpp>
 
@@ -21,19 +23,6 @@
 #include <vector>
 
 namespace elvis::view {
-
-/** A picture as the window shows it. */
-struct Picture {
-    std::uint32_t width = 0, height = 0;
-    /** Eight bits a channel, rounded as in PNG files; over grey where the background is not opaque. */
-    std::vector<std::uint8_t> rgba;
-    FrameCounts counts;
-    Camera camera;
-    /** Without what only the first picture of its kind takes: upload and compilation. */
-    double milliseconds = 0;
-    /** What finds no room on it, and the like. */
-    std::vector<std::string> remarks;
-};
 
 /** One thread at a time. Everything throws Error. */
 class Session {
@@ -55,11 +44,8 @@ public:
     /** A new scene of a volume: what a picture of it shows first. */
     Scene first_scene(const std::string& volume);
 
-    /**
-     * At `scale` times the size of the scene. Annotation is written at full size also on coarser pictures, which are then of full
-     * size themselves.
-     */
-    Picture draw(const Scene& scene, double scale);
+    /** As the step shows it, but of full size, as is its annotation. */
+    Picture draw(const Scene& scene, const FrameSchedule::Step& step);
     /** The full picture, to a file. Returns remarks. */
     std::vector<std::string> save_picture(const Scene& scene, const std::string& path, int bits);
 
@@ -74,8 +60,7 @@ public:
     std::vector<double> samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count, unsigned seed);
 
 private:
-    struct Open;
-    Frame finished_frame(const Scene& scene, std::vector<std::string>& remarks);
+    FrameRequest drawn_request(const Scene& scene);
     void need_precision(const Scene& scene);
 
     PluginRegistry m_registry;

@@ -20,6 +20,9 @@ std::string component_name(const std::string& field, std::uint32_t component) {
     return name;
 }
 
+/** Rounding, beside numbers of an extent, is shown as 0. */
+double readable(double value, double extent) { return std::abs(value) < 1e-12 * extent ? 0.0 : value; }
+
 } // namespace
 
 void explain(Ui& ui, const std::string& name, const char* help) {
@@ -28,7 +31,15 @@ void explain(Ui& ui, const std::string& name, const char* help) {
     if (ImGui::IsItemVisible()) {
         ui.places[name] = {least.x, least.y, most.x, most.y};
     }
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && help[0] != '\0') {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || help[0] == '\0') {
+        return;
+    }
+    if (ui.hovered != name) {
+        ui.hovered = name;
+        ui.hovered_since = ImGui::GetTime();
+    }
+    constexpr double patience = 0.4; // seconds
+    if (ImGui::GetTime() - ui.hovered_since >= patience) {
         ImGui::BeginTooltip();
         ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
         ImGui::TextUnformatted(help);
@@ -56,11 +67,12 @@ bool check(Ui& ui, const std::string& name, const char* label, bool& value, cons
 }
 
 bool number(Ui& ui, const std::string& name, const char* label, double& value, double extent, const char* help) {
-    double shown = value;
+    const double before = readable(value, extent);
+    double shown = before;
     ImGui::DragScalar(label, ImGuiDataType_Double, &shown, static_cast<float>(std::max(extent, 1e-30) / 400), nullptr, nullptr,
                       "%.6g");
     explain(ui, name, help);
-    if (!std::isfinite(shown) || shown == value) {
+    if (!std::isfinite(shown) || shown == before) {
         return false;
     }
     value = shown;
@@ -77,10 +89,11 @@ bool positive_number(Ui& ui, const std::string& name, const char* label, double&
 }
 
 bool slider(Ui& ui, const std::string& name, const char* label, double& value, double lower, double upper, const char* help) {
-    double shown = value;
+    const double before = readable(value, upper - lower);
+    double shown = before;
     ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &lower, &upper, "%.4g", ImGuiSliderFlags_AlwaysClamp);
     explain(ui, name, help);
-    if (!std::isfinite(shown) || shown == value) {
+    if (!std::isfinite(shown) || shown == before) {
         return false;
     }
     value = shown;
@@ -88,12 +101,16 @@ bool slider(Ui& ui, const std::string& name, const char* label, double& value, d
 }
 
 bool vector(Ui& ui, const std::string& name, const char* label, std::array<double, 3>& value, double extent, const char* help) {
-    std::array<double, 3> shown = value;
+    std::array<double, 3> before = value;
+    for (double& number : before) {
+        number = readable(number, extent);
+    }
+    std::array<double, 3> shown = before;
     ImGui::DragScalarN(label, ImGuiDataType_Double, shown.data(), 3, static_cast<float>(std::max(extent, 1e-30) / 400), nullptr,
                        nullptr, "%.5g");
     explain(ui, name, help);
     const bool is_finite = std::all_of(shown.begin(), shown.end(), [](double x) { return std::isfinite(x); });
-    if (!is_finite || shown == value) {
+    if (!is_finite || shown == before) {
         return false;
     }
     value = shown;
@@ -151,6 +168,16 @@ bool text(Ui& ui, const std::string& name, const char* label, std::string& value
     const bool is_changed = shown != value;
     value = shown;
     return is_changed;
+}
+
+double round_middle(const std::array<double, 2>& range) {
+    const double middle = 0.5 * (range[0] + range[1]), extent = range[1] - range[0];
+    if (!(extent > 0)) {
+        return middle;
+    }
+    const double step = std::pow(10.0, std::floor(std::log10(extent)) - 2);
+    const double rounded = std::round(middle / step) * step;
+    return std::abs(rounded - middle) < extent ? rounded : middle;
 }
 
 bool number_list(Ui& ui, const std::string& name, const char* label, std::vector<double>& values, const char* help) {

@@ -55,6 +55,9 @@ struct Ui {
     bool is_dragging = false;
     /** Since the last frame. ImGui 1.86 misses those that go up again before the next one. */
     std::vector<KeyPress> keys{};
+    /** The control below the cursor, and since when: explanations wait a little, or they would be in the way. */
+    std::string hovered{};
+    double hovered_since = 0;
     /** Texts that are being written, by control, and when they last were. */
     struct Written {
         std::string text;
@@ -86,6 +89,8 @@ bool optional_color(Ui& ui, const std::string& name, const char* label, std::opt
                     const std::array<double, 3>& start, const char* help);
 /** Changes the value when editing ends, so that no half-written expression is drawn. */
 bool text(Ui& ui, const std::string& name, const char* label, std::string& value, const char* help, const char* hint = "");
+/** Near the middle of a range, with few digits: where to start from. */
+double round_middle(const std::array<double, 2>& range);
 /** Values separated by blanks or commas, sorted. */
 bool number_list(Ui& ui, const std::string& name, const char* label, std::vector<double>& values, const char* help);
 /** One of a few words. */

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
+#include <utility>
 
 namespace elvis::view {
 
@@ -149,34 +150,51 @@ void ViewArea::draw_handles(Ui& ui) {
     }
 }
 
-void ViewArea::draw_state(Ui& ui) const {
-    const Workbench& bench = ui.bench;
+namespace {
+
+/** What is said of a picture: a word, the colour of its lamp, and what it means. */
+struct StageMark {
     std::string words;
-    ImU32 dot = rgba(230, 160, 30);
-    if (bench.state() == ShownState::full && bench.has_shown_present()) {
-        words = "full";
-        dot = rgba(60, 180, 75);
-    } else if (bench.state() == ShownState::reduced) {
-        char text[60];
-        std::snprintf(text, sizeof text, "reduced 1:%.3g", 1 / bench.shown_scale());
-        words = text;
-    } else if (bench.state() == ShownState::full) {
-        words = "drawing";
-    } else {
-        words = ui.model().volume() ? "drawing" : "";
+    ImU32 lamp;
+    const char* help;
+};
+
+StageMark mark_of(const Workbench& bench) {
+    const ImU32 amber = rgba(230, 160, 30), blue = rgba(80, 150, 240), green = rgba(60, 180, 75);
+    if (bench.stage() == FrameStage::none || (bench.stage() != FrameStage::moving && !bench.has_shown_present())) {
+        return {"drawing", amber, "The picture is out of date; another one is being drawn"};
     }
-    if (words.empty()) {
-        return;
+    switch (bench.stage()) {
+    case FrameStage::moving: {
+        std::string words = "moving, 1 : ";
+        words += std::to_string(bench.divisor());
+        return {words, amber, "Stage 1 of 3: fewer pixels, perhaps without lines, to keep up with the hand. All comes when it rests"};
     }
+    case FrameStage::full:
+        return {"full", blue,
+                "Stage 2 of 3: every pixel, with coarse lines and volume (to a hundredth of a colour). It is being refined"};
+    default:
+        return {"pixel-exact", green, "Stage 3 of 3: the picture that is saved, and that elvis render draws, to the byte"};
+    }
+}
+
+} // namespace
+
+void ViewArea::draw_stage(Ui& ui) const {
+    const StageMark mark = mark_of(ui.bench);
     const float pad = 6 * ui.scale;
     const float height = ImGui::GetTextLineHeight();
     const ImVec2 corner(static_cast<float>(m_box.x) / m_pixels + pad, static_cast<float>(m_box.y) / m_pixels + pad);
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    const float width = ImGui::CalcTextSize(mark.words.c_str()).x;
+    const ImVec2 end(corner.x + width + height + 3 * pad, corner.y + height + 2 * pad);
     ImDrawList* list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(corner, ImVec2(corner.x + size.x + height + 3 * pad, corner.y + height + 2 * pad), rgba(30, 30, 30, 200),
-                        pad);
-    list->AddCircleFilled(ImVec2(corner.x + pad + 0.5f * height, corner.y + pad + 0.5f * height), 0.35f * height, dot);
-    list->AddText(ImVec2(corner.x + 2 * pad + height, corner.y + pad), rgba(255, 255, 255), words.c_str());
+    list->AddRectFilled(corner, end, rgba(30, 30, 30, 200), pad);
+    list->AddCircleFilled(ImVec2(corner.x + pad + 0.5f * height, corner.y + pad + 0.5f * height), 0.35f * height, mark.lamp);
+    list->AddText(ImVec2(corner.x + 2 * pad + height, corner.y + pad), rgba(255, 255, 255), mark.words.c_str());
+    ui.places["stage"] = {corner.x, corner.y, end.x, end.y};
+    if (m_drag == Drag::none && ImGui::IsItemHovered() && ImGui::IsMouseHoveringRect(corner, end)) {
+        ImGui::SetTooltip("%s", mark.help);
+    }
 }
 
 void ViewArea::draw(Ui& ui, float framebuffer_scale) {
@@ -218,7 +236,7 @@ void ViewArea::draw(Ui& ui, float framebuffer_scale) {
     }
     draw_picked_point(ui);
     draw_handles(ui);
-    draw_state(ui);
+    draw_stage(ui);
 }
 
 } // namespace elvis::view

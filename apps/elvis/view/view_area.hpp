@@ -29,7 +29,8 @@ private:
     void draw_picked_point(Ui& ui) const;
     /** A place of the picture, for ImGui. */
     ImVec2 on_screen(const PicturePoint& place) const;
-    void draw_state(Ui& ui) const;
+    /** Which of the three stages is on the screen. */
+    void draw_stage(Ui& ui) const;
 
     PixelBox m_box;
     PictureSize m_size;

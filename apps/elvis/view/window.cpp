@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
 namespace elvis::view {
@@ -67,6 +68,8 @@ void set_style(float scale, bool is_dark) {
     style.FrameRounding = 3;
     style.GrabRounding = 3;
     style.WindowBorderSize = 1;
+    // What is below would make texts hard to read.
+    style.Colors[ImGuiCol_WindowBg].w = style.Colors[ImGuiCol_PopupBg].w = 1;
     style.ScaleAllSizes(scale);
     ImGui::GetStyle() = style;
 }
@@ -112,6 +115,7 @@ Window::Window(const Settings& settings, const std::string& device, bool validat
             if (action == GLFW_PRESS) {
                 auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
                 self->m_keys.push_back(key_press(key, scancode, modifiers));
+                self->m_presses.push_back({key, modifiers});
             }
             on_event(window);
         });
@@ -170,7 +174,7 @@ bool Window::wants_to_close() const { return glfwWindowShouldClose(m_window) == 
 void Window::keep_open() { glfwSetWindowShouldClose(m_window, GLFW_FALSE); }
 
 bool Window::wait(double seconds) {
-    if (seconds > 0) {
+    if (seconds > 0 && !m_has_events) {
         glfwWaitEventsTimeout(seconds);
     } else {
         glfwPollEvents();
@@ -185,7 +189,61 @@ std::vector<KeyPress> Window::pressed_keys() { return std::exchange(m_keys, {});
 void Window::begin_frame() {
     m_presenter->begin_frame();
     ImGui_ImplGlfw_NewFrame();
+    hold_presses();
+    replay_keys();
     ImGui::NewFrame();
+}
+
+void Window::hold_presses() {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool has_moved = io.MousePos.x != m_cursor[0] || io.MousePos.y != m_cursor[1];
+    m_cursor = {io.MousePos.x, io.MousePos.y};
+    for (std::size_t button = 0; button < m_is_down.size(); ++button) {
+        const bool is_pressed = io.MouseDown[button] && !m_is_down[button] && !m_is_held[button];
+        io.MouseDown[button] = io.MouseDown[button] || m_is_held[button];
+        m_is_held[button] = is_pressed && has_moved;
+        if (m_is_held[button]) {
+            io.MouseDown[button] = false;
+            m_has_events = true;
+        }
+        m_is_down[button] = io.MouseDown[button];
+    }
+}
+
+void Window::replay_keys() {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto is_down = [this](int key) { return glfwGetKey(m_window, key) == GLFW_PRESS; };
+    if (!m_late_characters.empty()) {
+        const std::vector<ImWchar> newer(io.InputQueueCharacters.begin(), io.InputQueueCharacters.end());
+        io.InputQueueCharacters.resize(0);
+        for (const std::vector<ImWchar>& characters : {std::exchange(m_late_characters, {}), newer}) {
+            for (const ImWchar character : characters) {
+                io.InputQueueCharacters.push_back(character);
+            }
+        }
+    }
+    if (!m_replayed.empty()) {
+        for (const int key : std::exchange(m_replayed, {})) {
+            io.KeysDown[key] = is_down(key);
+        }
+        io.KeyCtrl = is_down(GLFW_KEY_LEFT_CONTROL) || is_down(GLFW_KEY_RIGHT_CONTROL);
+        io.KeyShift = is_down(GLFW_KEY_LEFT_SHIFT) || is_down(GLFW_KEY_RIGHT_SHIFT);
+    }
+    for (const auto& [key, modifiers] : std::exchange(m_presses, {})) {
+        if (key < 0 || key >= static_cast<int>(std::size(io.KeysDown)) || io.KeysDown[key]) {
+            continue;
+        }
+        io.KeysDown[key] = true;
+        io.KeyCtrl = io.KeyCtrl || (modifiers & GLFW_MOD_CONTROL) != 0;
+        io.KeyShift = io.KeyShift || (modifiers & GLFW_MOD_SHIFT) != 0;
+        m_replayed.push_back(key);
+        m_has_events = true;
+        if (io.KeyCtrl) {
+            // Text that was typed after it must not seem to be typed with Ctrl: it comes in the next frame.
+            m_late_characters.insert(m_late_characters.end(), io.InputQueueCharacters.begin(), io.InputQueueCharacters.end());
+            io.InputQueueCharacters.resize(0);
+        }
+    }
 }
 
 void Window::end_frame(const PixelBox& picture) {

@@ -8,6 +8,7 @@
 #include "settings.hpp"
 #include "ui.hpp"
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -50,12 +51,27 @@ public:
 
 private:
     static void on_event(GLFWwindow* window);
+    /**
+     * ImGui 1.86 takes a press for what was below the cursor in the frame before. A press that comes with a movement waits for the
+     * next frame, which knows what the cursor has come to.
+     */
+    void hold_presses();
+    /** It misses keys that go up again before the next frame: in that one they are down. */
+    void replay_keys();
 
     GLFWwindow* m_window = nullptr;
     float m_scale = 1;
     bool m_has_events = true;
     std::vector<std::string> m_dropped;
     std::vector<KeyPress> m_keys;
+    struct Press {
+        int key, modifiers;
+    };
+    std::vector<Press> m_presses;
+    std::vector<int> m_replayed;
+    std::vector<ImWchar> m_late_characters;
+    std::array<float, 2> m_cursor{};
+    std::array<bool, 5> m_is_down{}, m_is_held{};
     std::unique_ptr<Presenter> m_presenter;
 };
 

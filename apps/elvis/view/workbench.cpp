@@ -13,8 +13,6 @@ namespace elvis::view {
 
 namespace {
 
-/** A hand that stops for a moment has not come to rest: a full picture cannot always be stopped. */
-constexpr std::chrono::milliseconds rest_time{150};
 constexpr std::size_t most_frame_times = 60;
 
 double seconds_between(Workbench::Clock::time_point from, Workbench::Clock::time_point to) {
@@ -85,7 +83,7 @@ void Workbench::open_scene(Scene scene, std::string file, std::string path) {
             m_histograms.clear();
             m_picked.reset();
             m_picture = {};
-            m_state = ShownState::nothing;
+            m_stage = FrameStage::none;
             say(Message::Kind::info, "opened " + path + ": " + std::to_string(facts.n_elements) + " elements, " +
                                          std::to_string(facts.fields.size()) + " fields");
             try {
@@ -224,7 +222,7 @@ void Workbench::convert(const std::string& input, const std::string& output) {
     m_conversion.start({input}, output);
 }
 
-void Workbench::take(DrawAnswer answer) {
+void Workbench::take(DrawAnswer answer, double showing_milliseconds) {
     const Clock::time_point now = Clock::now();
     if (!answer.error.empty()) {
         if (m_drawing_error != answer.error) {
@@ -236,81 +234,108 @@ void Workbench::take(DrawAnswer answer) {
     }
     m_drawing_error.clear();
     m_picture = std::move(answer.picture);
-    m_state = answer.scale < 1 ? ShownState::reduced : ShownState::full;
-    m_shown_scale = answer.scale;
+    m_schedule.drawn(answer.step, m_picture.is_refinable, m_picture.milliseconds + showing_milliseconds);
+    const bool is_full = answer.step.stage == FrameStage::full;
+    m_stage = is_full && !m_picture.is_refinable ? FrameStage::exact : answer.step.stage;
+    m_divisor = answer.step.divisor;
     m_shown_revision = answer.revision;
-    m_resolution.measured(answer.scale, m_picture.milliseconds);
-    if (m_rest_since) {
-        if (m_state == ShownState::full) {
+    if (m_was_moving) {
+        if (m_last_moving_picture) {
+            m_motion.frame_seconds.push_back(seconds_between(*m_last_moving_picture, now));
+            if (m_motion.frame_seconds.size() > most_frame_times) {
+                m_motion.frame_seconds.pop_front();
+            }
+        }
+        m_last_moving_picture = now;
+    } else if (m_rest_since) {
+        if (answer.step.stage == FrameStage::full) {
             m_motion.rest_to_full_seconds = seconds_between(*m_rest_since, now);
         }
-        m_last_moving_picture.reset();
-        return;
-    }
-    if (m_last_moving_picture) {
-        m_motion.frame_seconds.push_back(seconds_between(*m_last_moving_picture, now));
-        if (m_motion.frame_seconds.size() > most_frame_times) {
-            m_motion.frame_seconds.pop_front();
+        if (m_stage == FrameStage::exact) {
+            m_motion.rest_to_exact_seconds = seconds_between(*m_rest_since, now);
+            m_rest_since.reset();
         }
     }
-    m_last_moving_picture = now;
 }
 
-bool Workbench::update(bool is_moving) {
+void Workbench::take(const ConversionResult& result) {
+    if (result.was_cancelled) {
+        say(Message::Kind::info, "the conversion was cancelled");
+        return;
+    }
+    if (!result.error.empty()) {
+        say(Message::Kind::error, result.error);
+        return;
+    }
+    for (const FieldReport& field : result.report.fields) {
+        char text[200];
+        std::snprintf(text, sizeof text, "field %s: %s, residual %.3g of its range", field.name.c_str(),
+                      field.exact ? "exact but for round-off" : "NOT exact", field.residual);
+        say(field.exact ? Message::Kind::info : Message::Kind::warning, text);
+    }
+    open(result.output);
+}
+
+void Workbench::follow(bool is_moving) {
+    const Clock::time_point now = Clock::now();
+    if (m_model.revision() != m_scheduled_revision) {
+        m_scheduled_revision = m_model.revision();
+        // One change after the other is a movement, too: the window's edge is dragged.
+        const bool goes_on = now - std::exchange(m_last_change, now) < FrameSchedule::rest;
+        if (is_moving || goes_on) {
+            m_schedule.touch(now);
+        } else {
+            m_schedule.change();
+        }
+    }
+    if (m_was_moving && !is_moving) {
+        m_schedule.release();
+        m_rest_since = now;
+        m_last_moving_picture.reset();
+    } else if (is_moving) {
+        m_rest_since.reset();
+    }
+    if (now - m_last_change > FrameSchedule::rest) {
+        // The hand holds still: what comes next is no measure of how many pictures can be drawn.
+        m_last_moving_picture.reset();
+    }
+    m_was_moving = is_moving;
+}
+
+bool Workbench::collect(double showing_milliseconds) {
     std::optional<DrawAnswer> answer = m_worker.collect();
     const bool has_news = answer.has_value();
     if (answer) {
-        take(std::move(*answer));
+        take(std::move(*answer), showing_milliseconds);
     }
-    if (std::optional<ConversionResult> result = m_conversion.collect()) {
-        if (result->was_cancelled) {
-            say(Message::Kind::info, "the conversion was cancelled");
-        } else if (!result->error.empty()) {
-            say(Message::Kind::error, result->error);
-        } else {
-            for (const FieldReport& field : result->report.fields) {
-                char text[200];
-                std::snprintf(text, sizeof text, "field %s: %s, residual %.3g of its range", field.name.c_str(),
-                              field.exact ? "exact but for round-off" : "NOT exact", field.residual);
-                say(field.exact ? Message::Kind::info : Message::Kind::warning, text);
-            }
-            open(result->output);
-        }
-    }
-    const Clock::time_point now = Clock::now();
-    if (is_moving) {
-        m_rest_since.reset();
-    } else if (!m_rest_since) {
-        m_rest_since = now;
-    }
-    const std::uint64_t revision = m_model.revision();
-    if (!m_model.volume() || m_failed_revision == revision) {
-        return has_news;
-    }
-    const std::optional<std::pair<std::uint64_t, double>> drawing = m_worker.drawing();
-    if (is_moving) {
-        const bool is_shown = m_state != ShownState::nothing && m_shown_revision == revision;
-        // A full picture that is being drawn is out of date: drawing another one stops it, where that is possible.
-        const bool is_busy = drawing && drawing->second < 1;
-        if (!is_shown && !is_busy && (!drawing || drawing->first != revision)) {
-            m_worker.draw({m_model.scene(), m_resolution.scale(), revision});
-        }
-    } else {
-        const bool is_drawn = drawing && drawing->first == revision;
-        const bool has_rested = now - *m_rest_since >= rest_time;
-        if (!is_drawn && !has_shown_present()) {
-            // Something coarse at once: the full picture may take long.
-            m_worker.draw({m_model.scene(), m_resolution.scale(), revision});
-        } else if (!is_drawn && m_state != ShownState::full && has_rested) {
-            m_worker.draw({m_model.scene(), 1, revision});
-        }
+    if (const std::optional<ConversionResult> result = m_conversion.collect()) {
+        take(*result);
     }
     return has_news;
 }
 
+void Workbench::go_on(bool is_moving) {
+    follow(is_moving);
+    const std::uint64_t revision = m_model.revision();
+    if (!m_model.volume() || m_failed_revision == revision) {
+        return;
+    }
+    const Clock::time_point now = Clock::now();
+    const std::optional<FrameSchedule::Step> drawing = m_worker.drawing();
+    const bool is_outdated = drawing && m_schedule.is_outdated(*drawing, now);
+    if (is_outdated) {
+        m_worker.cancel_drawing();
+    }
+    if (!drawing || is_outdated) {
+        if (const std::optional<FrameSchedule::Step> step = m_schedule.next(now)) {
+            m_worker.draw({m_model.scene(), *step, revision});
+        }
+    }
+}
+
 bool Workbench::is_settled() const {
     const std::uint64_t revision = m_model.revision();
-    const bool is_drawn = m_state == ShownState::full && m_shown_revision == revision;
+    const bool is_drawn = m_stage == FrameStage::exact && m_shown_revision == revision;
     return m_worker.is_idle() && !m_conversion.is_running() &&
            (!m_model.volume() || is_drawn || m_failed_revision == revision);
 }
@@ -319,7 +344,7 @@ std::string Workbench::activity() const { return m_worker.activity(); }
 
 std::vector<Message> Workbench::picture_messages() const {
     std::vector<Message> messages;
-    if (m_state != ShownState::full) {
+    if (m_stage != FrameStage::exact) {
         return messages;
     }
     for (const commands::FrameRemark& remark : commands::remarks_on(m_picture.counts)) {

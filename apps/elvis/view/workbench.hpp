@@ -9,7 +9,6 @@
 #include "frame_worker.hpp"
 #include "histogram.hpp"
 #include "model.hpp"
-#include "resolution.hpp"
 
 #include <chrono>
 #include <deque>
@@ -28,17 +27,11 @@ struct Message {
     std::string text;
 };
 
-/** Which picture is on the screen. */
-enum class ShownState {
-    nothing,
-    reduced, ///< coarser than the screen, to keep up with the hand
-    full     ///< the picture that `elvis render` draws
-};
-
 /** Pictures shown while something moved. */
 struct MotionStatistics {
     std::deque<double> frame_seconds; ///< between pictures, the latest last
-    std::optional<double> rest_to_full_seconds;
+    /** From the last time that the hand let go. */
+    std::optional<double> rest_to_full_seconds, rest_to_exact_seconds;
 
     double frames_per_second() const;
 };
@@ -70,21 +63,28 @@ public:
     void convert(const std::string& input, const std::string& output);
     ConversionTask& conversion() { return m_conversion; }
 
-    /** To be called often. `is_moving`: the hand is at work. Returns whether there is a new picture. */
-    bool update(bool is_moving);
+    /** To be called often: takes what has come. Returns whether there is a new picture. `showing`: what a picture takes to show. */
+    bool collect(double showing_milliseconds);
+    /** To be called after that, and after changes: sees to the next picture. `is_moving`: the hand is at work. */
+    void go_on(bool is_moving);
+    /** A picture is on its way. */
+    bool is_drawing() const { return m_worker.drawing().has_value(); }
     /** The last picture; its width is 0 if there is none. */
     const Picture& picture() const { return m_picture; }
-    ShownState state() const { return m_state; }
-    double shown_scale() const { return m_shown_scale; }
-    /** The picture, full or not, is of the present scene. */
-    bool has_shown_present() const { return m_state != ShownState::nothing && m_shown_revision == m_model.revision(); }
-    /** The picture is full and of the present scene, and nothing is being done. */
+    /** Of the last picture, whatever has changed since. */
+    FrameStage stage() const { return m_stage; }
+    /** So many pixels of the screen across and down are one of the last picture. */
+    std::uint32_t divisor() const { return m_divisor; }
+    /** The picture, in whatever stage, is of the present scene. */
+    bool has_shown_present() const { return m_stage != FrameStage::none && m_shown_revision == m_model.revision(); }
+    /** The picture is exact and of the present scene, and nothing is being done. */
     bool is_settled() const;
     /** What is being done: "drawing", "opening"; empty if nothing. */
     std::string activity() const;
     /** The last picture could not be drawn, because of this. */
     const std::string& drawing_error() const { return m_drawing_error; }
     const MotionStatistics& motion() const { return m_motion; }
+    CancelTimes cancel_times() const { return m_worker.cancel_times(); }
 
     const std::vector<Message>& messages() const { return m_messages; }
     void say(Message::Kind kind, std::string text);
@@ -100,10 +100,17 @@ private:
     void sample(const std::optional<std::string>& field, const std::string& key, unsigned piece);
     void open_scene(Scene scene, std::string file, std::string path);
     std::string field_key(const std::optional<std::string>& field) const;
-    void take(DrawAnswer answer);
+    void take(DrawAnswer answer, double showing_milliseconds);
+    void take(const ConversionResult& result);
+    /** Tells the schedule what has changed since the last call, and whether the hand is at work. */
+    void follow(bool is_moving);
 
     Model m_model;
-    ResolutionChooser m_resolution;
+    FrameSchedule m_schedule;
+    /** The scene that the schedule knows of. */
+    std::uint64_t m_scheduled_revision = 0;
+    Clock::time_point m_last_change{};
+    bool m_was_moving = false;
     std::function<std::vector<std::string>()> m_device_messages;
     std::optional<Picked> m_picked;
     std::map<std::string, std::optional<FieldRange>> m_ranges;
@@ -112,11 +119,12 @@ private:
     std::uint64_t m_volume_number = 0;
 
     Picture m_picture;
-    ShownState m_state = ShownState::nothing;
-    double m_shown_scale = 1;
+    FrameStage m_stage = FrameStage::none;
+    std::uint32_t m_divisor = 1;
     std::uint64_t m_shown_revision = 0;
     std::uint64_t m_failed_revision = 0;
     std::string m_drawing_error;
+    /** When the hand let go; nothing while it is at work, or when the exact picture has come. */
     std::optional<Clock::time_point> m_rest_since;
     std::optional<Clock::time_point> m_last_moving_picture;
     MotionStatistics m_motion;

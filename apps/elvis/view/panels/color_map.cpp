@@ -16,6 +16,7 @@ std::vector<SceneColorMap::Point> points_of(const SceneColorMap& map) {
     try {
         SceneColorMap plain = map;
         plain.range.reset();
+        plain.is_logarithmic = false;
         for (const ColorTable::Point& point : make_color_table(plain, {0, 1}).points) {
             points.push_back({point.value, point.rgb});
         }
@@ -40,14 +41,14 @@ void draw_bar(Ui& ui, const std::string& name, const SceneColorMap& map, const H
     ImGui::Dummy(ImVec2(width, height + above));
     explain(ui, name + "/bar", "The colours from the lower to the upper end of the range; above, how often the field takes each value");
     ImDrawList* list = ImGui::GetWindowDrawList();
-    if (histogram != nullptr && range[1] > range[0]) {
+    if (histogram != nullptr && range[1] > range[0] && (range[0] > 0 || !map.is_logarithmic)) {
+        const ColorScale scale(range, map.is_logarithmic);
         const std::vector<float>& bins = histogram->bins();
         const double extent = histogram->upper() - histogram->lower();
         for (std::size_t bin = 0; bin < bins.size(); ++bin) {
             const auto place = [&](double edge) {
                 const double value = histogram->lower() + extent * edge / static_cast<double>(bins.size());
-                const double part = std::clamp((value - range[0]) / (range[1] - range[0]), 0.0, 1.0);
-                return corner.x + static_cast<float>(part) * width;
+                return corner.x + static_cast<float>(std::clamp(scale.position(value), 0.0, 1.0)) * width;
             };
             const float left = place(static_cast<double>(bin)), right = place(static_cast<double>(bin) + 1);
             // The square root lets rare values be seen, too.
@@ -172,16 +173,29 @@ bool edit_range(Ui& ui, const std::string& name, SceneColorMap& map, const std::
     const std::optional<FieldRange> data = ui.bench.range(field);
     std::array<double, 2> range = map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1});
     const auto set = [&](double lower, double upper) {
-        if (lower < upper) {
+        if (lower < upper && (lower > 0 || !map.is_logarithmic)) {
             map.range = {lower, upper};
             is_changed = true;
         }
     };
+    if (check(ui, name + "/logarithmic", "Logarithmic", map.is_logarithmic,
+              "Equal parts of the colours are for equal ratios of values; those not above 0 have the colour of what is not a number")) {
+        is_changed = true;
+        if (map.is_logarithmic && !(range[0] > 0)) {
+            // The range must be above 0: some decades below its upper end.
+            constexpr double decades = 1e-4;
+            range[1] = range[1] > 0 ? range[1] : 1;
+            range[0] = decades * range[1];
+            map.range = range;
+        }
+    }
     bool is_fixed = map.range.has_value();
+    ImGui::BeginDisabled(map.is_logarithmic && data && !(data->lower > 0));
     if (check(ui, name + "/fixed", "Fixed range", is_fixed, "Else the range is that of the field at this time step")) {
         map.range = is_fixed ? std::optional(range) : std::nullopt;
         is_changed = true;
     }
+    ImGui::EndDisabled();
     if (map.range) {
         const double extent = data ? data->upper - data->lower : 1;
         double lower = range[0], upper = range[1];
@@ -196,10 +210,12 @@ bool edit_range(Ui& ui, const std::string& name, SceneColorMap& map, const std::
         return is_changed;
     }
     ImGui::Text("Field: %.6g to %.6g", data->lower, data->upper);
+    ImGui::BeginDisabled(map.is_logarithmic);
     if (button(ui, name + "/symmetric", "Symmetric", "From minus to plus the largest value of the field")) {
         const double most = std::max(std::abs(data->lower), std::abs(data->upper));
         set(-most, most);
     }
+    ImGui::EndDisabled();
     ImGui::SameLine();
     const Histogram* histogram = ui.bench.histogram(field);
     ImGui::BeginDisabled(histogram == nullptr);

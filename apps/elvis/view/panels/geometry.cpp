@@ -83,7 +83,9 @@ bool edit_interval(Ui& ui, const std::string& name, const char* label, std::opti
         ImGui::Indent();
         const double extent = std::max(start[1] - start[0], 1e-12);
         double lower = (*interval)[0], upper = (*interval)[1];
-        if (number(ui, name + "/lower", "from", lower, extent, help) || number(ui, name + "/upper", "to", upper, extent, help)) {
+        const bool has_lower = number(ui, name + "/lower", "from", lower, extent, help);
+        const bool has_upper = number(ui, name + "/upper", "to", upper, extent, help);
+        if (has_lower || has_upper) {
             interval = {std::min(lower, upper), std::max(lower, upper)};
             is_changed = true;
         }
@@ -168,8 +170,9 @@ bool edit(Ui& ui, ElementSelection& selection) {
     if (selection.box) {
         std::array<double, 6>& box = *selection.box;
         Vector least = {box[0], box[1], box[2]}, most = {box[3], box[4], box[5]};
-        if (vector(ui, "elements/least", "least", least, volume.diagonal(), "The box's least corner") ||
-            vector(ui, "elements/most", "largest", most, volume.diagonal(), "The box's largest corner")) {
+        const bool has_least = vector(ui, "elements/least", "least", least, volume.diagonal(), "The box's least corner");
+        const bool has_most = vector(ui, "elements/most", "largest", most, volume.diagonal(), "The box's largest corner");
+        if (has_least || has_most) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 box[axis] = std::min(least[axis], most[axis]);
                 box[axis + 3] = std::max(least[axis], most[axis]);

@@ -13,7 +13,7 @@ void add_menu(Ui& ui) {
     }
     // A value that isosurfaces surely meet, as soon as the range is known.
     const std::optional<FieldRange> range = ui.bench.range(ui.scene().field);
-    const double middle = range ? 0.5 * (range->lower + range->upper) : 0;
+    const double middle = range ? round_middle({range->lower, range->upper}) : 0;
     for (const NewItemInfo& info : new_items()) {
         const bool is_possible = can_add(ui.scene(), *ui.model().volume(), info.item) && (range || info.item != NewItem::isosurface);
         if (ImGui::MenuItem(info.name, nullptr, false, is_possible)) {

@@ -151,7 +151,9 @@ void draw_statistics(Ui& ui) {
         ImGui::TextWrapped("%s: %llu elements, read by %s", volume->path.c_str(),
                            static_cast<unsigned long long>(volume->n_elements), volume->plugin.c_str());
     }
-    if (bench.state() == ShownState::full && ImGui::BeginTable("counts", 2, ImGuiTableFlags_RowBg)) {
+    if (bench.stage() == FrameStage::exact && ImGui::BeginTable("counts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+        ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("count", ImGuiTableColumnFlags_WidthFixed);
         const FrameCounts& counts = bench.picture().counts;
         const auto row = [](const char* name, std::uint64_t count, bool is_always = true) {
             if (is_always || count > 0) {
@@ -186,7 +188,10 @@ void draw_statistics(Ui& ui) {
         ImGui::Text("While moving: %.1f pictures a second", bench.motion().frames_per_second());
     }
     if (bench.motion().rest_to_full_seconds) {
-        ImGui::Text("From rest to the full picture: %.2f s", *bench.motion().rest_to_full_seconds);
+        ImGui::Text("From rest to all pixels: %.2f s", *bench.motion().rest_to_full_seconds);
+    }
+    if (bench.motion().rest_to_exact_seconds) {
+        ImGui::Text("From rest to pixel-exact: %.2f s", *bench.motion().rest_to_exact_seconds);
     }
     ImGui::Separator();
     draw_list(bench.picture_messages());

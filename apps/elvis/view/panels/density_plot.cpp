@@ -1,0 +1,229 @@
+#include "panels.hpp"
+
+#include <core/scene/color_map.hpp>
+#include <core/scene/opacity.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elvis::view {
+
+namespace {
+
+using DensityPoint = TransferFunction::DensityPoint;
+
+constexpr float point_radius = 5;
+/** How near the cursor must be to take a point. */
+constexpr float reach = 9;
+
+/** What can be taken by the hand: a point of the density, the top of a peak, or the middle of its right side. */
+struct Grip {
+    enum class Kind { point, top, side };
+    Kind kind;
+    std::size_t index;
+
+    bool operator==(const Grip&) const = default;
+};
+
+/** Values from left to right as the colours have them, densities upwards. */
+struct Plot {
+    ImVec2 corner;
+    float width, height;
+    ColorScale scale;
+    double top;
+
+    ImVec2 place(double value, double density) const {
+        return ImVec2(corner.x + static_cast<float>(std::clamp(scale.position(value), -1.0, 2.0)) * width,
+                      corner.y + height - static_cast<float>(density / top) * height);
+    }
+    double value(const ImVec2& at) const { return scale.value(std::clamp((at.x - corner.x) / width, 0.0f, 1.0f)); }
+    double density(const ImVec2& at) const { return top * std::clamp((corner.y + height - at.y) / height, 0.0f, 1.0f); }
+};
+
+/** What the density is without peaks, however it is given. */
+std::vector<DensityPoint> base_density(const SceneVolumeRendering& rendering, const std::array<double, 2>& range, double usual) {
+    if (!rendering.density.empty()) {
+        return rendering.density;
+    }
+    if (!rendering.opacity.empty()) {
+        return density_from_opacity(rendering.opacity, rendering.unit_distance);
+    }
+    return rendering.peaks.empty() ? std::vector<DensityPoint>{{range[0], 0}, {range[1], usual}} : std::vector<DensityPoint>{};
+}
+
+std::vector<std::pair<Grip, ImVec2>> grips_of(const SceneVolumeRendering& rendering, const Plot& plot) {
+    std::vector<std::pair<Grip, ImVec2>> grips;
+    for (std::size_t i = 0; i < rendering.density.size(); ++i) {
+        grips.push_back({{Grip::Kind::point, i}, plot.place(rendering.density[i].value, rendering.density[i].density)});
+    }
+    for (std::size_t i = 0; i < rendering.peaks.size(); ++i) {
+        const ScenePeak& peak = rendering.peaks[i];
+        grips.push_back({{Grip::Kind::top, i}, plot.place(peak.value, peak.density)});
+        grips.push_back({{Grip::Kind::side, i}, plot.place(peak.value + 0.25 * peak.width, 0.5 * peak.density)});
+    }
+    return grips;
+}
+
+void draw_histogram(ImDrawList* list, const Plot& plot, const Histogram& histogram) {
+    const auto& bins = histogram.bins();
+    const double extent = (histogram.upper() - histogram.lower()) / static_cast<double>(bins.size());
+    for (std::size_t bin = 0; bin < bins.size(); ++bin) {
+        const double value = histogram.lower() + extent * static_cast<double>(bin);
+        const float left = plot.place(value, 0).x, right = plot.place(value + extent, 0).x;
+        // The square root lets rare values be seen, too.
+        list->AddRectFilled(ImVec2(left, plot.corner.y + plot.height * (1 - std::sqrt(bins[bin]))),
+                            ImVec2(right, plot.corner.y + plot.height), ImGui::GetColorU32(ImGuiCol_PlotHistogram, 0.35f));
+    }
+}
+
+void draw_peaks(ImDrawList* list, const Plot& plot, const std::vector<ScenePeak>& peaks, float line) {
+    for (const ScenePeak& peak : peaks) {
+        const Rgb rgb = peak.color.value_or(Rgb{0.7, 0.7, 0.7});
+        const auto byte = [](double x) { return static_cast<int>(std::lround(255 * std::clamp(x, 0.0, 1.0))); };
+        const ImVec2 left = plot.place(peak.value - 0.5 * peak.width, 0), right = plot.place(peak.value + 0.5 * peak.width, 0),
+                     top = plot.place(peak.value, peak.density);
+        list->AddTriangleFilled(left, top, right, IM_COL32(byte(rgb[0]), byte(rgb[1]), byte(rgb[2]), 110));
+        list->AddTriangle(left, top, right, IM_COL32(byte(rgb[0]), byte(rgb[1]), byte(rgb[2]), 255), line);
+    }
+}
+
+void draw_density(ImDrawList* list, const Plot& plot, const std::vector<DensityPoint>& points, float line) {
+    if (points.empty()) {
+        return;
+    }
+    const ImU32 color = ImGui::GetColorU32(ImGuiCol_PlotLines);
+    ImVec2 before(plot.corner.x, plot.place(points.front().value, points.front().density).y);
+    for (const DensityPoint& point : points) {
+        const ImVec2 at = plot.place(point.value, point.density);
+        list->AddLine(before, at, color, line);
+        before = at;
+    }
+    list->AddLine(before, ImVec2(plot.corner.x + plot.width, before.y), color, line);
+}
+
+/** The hand has the grip, and is at the cursor. Returns whether something changed. */
+bool drag(SceneVolumeRendering& rendering, const Grip& grip, const Plot& plot, const ImVec2& mouse) {
+    const double value = plot.value(mouse), density = plot.density(mouse);
+    if (grip.kind == Grip::Kind::point) {
+        std::vector<DensityPoint>& points = rendering.density;
+        if (grip.index >= points.size()) {
+            return false;
+        }
+        const double least = grip.index > 0 ? points[grip.index - 1].value : -1e300;
+        const double largest = grip.index + 1 < points.size() ? points[grip.index + 1].value : 1e300;
+        const DensityPoint moved{std::clamp(value, least, largest), density};
+        const bool is_changed = moved.value != points[grip.index].value || moved.density != points[grip.index].density;
+        points[grip.index] = moved;
+        return is_changed;
+    }
+    if (grip.index >= rendering.peaks.size()) {
+        return false;
+    }
+    ScenePeak peak = rendering.peaks[grip.index];
+    if (grip.kind == Grip::Kind::top) {
+        peak.value = value;
+        peak.density = std::max(density, 1e-3 * plot.top);
+    } else {
+        peak.width = 4 * std::max(value - peak.value, 0.0);
+    }
+    const ScenePeak& before = rendering.peaks[grip.index];
+    const bool is_changed = peak.value != before.value || peak.density != before.density || peak.width != before.width;
+    if (!is_changed || !is_peak(peak)) {
+        return false;
+    }
+    rendering.peaks[grip.index] = peak;
+    return true;
+}
+
+} // namespace
+
+bool is_peak(const ScenePeak& peak) {
+    return peak.density > 0 && peak.value - 0.5 * peak.width < peak.value && peak.value < peak.value + 0.5 * peak.width;
+}
+
+bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array<double, 2>& range, bool is_logarithmic,
+                       double usual, const Histogram* histogram) {
+    const std::vector<DensityPoint> base = base_density(rendering, range, usual);
+    double most = 0;
+    for (const DensityPoint& point : base) {
+        most = std::max(most, point.density);
+    }
+    for (const ScenePeak& peak : rendering.peaks) {
+        most = std::max(most, peak.density);
+    }
+    Plot plot{ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail().x, 6 * ImGui::GetFrameHeight(),
+              ColorScale(range, is_logarithmic),
+              // Room above the highest point, which otherwise could not be dragged upwards.
+              most > 0 ? 1.25 * most : usual};
+    ImGui::InvisibleButton("curve", ImVec2(plot.width, plot.height), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+    const bool is_hovered = ImGui::IsItemHovered(), is_active = ImGui::IsItemActive(), is_started = ImGui::IsItemActivated();
+    explain(ui, "volume/curve", is_active ? "" : "Density by value, over the field's histogram. Drag points, and tops and sides of peaks. With a density of its own, a double click adds a point; the right button removes a point or a peak");
+    ImGuiStorage* storage = ImGui::GetStateStorage();
+    const ImGuiID held_id = ImGui::GetID("held"), top_id = ImGui::GetID("top");
+    if (is_started) {
+        storage->SetFloat(top_id, static_cast<float>(plot.top));
+        storage->SetInt(held_id, -1);
+    } else if (is_active) {
+        plot.top = static_cast<double>(storage->GetFloat(top_id, static_cast<float>(plot.top))); // It stays while the hand is at work.
+    }
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const std::vector<std::pair<Grip, ImVec2>> grips = grips_of(rendering, plot);
+    std::optional<std::size_t> near;
+    float nearest = reach * ui.scale;
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+        const float distance = std::hypot(grips[i].second.x - mouse.x, grips[i].second.y - mouse.y);
+        if (distance < nearest) {
+            nearest = distance;
+            near = i;
+        }
+    }
+    if (is_started && near) {
+        storage->SetInt(held_id, static_cast<int>(*near));
+    }
+    bool is_changed = false;
+    if (is_hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !near && !rendering.density.empty()) {
+        const double value = plot.value(mouse);
+        const auto behind = std::find_if(rendering.density.begin(), rendering.density.end(),
+                                         [value](const DensityPoint& point) { return point.value > value; });
+        rendering.density.insert(behind, {value, plot.density(mouse)});
+        storage->SetInt(held_id, -1);
+        is_changed = true;
+    } else if (is_hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right) && near) {
+        const Grip grip = grips[*near].first;
+        storage->SetInt(held_id, -1);
+        if (grip.kind != Grip::Kind::point) {
+            rendering.peaks.erase(rendering.peaks.begin() + static_cast<std::ptrdiff_t>(grip.index));
+            is_changed = true;
+        } else if (rendering.density.size() > 1) {
+            rendering.density.erase(rendering.density.begin() + static_cast<std::ptrdiff_t>(grip.index));
+            is_changed = true;
+        }
+    } else if (is_active && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2)) {
+        const int held = storage->GetInt(held_id, -1);
+        if (held >= 0 && static_cast<std::size_t>(held) < grips.size()) {
+            is_changed = drag(rendering, grips[static_cast<std::size_t>(held)].first, plot, mouse);
+        }
+    }
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const ImVec2 end(plot.corner.x + plot.width, plot.corner.y + plot.height);
+    list->AddRectFilled(plot.corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    list->PushClipRect(plot.corner, end, true);
+    if (histogram != nullptr) {
+        draw_histogram(list, plot, *histogram);
+    }
+    draw_peaks(list, plot, rendering.peaks, 1.5f * ui.scale);
+    draw_density(list, plot, base, 2 * ui.scale);
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+        const auto& [grip, at] = grips[i];
+        const bool is_lit = near == i && is_hovered;
+        const float radius = (grip.kind == Grip::Kind::side ? 0.7f : 1.0f) * point_radius * ui.scale;
+        list->AddCircleFilled(at, radius, is_lit ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 200, 40, 255));
+        static constexpr const char* names[] = {"point", "peak", "side"};
+        ui.places[std::string("volume/curve/") + names[static_cast<std::size_t>(grip.kind)] + std::to_string(grip.index)] = {
+            at.x - 4, at.y - 4, at.x + 4, at.y + 4};
+    }
+    list->PopClipRect();
+    return is_changed;
+}
+
+} // namespace elvis::view

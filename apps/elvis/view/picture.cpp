@@ -1,0 +1,119 @@
+#include "picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace elvis::view {
+
+namespace {
+
+constexpr std::size_t n_channels = 4;
+
+/** std::lround(255 * value), of what is not beyond 0 and 1, in a form that processors do many of at once. */
+std::uint8_t level(double value) {
+    const double scaled = 255 * value;
+    const int whole = static_cast<int>(scaled);
+    return static_cast<std::uint8_t>(whole + (scaled - whole >= 0.5 ? 1 : 0));
+}
+
+/** What is no number counts as 0. */
+double clamped(double value) { return std::min(1.0, value > 0 ? value : 0.0); }
+
+std::vector<std::uint8_t> bytes_of(std::span<const double> color) {
+    std::vector<std::uint8_t> bytes(color.size());
+    constexpr double grey = 0.5;
+    for (std::size_t pixel = 0; pixel < color.size(); pixel += n_channels) {
+        const double alpha = clamped(color[pixel + 3]);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const double value = clamped(color[pixel + channel]);
+            bytes[pixel + channel] = level(alpha >= 1 ? value : alpha * value + (1 - alpha) * grey);
+        }
+        bytes[pixel + 3] = 255;
+    }
+    return bytes;
+}
+
+std::size_t nearest(std::uint32_t place, std::uint32_t n_places, std::uint32_t n_pixels) {
+    return static_cast<std::size_t>(std::uint64_t{place} * n_pixels / n_places);
+}
+
+/** A part of the frame as it would be with width times height pixels. */
+Frame stretched_part(const Frame& frame, std::uint32_t width, std::uint32_t height, const elvis::PixelBox& box) {
+    Frame part;
+    part.width = static_cast<std::uint32_t>(box.width());
+    part.height = static_cast<std::uint32_t>(box.height());
+    part.color.reserve(n_channels * part.width * part.height);
+    for (int row = box.top; row < box.bottom; ++row) {
+        const std::size_t from_row = nearest(static_cast<std::uint32_t>(row), height, frame.height);
+        for (int column = box.left; column < box.right; ++column) {
+            const std::size_t from = from_row * frame.width + nearest(static_cast<std::uint32_t>(column), width, frame.width);
+            const auto first = frame.color.begin() + static_cast<std::ptrdiff_t>(n_channels * from);
+            part.color.insert(part.color.end(), first, first + n_channels);
+        }
+    }
+    return part;
+}
+
+std::vector<std::uint8_t> stretched(const std::vector<std::uint8_t>& rgba, const Frame& frame, std::uint32_t width,
+                                    std::uint32_t height) {
+    std::vector<std::uint8_t> result(n_channels * width * height);
+    const std::size_t row_bytes = n_channels * width;
+    std::size_t drawn_row = frame.height; // None.
+    for (std::uint32_t row = 0; row < height; ++row) {
+        const std::size_t from_row = nearest(row, height, frame.height);
+        std::uint8_t* to = &result[row * row_bytes];
+        if (from_row == drawn_row) {
+            std::copy_n(to - row_bytes, row_bytes, to);
+            continue;
+        }
+        drawn_row = from_row;
+        for (std::uint32_t column = 0; column < width; ++column) {
+            const std::uint8_t* from = &rgba[n_channels * (from_row * frame.width + nearest(column, width, frame.width))];
+            std::copy_n(from, n_channels, to + n_channels * column);
+        }
+    }
+    return result;
+}
+
+/** Paints where the item is, and nowhere else: small frames are not made large for it. */
+void write_item(const AnnotationPlan::Item& item, double halo_radius, const Frame& frame, Picture& picture) {
+    elvis::PixelBox box = grown(item.drawing.box(), static_cast<int>(std::ceil(halo_radius)));
+    box = {std::max(box.left, 0), std::max(box.top, 0), std::min(box.right, static_cast<int>(picture.width)),
+           std::min(box.bottom, static_cast<int>(picture.height))};
+    if (box.is_empty()) {
+        return;
+    }
+    Frame part = stretched_part(frame, picture.width, picture.height, box);
+    Drawing drawing = item.drawing;
+    drawing.move(-box.left, -box.top);
+    drawing.paint(part, item.ink, halo_radius);
+    const std::vector<std::uint8_t> bytes = bytes_of(part.color);
+    const std::size_t row_bytes = n_channels * part.width;
+    for (std::size_t row = 0; row < part.height; ++row) {
+        const std::size_t to = (static_cast<std::size_t>(box.top) + row) * picture.width + static_cast<std::size_t>(box.left);
+        std::copy_n(&bytes[row * row_bytes], row_bytes, &picture.rgba[n_channels * to]);
+    }
+}
+
+} // namespace
+
+Picture picture_of(const Frame& frame, const AnnotationPlan& annotation, std::uint32_t width, std::uint32_t height) {
+    Picture picture;
+    picture.width = width;
+    picture.height = height;
+    picture.counts = frame.counts;
+    picture.rgba = bytes_of(frame.color);
+    if (frame.width != width || frame.height != height) {
+        picture.rgba = stretched(picture.rgba, frame, width, height);
+    }
+    for (const AnnotationPlan::Item& item : annotation.items) {
+        write_item(item, annotation.halo_radius, frame, picture);
+    }
+    for (const std::string& name : annotation.left_out) {
+        picture.remarks.push_back("annotation: there is no room for the " + name);
+    }
+    return picture;
+}
+
+} // namespace elvis::view
