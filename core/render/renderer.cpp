@@ -152,6 +152,7 @@ struct Renderer::Impl {
     CutPlaneGeometry view(const FrameRequest& request, const SurfaceGeometry& geometry) const;
     double offset_of(const Surface& surface) const { return fields.offset(surface.field); }
     bool is_flat() const { return volume.dimension() == 2; }
+    std::uint64_t n_cut_elements() const;
 };
 
 void Renderer::Impl::check(const FrameRequest& request) const {
@@ -179,11 +180,24 @@ void Renderer::Impl::check(const FrameRequest& request) const {
                                (wires && std::holds_alternative<ElementFaces>(wires->faces));
         const bool is_for_flat = std::holds_alternative<FlatElements>(surface.geometry) ||
                                  (wires && std::holds_alternative<FlatElements>(wires->faces));
+        if (wires && n_cut_elements() > 0) {
+            throw Error(volume.path(), "has elements that are only parts of their reference shape (elvis_inside): their edges cannot be "
+                                       "drawn; mesh lines on a surface can");
+        }
         if (!fits_both && is_flat() != is_for_flat) {
             throw Error(volume.path(), is_flat() ? "is two-dimensional: it is drawn as a surface, without planes or boundary"
                                                  : "is no surface: planes through it or its boundary can be drawn");
         }
     }
+}
+
+/** Elements that are only parts of their reference shape. */
+std::uint64_t Renderer::Impl::n_cut_elements() const {
+    std::uint64_t count = 0;
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        count += volume.is_cut(index) ? volume.classes()[index].n_elements : 0;
+    }
+    return count;
 }
 
 CutPlanePass& Renderer::Impl::cut_plane_pass(bool with_lines) {
@@ -210,7 +224,8 @@ LinePass& Renderer::Impl::line_pass(const Surface& surface) {
     follow_geometry();
     const FaceGeometry faces = *face_geometry(surface);
     const auto* boundary = std::get_if<BoundaryFaces>(&faces);
-    const bool is_whole_boundary = boundary != nullptr && boundary->groups.empty();
+    // Where elements are cut, rays pass between faces and what the cut leaves out.
+    const bool is_whole_boundary = boundary != nullptr && boundary->groups.empty() && n_cut_elements() == 0;
     return current->lines_on_faces.try_emplace(faces, device, volume, data, &face_set(faces), is_whole_boundary, 0)
         .first->second;
 }
@@ -446,6 +461,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
         edge_pass->draw(edge_set(wires->faces), request.camera, wires->width, -offset_of(surface), first, target);
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
+        counts.half_drawn_elements = n_cut_elements();
         target.after_samples();
         if (surface.has_lines()) {
             line_pass(surface).draw(rays, component, lines, nullptr, nullptr, target, counts);

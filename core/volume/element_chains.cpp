@@ -49,8 +49,9 @@ ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, 
         ClassChains& chains = m_classes[index];
         chains.is_open.resize(info.n_elements);
         const std::span<const float> curvatures = data.curvatures(index);
+        const bool is_cut = volume.is_cut(index);
         for (std::uint64_t element = 0; element < info.n_elements; ++element) {
-            chains.is_open[element] = has_open_face(links[index], info, element);
+            chains.is_open[element] = is_cut || has_open_face(links[index], info, element);
             links[index][links_an_element * element + place_of_curvature] = std::bit_cast<std::uint32_t>(curvatures[element]);
         }
         chains.links = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, links_an_element);

@@ -30,12 +30,13 @@ ElementLinks make_element_links(const Device& device, const RuntimeVolume& volum
     const std::vector<NodeRange> node_ranges = hierarchy.node_ranges(ranges.empty() ? std::span<const double>(unknown) : ranges);
     const std::span<const HierarchyNode> nodes = hierarchy.nodes();
     std::vector<std::uint32_t> marks(words_a_node * nodes.size());
+    const bool is_cut = volume.is_cut(element_class);
     // Children follow their parents.
     for (std::size_t i = nodes.size(); i-- > 0;) {
         const HierarchyNode& node = nodes[i];
         std::uint32_t& is_open = marks[words_a_node * i + 2];
         if (node.is_leaf()) {
-            is_open = has_open_face(links, info, node.child) ? 1 : 0;
+            is_open = is_cut || has_open_face(links, info, node.child) ? 1 : 0;
         } else {
             is_open = marks[words_a_node * std::size_t{node.child} + 2] | marks[words_a_node * (std::size_t{node.child} + 1) + 2];
         }

@@ -86,11 +86,16 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     model.slope = (there - here) / ray.reach;
     model.anchor = begin;
     model.step = model.noise = elvis_vec3(0);
+#if ELVIS_HAS_INSIDE
+    core_take_no_inside(model);
+#endif
     // Points of the shape are no farther away than its radius, wherever they are predicted.
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
     const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), begin, end);
     const bool is_possible = clip.possible_from <= clip.possible_to && begin < end;
-    const bool is_sure = is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
+    // Without an evaluation nothing is known of the element's own boundary.
+    const bool is_sure =
+        ELVIS_HAS_INSIDE == 0 && is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
 
     part.element = element;
     part.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
@@ -212,6 +217,9 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const elvis_real along = max(max(slope.x, slope.y), slope.z) * (part.end - part.begin);
     const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
+#if ELVIS_HAS_INSIDE
+    core_take_inside(model, element, elvis_vec3(x, y, z), step + bound);
+#endif
     core_ray_clip clip =
         core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound, part.begin, part.end);
     const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
@@ -222,7 +230,11 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const bool was_inside = part.is_inside;
     const int face = was_inside ? clip.to_face : clip.from_face;
     const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
-    const bool is_exact = face >= 0 && error.distance <= ray.tolerance * ray.speed;
+    bool is_exact = face >= 0 && error.distance <= ray.tolerance * ray.speed;
+#if ELVIS_HAS_INSIDE
+    // The error is that of one face. Flat ones are known equally well; of the other one, more must be known.
+    is_exact = is_exact && (face == CORE_INSIDE_FACE || !(was_inside ? clip.own_holds_to : clip.own_holds_from));
+#endif
     core_part entered = part, left = part;
     core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, entered);
     const bool has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, left);
