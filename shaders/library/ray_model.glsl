@@ -92,8 +92,8 @@ struct core_ray_clip {
 #endif
 };
 
-// Within [begin, end], where predictions are off by at most `error`. A face that the ray runs along within rounding does not bound
-// it: rays in a face that two elements share lie in both.
+// Within [begin, end], where predictions are off by at most `error`. A face of the shape that the ray runs along within rounding does
+// not bound it: rays in a face that two elements share lie in both.
 core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;
     const elvis_real tiny = elvis_real(1e-30LF);
@@ -106,7 +106,7 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real b
         const elvis_vec3 size = abs(constraint.xyz);
         const elvis_real noise = core_side_noise(model, face);
         const elvis_real slope = dot(constraint.xyz, model.slope);
-        const bool is_along = abs(slope) * (high - low) <= noise;
+        const bool is_along = face < CORE_N_FACES && abs(slope) * (high - low) <= noise;
         const elvis_real value = dot(constraint.xyz, model.at) + constraint.w - (is_along ? elvis_real(3) * noise : elvis_real(0));
         const elvis_real slack = (size.x + size.y + size.z) * error + core_interval_bend(model, face) +
                                  (is_along ? elvis_real(0) : noise);
@@ -139,6 +139,15 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real b
     clip.to += model.anchor;
     return clip;
 }
+
+#if ELVIS_HAS_INSIDE
+// Whether the ray is not surely inside of the element's own boundary within `tolerance` of t.
+bool core_is_at_own_boundary(core_ray_model model, elvis_real t, elvis_real tolerance) {
+    const elvis_real g = dot(model.own_tangent.xyz, model.at + (t - model.anchor) * model.slope) + model.own_tangent.w;
+    const elvis_real slack = core_side_bend(model, CORE_INSIDE_FACE, core_model_step(model, t)) + elvis_real(8) * core_side_noise(model, CORE_INSIDE_FACE);
+    return g > -slack - elvis_real(8) * tolerance * abs(dot(model.own_tangent.xyz, model.slope));
+}
+#endif
 
 struct core_root_error {
     // Of the boundary, in world length; of the parameter, rounding included.

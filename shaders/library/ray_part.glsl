@@ -148,6 +148,11 @@ void core_seek_entry(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool i
     // Twice as far as what was decided.
     const elvis_real farther = min(part.last, end + elvis_real(2) * (end - begin));
     part.end = is_found ? (is_bounded ? clip.possible_to : part.last) : is_over ? farther : is_shrunk ? open_end : middle;
+#if ELVIS_HAS_INSIDE
+    // What is left may be rounding's alone, along which faces do not bound: where the ray leaves is looked for from further inside.
+    const elvis_real further = max(part.known_to - elvis_real(4) * (part.end - part.known_to), clip.sure_from);
+    part.begin = is_found && is_bounded ? min(part.begin, further) : part.begin;
+#endif
     part.next = is_found || is_over || !is_sure || !is_shrunk ? elvis_real(0.5LF) * (part.begin + part.end)
                                                               : clamp(clip.from, part.begin, part.end);
 }
@@ -243,6 +248,11 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     } else {
         part = entered;
     }
+#if ELVIS_HAS_INSIDE
+    // Where rounding hides which face the ray leaves by, the element's own boundary is it if it is as near.
+    const bool is_hidden = was_inside && has_left && part.leave_face < 0 && is_sound;
+    part.leave_face = is_hidden && core_is_at_own_boundary(model, part.leave, ray.tolerance) ? CORE_INSIDE_FACE : part.leave_face;
+#endif
     part.x = is_sound ? model.at.x : part.x;
     part.y = is_sound ? model.at.y : part.y;
     part.z = is_sound ? model.at.z : part.z;

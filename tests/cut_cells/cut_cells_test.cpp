@@ -120,20 +120,6 @@ TEST_CASE("the parts of rays in a cut ball are its chords") {
             worst = std::max(worst, error);
             if (error > 1e-5) {
                 ++n_wrong;
-                if (n_wrong < 6) {
-                    double a = 0;
-                    for (std::size_t k = 0; k < 3; ++k) a += rays[i].origin[k] * rays[i].direction[k];
-                    std::printf("ray %zu from %g to %g:", i, -a - chords[i] / 2, -a + chords[i] / 2);
-                    for (const Segment& s : lists[i]) {
-                        std::printf(" [%g %g e%d]", s.enter, s.leave, int(s.element));
-                    }
-                    std::printf("\n   planes");
-                    for (int axis = 0; axis < 3; ++axis) for (int n = 0; n < 7; ++n) {
-                        double t = ((n - 3) / 3.0 - rays[i].origin[axis]) / rays[i].direction[axis];
-                        if (std::abs(t) < 0.9) std::printf(" %g(%d,%d)", t, axis, n);
-                    }
-                    std::printf("\n");
-                }
             }
         }
     }
