@@ -140,15 +140,6 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real b
     return clip;
 }
 
-#if ELVIS_HAS_INSIDE
-// Whether the ray is not surely inside of the element's own boundary within `tolerance` of t.
-bool core_is_at_own_boundary(core_ray_model model, elvis_real t, elvis_real tolerance) {
-    const elvis_real g = dot(model.own_tangent.xyz, model.at + (t - model.anchor) * model.slope) + model.own_tangent.w;
-    const elvis_real slack = core_side_bend(model, CORE_INSIDE_FACE, core_model_step(model, t)) + elvis_real(8) * core_side_noise(model, CORE_INSIDE_FACE);
-    return g > -slack - elvis_real(8) * tolerance * abs(dot(model.own_tangent.xyz, model.slope));
-}
-#endif
-
 struct core_root_error {
     // Of the boundary, in world length; of the parameter, rounding included.
     elvis_real distance, parameter;

@@ -248,11 +248,6 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     } else {
         part = entered;
     }
-#if ELVIS_HAS_INSIDE
-    // Where rounding hides which face the ray leaves by, the element's own boundary is it if it is as near.
-    const bool is_hidden = was_inside && has_left && part.leave_face < 0 && is_sound;
-    part.leave_face = is_hidden && core_is_at_own_boundary(model, part.leave, ray.tolerance) ? CORE_INSIDE_FACE : part.leave_face;
-#endif
     part.x = is_sound ? model.at.x : part.x;
     part.y = is_sound ? model.at.y : part.y;
     part.z = is_sound ? model.at.z : part.z;
