@@ -53,8 +53,12 @@ struct Sample {
      * poisons_outputs. */
     double n_debug;
     std::array<double, 15> debug;
+    /** elvis_inside and elvis_inside_bounds; 0 where the snippet has none. */
+    double inside;
+    Point inside_gradient;
+    std::array<double, 2> inside_bounds;
 };
-static_assert(sizeof(Sample) == 102 * sizeof(double));
+static_assert(sizeof(Sample) == 108 * sizeof(double));
 
 struct SampleOptions {
     bool with_hessians = false;
