@@ -69,6 +69,7 @@ struct FieldPasses {
     std::map<FaceGeometry, LinePass> lines_on_faces;
     /** By SurfaceSolver::quadric_rows(). */
     std::map<std::uint32_t, LinePass> lines_on_shapes;
+    std::optional<LinePass> lines_on_own_boundary;
     std::optional<IsosurfacePass> isosurfaces;
     std::optional<PointValuePass> point_values;
     std::optional<VolumePass> volume;
@@ -127,6 +128,7 @@ struct Renderer::Impl {
     }
 
     FrameRequest with_offsets(FrameRequest request);
+    FrameRequest with_own_boundaries(FrameRequest request) const;
     void keep_fields(const FrameRequest& request);
     void select(const FieldChoice& field, std::uint32_t time_step);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
@@ -191,6 +193,23 @@ void Renderer::Impl::check(const FrameRequest& request) const {
     }
 }
 
+/** The boundary of elements that are cut is where they are, too: a surface of its own, that looks the same. */
+FrameRequest Renderer::Impl::with_own_boundaries(FrameRequest request) const {
+    const std::size_t n_surfaces = n_cut_elements() > 0 ? request.surfaces.size() : 0;
+    for (std::size_t index = 0; index < n_surfaces; ++index) {
+        const auto* boundary = std::get_if<BoundaryFaces>(&request.surfaces[index].geometry);
+        if (boundary && boundary->groups.empty()) {
+            Surface surface = request.surfaces[index];
+            Isosurfaces own;
+            own.field.is_own_boundary = true;
+            own.values = {0};
+            surface.geometry = own;
+            request.surfaces.push_back(std::move(surface));
+        }
+    }
+    return request;
+}
+
 /** Elements that are only parts of their reference shape. */
 std::uint64_t Renderer::Impl::n_cut_elements() const {
     std::uint64_t count = 0;
@@ -218,7 +237,13 @@ LinePass& Renderer::Impl::line_pass(const Surface& surface) {
         const std::uint32_t rows = solvers.at(solver_key(*shape)).quadric_rows();
         return current->lines_on_shapes.try_emplace(rows, device, volume, data, nullptr, false, rows).first->second;
     }
-    if (std::holds_alternative<Isosurfaces>(surface.geometry)) {
+    if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+        if (isosurfaces->field.is_own_boundary) {
+            if (!current->lines_on_own_boundary) {
+                current->lines_on_own_boundary.emplace(device, volume, data, nullptr, false, 0, true);
+            }
+            return *current->lines_on_own_boundary;
+        }
         return current->lines_on_shapes.try_emplace(0, device, volume, data, nullptr, false, 0).first->second;
     }
     follow_geometry();
@@ -461,7 +486,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
         edge_pass->draw(edge_set(wires->faces), request.camera, wires->width, -offset_of(surface), first, target);
     } else {
         face_pass(*face_geometry(surface)).draw(rays, first, component, target, counts);
-        counts.half_drawn_elements = n_cut_elements();
+        counts.half_drawn_elements = std::holds_alternative<ElementFaces>(surface.geometry) ? n_cut_elements() : 0;
         target.after_samples();
         if (surface.has_lines()) {
             line_pass(surface).draw(rays, component, lines, nullptr, nullptr, target, counts);
@@ -595,7 +620,7 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     Impl& impl = *m_impl;
     impl.check(wanted);
     const DeviceTask task(impl.device, control);
-    const FrameRequest request = impl.with_offsets(wanted);
+    const FrameRequest request = impl.with_own_boundaries(impl.with_offsets(wanted));
     Frame frame;
     frame.width = request.width;
     frame.height = request.height;
