@@ -321,7 +321,7 @@ TEST_CASE("a cut plane shows the disc in which it meets the ball, and the disc's
     CHECK(frame.counts.undecided_mesh_line_pixels < 40);
 }
 
-TEST_CASE("boundary faces end where the element does, and the picture says what it lacks") {
+TEST_CASE("the boundary is that of the box where there is something, and where elements are cut") {
     const RuntimeVolume volume = open(gyroid);
     const LevelSet level(volume, 5);
     View view;
@@ -332,28 +332,69 @@ TEST_CASE("boundary faces end where the element does, and the picture says what 
     Surface surface;
     surface.geometry = BoundaryFaces{};
     surface.field.field = field_of(volume, "p");
-    surface.colors.points = {{-1, {0, 0, 1}}, {1, {1, 0, 0}}};
+    surface.colors.points = {{-3, {0, 0, 1}}, {3, {1, 0, 0}}};
+    surface.mesh_lines = MeshLines{};
     view.request.surfaces = {surface};
     const Frame frame = Renderer(device(), volume, Precision::float64).render(view.request);
-    std::size_t n_wrong = 0;
+    std::size_t n_wrong = 0, n_on_box = 0, n_on_cut = 0;
     for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
-        if (!std::isnan(frame.depth[pixel])) {
-            Vector3 x = view.origin(pixel);
-            double farthest = 0;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                x[axis] += frame.depth[pixel] * view.along[axis];
-                farthest = std::max(farthest, std::abs(x[axis]));
-                x[axis] *= 1 - 1e-12;
-            }
-            n_wrong += level.at(x) > 1e-9 || std::abs(farthest - M_PI) > 1e-9 ? 1 : 0;
+        if (std::isnan(frame.depth[pixel])) {
+            continue;
         }
+        // The point itself, and one a little before it.
+        Vector3 x = view.origin(pixel), before{};
+        double farthest = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            x[axis] += frame.depth[pixel] * view.along[axis];
+            before[axis] = x[axis] - 1e-6 * view.along[axis];
+            farthest = std::max(farthest, std::abs(x[axis]));
+            x[axis] *= 1 - 1e-12;
+        }
+        const bool is_on_box = std::abs(farthest - M_PI) < 1e-9;
+        n_on_box += is_on_box ? 1 : 0;
+        n_on_cut += is_on_box ? 0 : 1;
+        n_wrong += is_on_box ? level.at(x) > 1e-9 : std::abs(level.at(x)) > 1e-9 || !(level.at(before) > 0);
     }
-    CHECK(frame.counts.hit_pixels > 2000);
+    CHECK(n_on_box > 2000);
+    CHECK(n_on_cut > 1000);
     CHECK(n_wrong == 0);
-    CHECK(frame.counts.half_drawn_elements == 122);
+    CHECK(frame.counts.half_drawn_elements == 0);
+    CHECK(frame.counts.mesh_line_pixels > 500);
+    CHECK(frame.counts.undecided_mesh_line_pixels < frame.counts.mesh_line_pixels);
+
+    // Faces of chosen elements come without it, and the frame says so.
+    surface.geometry = ElementFaces{};
+    view.request.surfaces = {surface};
+    CHECK(Renderer(device(), volume, Precision::float64).render(view.request).counts.half_drawn_elements == 122);
     surface.geometry = WireFrame{BoundaryFaces{}, 1};
     view.request.surfaces = {surface};
     CHECK_THAT(test::error_of([&] { Renderer(device(), volume, Precision::float64).render(view.request); }), Contains("edges cannot"));
+}
+
+TEST_CASE("the boundary of a cut ball is a sphere in both precisions") {
+    const RuntimeVolume volume = open(ball);
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    View view;
+    Surface surface;
+    surface.geometry = BoundaryFaces{};
+    surface.field.field = field_of(volume, "q");
+    surface.colors.points = {{0, {0, 0, 1}}, {1, {1, 0, 0}}};
+    view.request.surfaces = {surface};
+    const Frame frame = Renderer(device(), volume, precision).render(view.request);
+    double worst = 0, worst_value = 0;
+    std::size_t n_wrong = 0;
+    for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
+        const double near = view.through_sphere(pixel, radius)[0], chord = view.through_sphere(pixel, radius)[1] - near;
+        n_wrong += std::isnan(near) != std::isnan(frame.depth[pixel]) && !(chord < 0.02) ? 1 : 0;
+        worst = chord > 0.1 ? std::max(worst, std::abs(frame.depth[pixel] - near)) : worst;
+        worst_value = std::isnan(frame.value[pixel]) ? worst_value : std::max(worst_value, std::abs(frame.value[pixel] - radius * radius));
+    }
+    CHECK(frame.counts.hit_pixels > 4000);
+    CHECK(n_wrong == 0);
+    CHECK(worst < (precision == Precision::float64 ? 1e-9 : 3e-5));
+    CHECK(worst_value < (precision == Precision::float64 ? 1e-9 : 3e-6));
+    CHECK(frame.counts.undecided_pixels == 0);
+    CHECK(frame.counts.undecided_isosurface_pixels <= 2);
 }
 
 TEST_CASE("points beside the cut are in no element, and what would be wrong is refused") {
