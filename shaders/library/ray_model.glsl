@@ -53,6 +53,11 @@ elvis_real core_side_noise(core_ray_model model, int side) {
     return dot(abs(core_side_constraint(model, side).xyz), model.noise) + (side == CORE_INSIDE_FACE ? model.own.rounding : elvis_real(0));
 }
 
+// How far along the ray rounding may move it, to either side.
+elvis_real core_own_blur(core_ray_model model) {
+    return elvis_real(4) * core_side_noise(model, CORE_INSIDE_FACE) / max(abs(dot(model.own_tangent.xyz, model.slope)), elvis_real(1e-30LF));
+}
+
 // As if there were none.
 void core_take_no_inside(inout core_ray_model model) {
     model.own = core_inside(elvis_real(-1), elvis_vec3(0), elvis_real(0), elvis_real(0), elvis_real(0));

@@ -33,6 +33,11 @@
 #define CORE_PART_CURVATURE(element) elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)))
 #endif
 
+// Of tolerances.
+#define CORE_MOST_BLUR elvis_real(64)
+// Cut elements have ends of two kinds, and are asked for more of both.
+#define CORE_TURNS_SHARE (1u + 2u * uint(ELVIS_HAS_INSIDE))
+
 #define CORE_PART_OPEN 0u
 #define CORE_PART_FOUND 1u
 #define CORE_PART_NONE 2u
@@ -211,11 +216,11 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const bool is_sound = frame.is_sound && core_is_finite(model.step.x + model.step.y + model.step.z);
 
     part.turns += 1u;
-    const bool is_certain = part.turns <= CORE_CERTAIN_TURNS;
+    const bool is_certain = part.turns <= CORE_CERTAIN_TURNS * CORE_TURNS_SHARE;
     part.is_estimated = part.is_estimated || !is_certain;
     const elvis_real curvature = is_certain ? part.curvature
                                  : part.curvature *
-                                       (part.turns < CORE_CERTAIN_TURNS + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
+                                       (part.turns < CORE_CERTAIN_TURNS * CORE_TURNS_SHARE + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
     const elvis_real step = max(core_model_step(model, part.begin), core_model_step(model, part.end));
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in library/newton.glsl.
     const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);
@@ -238,7 +243,10 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     bool is_exact = face >= 0 && error.distance <= ray.tolerance * ray.speed;
 #if ELVIS_HAS_INSIDE
     // The error is that of one face. Flat ones are known equally well; of the other one, more must be known.
-    is_exact = is_exact && (face == CORE_INSIDE_FACE || !(was_inside ? clip.own_holds_to : clip.own_holds_from));
+    const bool own_holds = was_inside ? clip.own_holds_to : clip.own_holds_from;
+    is_exact = is_exact && (face == CORE_INSIDE_FACE || !own_holds);
+    // No more is wanted of its place than rounding leaves.
+    ray.tolerance = own_holds ? max(ray.tolerance, min(core_own_blur(model), CORE_MOST_BLUR * ray.tolerance)) : ray.tolerance;
 #endif
     core_part entered = part, left = part;
     core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, entered);
@@ -256,7 +264,7 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     part.slope_z = is_sound ? model.slope.z : part.slope_z;
     part.anchor = is_sound ? model.anchor : part.anchor;
 
-    const bool is_given_up = part.turns >= CORE_PART_TURNS;
+    const bool is_given_up = part.turns >= CORE_PART_TURNS * CORE_TURNS_SHARE;
     const bool is_found = was_inside && (has_left || is_given_up);
     part.has_failed = is_given_up && !(was_inside && has_left);
     const bool is_last = !was_inside && !part.is_inside && (part.begin >= part.last || is_given_up);

@@ -236,6 +236,48 @@ TEST_CASE("light begins at the eye inside of a cut cell, on either side of the c
     CHECK(frame.counts.work_limit_pixels == 0);
 }
 
+TEST_CASE("volumes of a cut gyroid are those of its parts of rays") {
+    const RuntimeVolume volume = open(gyroid);
+    View view;
+    view.request.camera.height = 11;
+    for (double& coordinate : view.request.camera.eye) {
+        coordinate *= 4;
+    }
+    view.request.background = {0, 0, 0, 1};
+    VolumeRendering rendering;
+    rendering.field.field = field_of(volume, "p");
+    constexpr double density = 0.3;
+    rendering.transfer.density = {{0, density}};
+    rendering.transfer.color = {{0, {1, 1, 1}}};
+    view.request.volume = rendering;
+    DeviceVolume data(device(), volume, Precision::float64, nullptr);
+    data.select(0, 0, {0.0});
+    std::vector<SegmentRay> rays;
+    for (std::size_t pixel = 0; pixel < std::size_t{view.request.width} * view.request.height; ++pixel) {
+        Vector3 from = view.origin(pixel), to = from;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            to[axis] += view.along[axis];
+        }
+        rays.push_back(near_centre(from, to, data.centre(), Precision::float64));
+    }
+    SegmentCounts counts;
+    const auto lists = SegmentPass(device(), volume, data).lists(rays, counts);
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const Frame frame = Renderer(device(), volume, precision).render(view.request);
+    std::size_t n_wrong = 0;
+    for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
+        double length = 0;
+        for (const Segment& segment : lists[pixel]) {
+            length += segment.leave - segment.enter;
+        }
+        const bool is_wrong = !(std::abs(frame.color[4 * pixel] - (1 - std::exp(-density * length))) < 1e-3);
+        n_wrong += is_wrong ? 1 : 0;
+    }
+    CAPTURE(frame.counts.undecided_pixels, frame.counts.mapping_evaluations, counts.failures);
+    CHECK(frame.counts.volume_pixels > 4000);
+    CHECK(n_wrong == 0);
+}
+
 TEST_CASE("parts of rays in a cut gyroid are where its level set is not positive") {
     const RuntimeVolume volume = open(gyroid);
     DeviceVolume data(device(), volume, Precision::float64, nullptr);
