@@ -14,6 +14,8 @@ std::vector<FrameRemark> remarks_on(const FrameCounts& counts) {
     }
     add(true, counts.newton_failures, "",
         " inversions of the mapping failed; their pixels carry flag 8, of isosurfaces flag 64 if that leaves them open");
+    add(true, counts.half_drawn_elements, "of ",
+        " cut elements only the flat faces are drawn, not where they are cut; the boundary as a whole shows that, too");
     add(true, counts.nan_pixels, "", " pixels show values that are not finite");
     add(true, counts.work_limit_pixels, "", " pixels reached the work limit and may be wrong; they carry flag 1024");
     add(false, counts.inexact_volume_pixels, "in ", " pixels volume rendering did not reach its tolerance; they carry flag 128");

@@ -20,6 +20,7 @@ nlohmann::ordered_json counts_json(const FrameCounts& counts) {
             {"undecided_contour_pixels", counts.undecided_contour_pixels},
             {"mesh_line_pixels", counts.mesh_line_pixels},
             {"undecided_mesh_line_pixels", counts.undecided_mesh_line_pixels},
+            {"half_drawn_elements", counts.half_drawn_elements},
             {"refined_pixels", counts.refined_pixels},
             {"isosurface_pixels", counts.isosurface_pixels},
             {"undecided_isosurface_pixels", counts.undecided_isosurface_pixels},

@@ -99,10 +99,10 @@ void check_outside(Context& context) {
                            "extension");
         }
         const bool is_finite = std::isfinite(outside[i].position[0] + outside[i].position[1] + outside[i].position[2]) &&
-                               (std::isfinite(outside[i].value) || !std::isfinite(on[i].value));
+                               (std::isfinite(outside[i].value) || !std::isfinite(on[i].value)) && std::isfinite(outside[i].inside);
         if (!is_finite) {
             complaints.add(place(volume, far[i]) +
-                           ", outside the shape: mapping or field are not finite; return the natural extension");
+                           ", outside the shape: mapping, field or elvis_inside are not finite; return the natural extension");
         }
     }
 }
@@ -174,6 +174,9 @@ void check_outputs(Context& context) {
         }
         if ((has & ELVIS_SNIPPET_INVERSE_MAPPING) != 0 && s.inverse_found != 0 && is_poisoned(s.inverse.data(), 3)) {
             complain("elvis_inverse_mapping", "xi");
+        }
+        if ((has & ELVIS_SNIPPET_INSIDE) != 0 && (is_poisoned(&s.inside, 1) || is_poisoned(s.inside_gradient.data(), 3))) {
+            complain("elvis_inside", "g or gradient");
         }
         if ((has & ELVIS_SNIPPET_FIELD_HESSIAN) != 0 && is_poisoned(&s.hessian_value, 13)) {
             complain("elvis_field_hessian", "value, gradient or hessian");

@@ -57,8 +57,12 @@ struct Sample {
     double bad_index_line;
     double bad_index;
     double bad_index_limit;
+    /** elvis_inside and elvis_inside_bounds; 0 where the snippet has none. */
+    double inside;
+    Point inside_gradient;
+    std::array<double, 2> inside_bounds;
 };
-static_assert(sizeof(Sample) == 105 * sizeof(double));
+static_assert(sizeof(Sample) == 111 * sizeof(double));
 
 /** "index 7 in line 12 of the snippet, of 4 entries" */
 std::string text_of_bad_index(const Sample& sample);

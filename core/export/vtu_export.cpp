@@ -106,6 +106,9 @@ void Exporter::check() const {
                               ", which does not evaluate on the CPU; only volumes "
                               "that are evaluated there can be exported");
     }
+    if (m_volume.is_cut()) {
+        throw Error(path, "has elements that are only parts of their reference shape (elvis_inside); VTK's cells would be all of it");
+    }
     if (m_options.time_step >= m_volume.times().size()) {
         throw Error(path, "has " + std::to_string(m_volume.times().size()) + " time steps, no step " +
                               std::to_string(m_options.time_step) + " (counted from 0)");

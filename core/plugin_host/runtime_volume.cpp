@@ -284,6 +284,18 @@ Snippet RuntimeVolume::snippet(std::uint32_t element_class) const {
     return ours;
 }
 
+bool RuntimeVolume::is_cut(std::uint32_t element_class) const {
+    return (snippet(element_class).capabilities & ELVIS_SNIPPET_INSIDE) != 0;
+}
+
+bool RuntimeVolume::is_cut() const {
+    bool is_any = false;
+    for (std::uint32_t element_class = 0; element_class < classes().size(); ++element_class) {
+        is_any = is_any || is_cut(element_class);
+    }
+    return is_any;
+}
+
 elvis_certainty RuntimeVolume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> out) const {
     assert(out.size() == 6 * count && first + count <= n_elements());
     elvis_certainty certainty = ELVIS_ESTIMATED;

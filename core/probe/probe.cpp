@@ -11,10 +11,15 @@ namespace elvis {
 namespace {
 
 std::unique_ptr<PointEvaluator> make_evaluator(const RuntimeVolume& volume, const ProbeOptions& options) {
+    // What is inside of elements that are cut, only their snippet tells.
+    const bool is_cut = volume.is_cut();
     const bool on_cpu = options.evaluation == ProbeOptions::Evaluation::cpu ||
-                        (options.evaluation == ProbeOptions::Evaluation::automatic && volume.has_evaluation());
+                        (options.evaluation == ProbeOptions::Evaluation::automatic && volume.has_evaluation() && !is_cut);
     if (!on_cpu)
         return std::make_unique<DeviceEvaluator>(volume, options.device);
+    if (is_cut)
+        throw Error(volume.path(), "has elements that are only parts of their reference shape, which their snippet tells (elvis_inside); "
+                                   "evaluate on the device");
     if (!volume.has_evaluation())
         throw Error(volume.path(),
                     "the plugin " + volume.plugin().id() + " cannot evaluate on the CPU; evaluate on the device");

@@ -92,6 +92,8 @@ struct FrameCounts {
     /** Of the mapping alone, where volume rendering follows rays. */
     std::uint64_t mapping_evaluations = 0;
     std::uint64_t newton_failures = 0;
+    /** Elements of which faces were chosen, but are drawn without the boundary that their own snippet gives them (elvis_inside). */
+    std::uint64_t half_drawn_elements = 0;
     std::uint64_t newton_iterations = 0;
     std::uint64_t undecided_pixels = 0;
     std::uint64_t nan_pixels = 0;

@@ -70,6 +70,26 @@ void read_as(const Layer& from, const std::vector<SurfaceFacts>& facts, bool wit
 
 } // namespace
 
+Frame background_frame(const FrameRequest& request) {
+    Frame frame;
+    frame.width = request.width;
+    frame.height = request.height;
+    const std::size_t n_pixels = std::size_t{request.width} * request.height;
+    frame.counts.pixels = n_pixels;
+    frame.color.reserve(4 * n_pixels);
+    for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
+        frame.color.insert(frame.color.end(), request.background.begin(), request.background.end());
+    }
+    if (request.with_buffers) {
+        frame.value.assign(n_pixels, not_a_number);
+        frame.depth.assign(n_pixels, not_a_number);
+        frame.normal.assign(3 * n_pixels, not_a_number);
+        frame.element.assign(n_pixels, -1);
+        frame.flags.assign(n_pixels, 0);
+    }
+    return frame;
+}
+
 void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) {
     if (precision == Precision::float64) {
         read_as<double>(from, facts, with_buffers, frame);

@@ -25,4 +25,7 @@ struct SurfaceFacts {
  */
 void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame);
 
+/** What is seen where everything is hidden. */
+Frame background_frame(const FrameRequest& request);
+
 } // namespace elvis

@@ -24,10 +24,11 @@ class LinePass {
 public:
     /**
      * On these faces, which must outlive it, or on shapes of one solver (SurfaceSolver::quadric_rows). `data` must have
-     * derivative bounds. `is_whole_boundary`: what of it faces away is never seen.
+     * derivative bounds. `is_whole_boundary`: what of it faces away is never seen. `on_own_boundary`: on
+     * where elements are cut, as if they were whole, since they end there.
      */
     LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces,
-             bool is_whole_boundary, std::uint32_t quadric_rows);
+             bool is_whole_boundary, std::uint32_t quadric_rows, bool on_own_boundary = false);
 
     /** Compiles what lines with or without contours need. */
     void provide(bool with_contours);
@@ -61,6 +62,7 @@ private:
     const FaceSet* m_faces;
     bool m_is_whole_boundary;
     std::uint32_t m_quadric_rows;
+    bool m_on_own_boundary;
     std::uint32_t m_tile_width;
     /** Without contours, with them. */
     std::array<std::vector<ClassKernels>, 2> m_kernels;

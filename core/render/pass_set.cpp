@@ -123,15 +123,30 @@ LinePass& PassSet::lines(const Surface& surface) {
         const std::uint32_t rows = solver(*shape).quadric_rows();
         return m_current->lines_on_shapes.try_emplace(rows, m_device, m_volume, m_data, nullptr, false, rows).first->second;
     }
-    if (std::holds_alternative<Isosurfaces>(surface.geometry)) {
+    if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
+        if (isosurfaces->field.is_own_boundary) {
+            if (!m_current->lines_on_own_boundary) {
+                m_current->lines_on_own_boundary.emplace(m_device, m_volume, m_data, nullptr, false, 0, true);
+            }
+            return *m_current->lines_on_own_boundary;
+        }
         return m_current->lines_on_shapes.try_emplace(0, m_device, m_volume, m_data, nullptr, false, 0).first->second;
     }
     follow_geometry();
     const FaceGeometry on = *face_geometry(surface);
     const auto* boundary = std::get_if<BoundaryFaces>(&on);
-    const bool is_whole_boundary = boundary != nullptr && boundary->groups.empty();
+    // Where elements are cut, rays pass between faces and what the cut leaves out.
+    const bool is_whole_boundary = boundary != nullptr && boundary->groups.empty() && n_cut_elements() == 0;
     return m_current->lines_on_faces.try_emplace(on, m_device, m_volume, m_data, &face_set(on), is_whole_boundary, 0)
         .first->second;
+}
+
+std::uint64_t PassSet::n_cut_elements() const {
+    std::uint64_t count = 0;
+    for (std::uint32_t index = 0; index < m_volume.classes().size(); ++index) {
+        count += m_volume.is_cut(index) ? m_volume.classes()[index].n_elements : 0;
+    }
+    return count;
 }
 
 EdgePass& PassSet::edge_pass() {

@@ -56,6 +56,8 @@ public:
     IsosurfacePass& isosurfaces(const FieldChoice& field) { return *m_passes.at(ShownFields::key(field)).isosurfaces; }
     PointValuePass& point_values() { return *m_current->point_values; }
     VolumePass& volume() { return *m_current->volume; }
+    /** Elements that are only parts of their reference shape. */
+    std::uint64_t n_cut_elements() const;
     EdgePass& edge_pass();
     const EdgeSet& edges(const FaceGeometry& faces);
 
@@ -68,6 +70,7 @@ private:
         std::map<FaceGeometry, LinePass> lines_on_faces;
         /** By SurfaceSolver::quadric_rows(). */
         std::map<std::uint32_t, LinePass> lines_on_shapes;
+        std::optional<LinePass> lines_on_own_boundary;
         std::optional<IsosurfacePass> isosurfaces;
         std::optional<PointValuePass> point_values;
         std::optional<VolumePass> volume;

@@ -35,27 +35,6 @@ std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
     return order;
 }
 
-/** What is seen where everything is hidden. */
-Frame background_of(const FrameRequest& request) {
-    Frame frame;
-    frame.width = request.width;
-    frame.height = request.height;
-    const std::size_t n_pixels = std::size_t{request.width} * request.height;
-    frame.counts.pixels = n_pixels;
-    frame.color.reserve(4 * n_pixels);
-    for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
-        frame.color.insert(frame.color.end(), request.background.begin(), request.background.end());
-    }
-    if (request.with_buffers) {
-        frame.value.assign(n_pixels, not_a_number);
-        frame.depth.assign(n_pixels, not_a_number);
-        frame.normal.assign(3 * n_pixels, not_a_number);
-        frame.element.assign(n_pixels, -1);
-        frame.flags.assign(n_pixels, 0);
-    }
-    return frame;
-}
-
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
 
 /** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
@@ -87,6 +66,7 @@ struct Renderer::Impl {
 
     void check(const FrameRequest& request) const;
     FrameRequest with_offsets(FrameRequest request);
+    FrameRequest with_own_boundaries(FrameRequest request) const;
     void provide(const FrameRequest& request, const Surface& surface);
     void provide_volume(const FrameRequest& request);
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
@@ -122,11 +102,32 @@ void Renderer::Impl::check(const FrameRequest& request) const {
                                (wires && std::holds_alternative<ElementFaces>(wires->faces));
         const bool is_for_flat = std::holds_alternative<FlatElements>(surface.geometry) ||
                                  (wires && std::holds_alternative<FlatElements>(wires->faces));
+        if (wires && passes.n_cut_elements() > 0) {
+            throw Error(volume.path(), "has elements that are only parts of their reference shape (elvis_inside): their edges cannot be "
+                                       "drawn; mesh lines on a surface can");
+        }
         if (!fits_both && is_flat() != is_for_flat) {
             throw Error(volume.path(), is_flat() ? "is two-dimensional: it is drawn as a surface, without planes or boundary"
                                                  : "is no surface: planes through it or its boundary can be drawn");
         }
     }
+}
+
+/** The boundary of elements that are cut is where they are, too: a surface of its own, that looks the same. */
+FrameRequest Renderer::Impl::with_own_boundaries(FrameRequest request) const {
+    const std::size_t n_surfaces = passes.n_cut_elements() > 0 ? request.surfaces.size() : 0;
+    for (std::size_t index = 0; index < n_surfaces; ++index) {
+        const auto* boundary = std::get_if<BoundaryFaces>(&request.surfaces[index].geometry);
+        if (boundary && boundary->groups.empty()) {
+            Surface surface = request.surfaces[index];
+            Isosurfaces own;
+            own.field.is_own_boundary = true;
+            own.values = {0};
+            surface.geometry = own;
+            request.surfaces.push_back(std::move(surface));
+        }
+    }
+    return request;
 }
 
 /** Level sets are found with the digits that differences from their values have. */
@@ -240,6 +241,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
         passes.edge_pass().draw(passes.edges(wires->faces), request.camera, wires->width, -offset_of(surface), first, target);
     } else {
         passes.faces(*face_geometry(surface)).draw(rays, first, component, target, counts);
+        counts.half_drawn_elements = std::holds_alternative<ElementFaces>(surface.geometry) ? passes.n_cut_elements() : 0;
         target.after_samples();
         if (surface.has_lines()) {
             passes.lines(surface).draw(rays, component, lines, nullptr, nullptr, target, counts);
@@ -318,10 +320,10 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     Impl& impl = *m_impl;
     impl.check(wanted);
     if (wanted.surfaces.empty() && !wanted.volume) {
-        return background_of(wanted);
+        return background_frame(wanted);
     }
     const DeviceTask task(impl.device, control);
-    const FrameRequest request = impl.with_offsets(wanted);
+    const FrameRequest request = impl.with_own_boundaries(impl.with_offsets(wanted));
     Frame frame;
     frame.width = request.width;
     frame.height = request.height;

@@ -42,6 +42,9 @@ bool jumps(const Expression& expression, const RuntimeVolume& volume) {
 } // namespace
 
 bool FieldChoice::operator==(const FieldChoice& other) const {
+    if (is_own_boundary || other.is_own_boundary) {
+        return is_own_boundary == other.is_own_boundary;
+    }
     if (expression && other.expression) {
         return expression == other.expression || expression->text() == other.expression->text();
     }
@@ -49,6 +52,9 @@ bool FieldChoice::operator==(const FieldChoice& other) const {
 }
 
 std::string ShownFields::key(const FieldChoice& field) {
+    if (field.is_own_boundary) {
+        return "own boundary";
+    }
     if (field.expression) {
         return "= " + field.expression->text();
     }
@@ -67,7 +73,8 @@ FieldSelection ShownFields::selection(const FieldChoice& field, std::uint32_t ti
     }
     // A magnitude needs the values themselves.
     const std::vector<double> whole(m_volume.fields()[field.field].n_components, 0.0);
-    FieldSelection selection{{{field.field, field.component < 0 ? whole : middles(field.field, time_step)}}, time_step, nullptr};
+    FieldSelection selection{{{field.field, field.component < 0 ? whole : middles(field.field, time_step)}}, time_step, nullptr,
+                             field.is_own_boundary};
     if (field.offset && field.component >= 0) {
         selection.slots[0].offset[static_cast<std::size_t>(field.component)] = *field.offset;
     }
@@ -84,11 +91,14 @@ std::vector<double> ShownFields::middles(std::uint32_t field, std::uint32_t time
 }
 
 double ShownFields::offset(const FieldChoice& field) const {
-    return field.expression || field.component < 0 ? 0.0 : m_data.field_offset(static_cast<std::uint32_t>(field.component));
+    return field.is_own_boundary || field.expression || field.component < 0 ? 0.0 : m_data.field_offset(static_cast<std::uint32_t>(field.component));
 }
 
 FieldChoice ShownFields::about(const FieldChoice& field, double value, std::uint32_t time_step) {
     FieldChoice result = field;
+    if (field.is_own_boundary) {
+        return result;
+    }
     const FieldRange whole = range(field, time_step);
     const double step = (whole.upper - whole.lower) / n_offsets;
     if (!field.expression && field.component >= 0 && step > 0 && std::isfinite(step)) {
@@ -99,6 +109,9 @@ FieldChoice ShownFields::about(const FieldChoice& field, double value, std::uint
 }
 
 ShownComponent ShownFields::component(const FieldChoice& field) const {
+    if (field.is_own_boundary) {
+        return {0, 1, true};
+    }
     if (field.expression) {
         return {0, 1, jumps(*field.expression, m_volume)};
     }

@@ -49,6 +49,8 @@ struct FieldChoice {
      * the range if absent. It is no part of what is drawn: equal choices may differ in it.
      */
     std::optional<double> offset{};
+    /** In place of the field: the function that cuts elements, whose isosurface 0 is their own boundary (elvis_inside). */
+    bool is_own_boundary = false;
 
     bool operator==(const FieldChoice& other) const;
 };

@@ -35,7 +35,7 @@ constexpr std::array<DefaultFile, 4> default_files{
     DefaultFile{ELVIS_SNIPPET_MAPPING_HESSIAN, "library/mapping_hessian_default.glsl"},
 };
 
-constexpr std::array<std::pair<const char*, std::uint32_t>, 7> capability_macros{
+constexpr std::array<std::pair<const char*, std::uint32_t>, 8> capability_macros{
     std::pair{"ELVIS_HAS_FIELD_GRADIENT", ELVIS_SNIPPET_FIELD_GRADIENT},
     std::pair{"ELVIS_HAS_MAPPING_JACOBIAN", ELVIS_SNIPPET_MAPPING_JACOBIAN},
     std::pair{"ELVIS_HAS_INVERSE_MAPPING", ELVIS_SNIPPET_INVERSE_MAPPING},
@@ -43,6 +43,7 @@ constexpr std::array<std::pair<const char*, std::uint32_t>, 7> capability_macros
     std::pair{"ELVIS_HAS_LOCAL_ORIGIN", ELVIS_SNIPPET_LOCAL_ORIGIN},
     std::pair{"ELVIS_HAS_FIELD_HESSIAN", ELVIS_SNIPPET_FIELD_HESSIAN},
     std::pair{"ELVIS_HAS_MAPPING_HESSIAN", ELVIS_SNIPPET_MAPPING_HESSIAN},
+    std::pair{"ELVIS_HAS_INSIDE", ELVIS_SNIPPET_INSIDE},
 };
 
 std::string define(const std::string& name, const std::string& value) { return "#define " + name + " " + value + "\n"; }

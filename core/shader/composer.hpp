@@ -12,7 +12,7 @@
  *   5. the kernel's file, whose #includes reach everything below shaders/
  *
  * An instance is: ELVIS_SHAPE, ELVIS_N_COMPONENTS and ELVIS_HAS_... (FIELD_GRADIENT, MAPPING_JACOBIAN, INVERSE_MAPPING,
- * FIELD_OFFSET, LOCAL_ORIGIN, FIELD_HESSIAN, MAPPING_HESSIAN: 0 or 1); elvis_origin; the fetch macros of its buffers; its
+ * FIELD_OFFSET, LOCAL_ORIGIN, FIELD_HESSIAN, MAPPING_HESSIAN, INSIDE: 0 or 1); elvis_origin; the fetch macros of its buffers; its
  * constants; the snippet's first source; library/reference_shape.glsl; and, where the snippet lacks them,
  * library/mapping_jacobian_default.glsl, library/gradient_default.glsl and, if the request wants second derivatives,
  * library/field_hessian_default.glsl and library/mapping_hessian_default.glsl. A kernel that inverts mappings includes

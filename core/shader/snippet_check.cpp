@@ -127,6 +127,9 @@ const std::vector<SnippetFunction>& snippet_functions() {
          "void elvis_mapping_hessian(uint element, elvis_vec3 xi, out elvis_vec3 x, out elvis_mat3 jacobian, out elvis_mat3 "
          "hessian_x, out elvis_mat3 hessian_y, out elvis_mat3 hessian_z)",
          ELVIS_SNIPPET_MAPPING_HESSIAN},
+        {"elvis_inside", "void elvis_inside(uint element, elvis_vec3 xi, out elvis_real g, out elvis_vec3 gradient)",
+         ELVIS_SNIPPET_INSIDE},
+        {"elvis_inside_bounds", "elvis_vec2 elvis_inside_bounds(uint element)", ELVIS_SNIPPET_INSIDE},
     };
     return functions;
 }

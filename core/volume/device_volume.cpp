@@ -27,7 +27,7 @@ double milliseconds_since(Clock::time_point start) {
 
 FieldSelection selection_of(const std::shared_ptr<const Expression>& expression, const RuntimeVolume& volume,
                             std::uint32_t time_step) {
-    FieldSelection selection{{}, time_step, expression};
+    FieldSelection selection{{}, time_step, expression, false};
     std::vector<std::uint32_t> fields = expression->fields();
     if (fields.empty()) {
         fields.push_back(0);
@@ -129,7 +129,7 @@ void DeviceVolume::keep(std::span<const FieldSelection> selections) {
 }
 
 void DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const std::vector<double>& offset) {
-    const FieldSelection selection{{{field, offset}}, time_step, nullptr};
+    const FieldSelection selection{{{field, offset}}, time_step, nullptr, false};
     keep(std::span(&selection, 1));
     select(selection);
 }
@@ -139,6 +139,7 @@ void DeviceVolume::select(const FieldSelection& selection) {
     const Clock::time_point start = Clock::now();
     m_time_step = selection.time_step;
     m_expression = selection.expression;
+    m_is_own_boundary = selection.is_own_boundary;
     m_selected.clear();
     bool is_changed = false;
     for (const FieldSlot& wanted : selection.slots) {
@@ -284,6 +285,9 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
     }
     if (with_bounds) {
         request.buffers.push_back({"core_curvatures", m_classes[element_class].curvature_records.get()});
+    }
+    if (m_is_own_boundary) {
+        request.text = "#include \"library/own_boundary.glsl\"\n";
     }
     if (m_expression) {
         // For the element's number.

@@ -32,6 +32,8 @@ struct FieldSelection {
     std::vector<FieldSlot> slots;
     std::uint32_t time_step = 0;
     std::shared_ptr<const Expression> expression;
+    /** In place of the field: the function that cuts elements (shaders/library/own_boundary.glsl). */
+    bool is_own_boundary = false;
 };
 
 /** What an expression takes, with fields as they are. */
@@ -158,6 +160,7 @@ private:
     /** Among m_slots, in the order of the selection. */
     std::vector<Slot*> m_selected;
     std::shared_ptr<const Expression> m_expression;
+    bool m_is_own_boundary = false;
     std::uint32_t m_time_step = 0;
     bool m_has_elements = false;
     std::uint64_t m_geometry_version = 0;

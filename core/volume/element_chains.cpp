@@ -89,12 +89,13 @@ void ElementChains::keep_only(std::vector<std::vector<bool>> kept) {
         ClassChains& chains = m_classes[index];
         chains.is_open.resize(info.n_elements);
         const std::span<const float> curvatures = m_data.curvatures(index);
+        const bool is_cut = m_volume.is_cut(index);
         for (std::uint64_t element = 0; element < info.n_elements; ++element) {
             const auto own = std::span(links[index]).subspan(links_an_element * element, links_an_element);
             for (std::uint32_t& link : own.first(is_all ? 0 : n_faces_of(info.shape))) {
                 link = link != no_link && is_kept(link) ? link : no_link;
             }
-            chains.is_open[element] = has_open_face(links[index], info, element);
+            chains.is_open[element] = is_cut || has_open_face(links[index], info, element);
             own[place_of_curvature] = std::bit_cast<std::uint32_t>(curvatures[element]);
         }
         chains.links->write_uints(0, links[index]);

@@ -30,7 +30,8 @@ public:
     /** `data` has curvatures: a field has been selected. Both must outlive it. */
     ElementChains(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
-    /** Elements in which rays can start: those with a face without known neighbour, and those that may hold the start of a ray. */
+    /** Elements in which rays can start: those with a face without known neighbour or a boundary of
+     * their own, and those that may hold the start of a ray. */
     void look_from(const ViewStart& start);
     /** Rays may start in any element. */
     void look_from_anywhere();

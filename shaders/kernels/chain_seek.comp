@@ -57,6 +57,10 @@ bool core_enters_chain(core_part part, core_walk_ray ray) {
         const bool is_near = face == part.enter_face || dot(constraint.xyz, at) + constraint.w > -near;
         enters = enters || (is_open && is_near);
     }
+#if ELVIS_HAS_INSIDE
+    const core_inside g = core_inside_at(part.element, at);
+    enters = enters || part.enter_face == CORE_INSIDE_FACE || g.value > -(near * core_max_norm(abs(g.slope)) + g.rounding);
+#endif
     return enters;
 }
 

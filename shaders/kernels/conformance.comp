@@ -9,7 +9,7 @@ struct core_point {
 };
 
 // Numbers a point; the order is that of core/conformance/device_sampler.hpp.
-#define CORE_N_NUMBERS 105u
+#define CORE_N_NUMBERS 111u
 
 layout(set = 0, binding = 0, std430) readonly buffer core_points_block { core_point core_points[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer core_results_block { double core_results[]; };
@@ -84,6 +84,17 @@ void main() {
     core_write_matrix(first + 58u, hessian_x);
     core_write_matrix(first + 67u, hessian_y);
     core_write_matrix(first + 76u, hessian_z);
+    elvis_real inside = elvis_real(0);
+    elvis_vec3 inside_gradient = elvis_vec3(0);
+    elvis_vec2 inside_bounds = elvis_vec2(0);
+#if ELVIS_HAS_INSIDE
+    elvis_inside(element, xi, inside, inside_gradient);
+    inside_bounds = elvis_inside_bounds(element);
+#endif
+    core_results[first + 105u] = double(inside);
+    core_write_vector(first + 106u, inside_gradient);
+    core_results[first + 109u] = double(inside_bounds.x);
+    core_results[first + 110u] = double(inside_bounds.y);
 #ifdef CORE_DEBUG_BUILD
     core_results[first + 85u] = core_is_endless ? 1.0LF : 0.0LF;
     core_results[first + 102u] = double(core_bad_index_line);

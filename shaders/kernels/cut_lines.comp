@@ -130,9 +130,12 @@ void main() {
         const elvis_real error = part.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
         const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
         const core_cut_point view = core_cut_pixel(core_cut_begin(column), row);
-        const core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + part.corner0,
-                                            origin + part.corner1, origin + part.corner2, origin + part.corner3, curvature,
-                                            core_plane_normal.xyz, view.direction, CORE_NO_FACE);
+        core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + part.corner0, origin + part.corner1,
+                                      origin + part.corner2, origin + part.corner3, curvature, core_plane_normal.xyz,
+                                      view.direction, CORE_NO_FACE);
+#if ELVIS_HAS_INSIDE
+        core_judge_inside(cell, safe_element, xi);
+#endif
         elvis_real value;
         const core_model model = core_shown_model(safe_element, xi, cell.region, value);
         const core_level_test test = core_test_levels(model, cell.region);

@@ -148,7 +148,10 @@ void main() {
             core_own_cell_at(xi, position, jacobian, shift, max(own_face, 0), curvature,
                              core_cell_middle(column, across, cell_size), core_cell_middle(row, down, cell_size),
                              elvis_real(0.5LF) * cell_size);
-        const core_cell cell = own.cell;
+        core_cell cell = own.cell;
+#if ELVIS_HAS_INSIDE
+        core_judge_inside(cell, safe_element, xi);
+#endif
         n_evaluations += is_active ? 1u : 0u;
 
         // Nearer to the cell everything is known better: the point of the element that is nearest to its middle, if that is needed.

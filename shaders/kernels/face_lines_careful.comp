@@ -231,18 +231,29 @@ void main() {
         const bool is_seen = is_shown && is_in_front && core_is_inside_pyramid(pyramid, middle, image_a, image_b, all_error) &&
                              core_is_crossed_towards(-away, inverse, int(of_face.y), change, direction);
 
-        const bool is_square = is_active && !is_outside && !is_hidden;
+        // The element's own boundary is an edge, too: beyond it there is nothing of the face.
+        bool is_beyond_own = false, touches_own = false, crosses_own = false;
+#if ELVIS_HAS_INSIDE
+        const core_inside g = core_inside_at(element, xi);
+        const elvis_real along_a = abs(dot(g.slope, a)), along_b = abs(dot(g.slope, b));
+        const elvis_real own_slack = core_inside_bend(g, radius) + core_model_norm1(g.slope) * region.beyond + g.rounding;
+        is_beyond_own = g.value - along_a - along_b > own_slack;
+        touches_own = g.value + along_a + along_b > -own_slack;
+        crosses_own = g.value + along_a + along_b > own_slack && g.value - along_a - along_b < -own_slack;
+#endif
+
+        const bool is_square = is_active && !is_outside && !is_hidden && !is_beyond_own;
         const elvis_real edge = max(abs(u), abs(v)) + half_size;
         const bool touches_edge = edge >= elvis_real(1) - elvis_real(16) * CORE_ROUNDOFF ||
                                   (frame.is_triangle && u + v + elvis_real(2) * half_size >= elvis_real(-16) * CORE_ROUNDOFF);
-        const bool finds_mesh = is_square && asks_mesh && is_seen && touches_edge;
-        const bool leaves_mesh = is_square && asks_mesh && touches_edge && (is_shown || !is_mesh_open);
+        const bool finds_mesh = is_square && asks_mesh && is_seen && ((touches_edge && !touches_own) || crosses_own);
+        const bool leaves_mesh = is_square && asks_mesh && (touches_edge || touches_own) && (is_shown || !is_mesh_open);
         bool finds_contour = false, leaves_contour = false;
 #if CORE_WITH_CONTOURS
         elvis_real value;
         const core_model model = core_shown_model(element, xi, region, value);
         const core_level_test test = core_test_levels(model, region);
-        finds_contour = is_square && asks_contour && is_seen && test.is_met;
+        finds_contour = is_square && asks_contour && is_seen && !touches_own && test.is_met;
         leaves_contour = is_square && asks_contour && !test.is_excluded && (is_shown || !is_contour_open);
         const bool has_estimate = is_square && core_is_model_estimated(element);
         rests_on_estimates = rests_on_estimates || has_estimate;

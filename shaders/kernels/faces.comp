@@ -25,6 +25,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/pixel_ray.glsl"
 #include "library/face_rays.glsl"
 #include "library/face_surface.glsl"
+#include "library/inside.glsl"
 
 #define CORE_STEPS 8u
 // Turns and patches of one pixel: a tile's pixels together stay below where drivers end loops.
@@ -144,8 +145,11 @@ void main() {
             n_steps += is_active ? 1u : 0u;
             const bool has_failed = is_active && !has_converged && !has_missed && steps == CORE_STEPS;
             is_careful = is_careful || has_failed;
-            const bool is_hit = is_active && has_converged && outside <= elvis_real(2) * s.error &&
+            bool is_hit = is_active && has_converged && outside <= elvis_real(2) * s.error &&
                     s.t > ray.least_t + ray.widths_behind * s.width;
+#if ELVIS_HAS_INSIDE
+            is_hit = is_hit && core_is_within(place.x, core_face_xi(local_face, new_u, new_v), elvis_vec3(s.error));
+#endif
             const elvis_real excess = core_face_excess(new_u, new_v, square_word);
             const elvis_vec3 motion = along.base_row.xyz + s.t * along.direction_row.xyz;
             core_take_crossing(nearest, is_hit, face, place.z, patch_index, core_partner_key(square_word, s.across), new_u, new_v,

@@ -25,6 +25,7 @@ layout(local_size_x = 32) in;
 #include "library/pixel_ray.glsl"
 #include "library/face_rays.glsl"
 #include "library/face_surface.glsl"
+#include "library/inside.glsl"
 
 #define CORE_STEPS 10u
 #define CORE_WORK_LIMIT 30000u
@@ -157,8 +158,11 @@ void main() {
         const bool is_touching = is_rounding && (has_stalled || (is_square && !is_excluded && !is_single));
         touched_t = is_touching ? min(touched_t, t_middle - t_reach) : touched_t;
         const bool splits = (has_stalled || (is_square && !is_excluded && !is_single)) && !is_rounding;
-        const bool is_hit = is_polishing && has_converged && max(outside, above) <= elvis_real(2) * s.error &&
+        bool is_hit = is_polishing && has_converged && max(outside, above) <= elvis_real(2) * s.error &&
                 s.t > ray.least_t + ray.widths_behind * s.width;
+#if ELVIS_HAS_INSIDE
+        is_hit = is_hit && core_is_within(place.x, core_face_xi(local_face, new_u, new_v), elvis_vec3(s.error));
+#endif
         const elvis_real excess = core_face_excess(new_u, new_v, square_word);
         core_take_crossing(nearest, is_hit, face, place.z, patch_index, core_partner_key(square_word, s.across), new_u, new_v,
                            excess >= elvis_real(-2) * s.error, s, elvis_vec3(0));

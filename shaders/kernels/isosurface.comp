@@ -201,6 +201,10 @@ void main() {
             const bool is_short = half_width < shortest;
             const elvis_real reach = max(max(half_width, shortest), wide);
             core_piece piece = core_piece_in_element(xi, frame, ((shift - position) + ray.origin) + step, ray.direction, reach, curvature);
+#if ELVIS_HAS_INSIDE
+            const core_inside own = core_inside_at(safe_element, xi);
+            core_cut_piece_inside(own, piece);
+#endif
             core_model model;
             elvis_real value;
             core_piece_take_field(piece, safe_element, xi, model, value);
@@ -254,8 +258,14 @@ void main() {
             // face as that, a root is certain only if another element has it, too: beyond the face there may be nothing.
             const elvis_real excess = core_excess(root.x, root.y, root.z);
             const elvis_real along_ray = elvis_real(0.25LF) * speed * crossing.half_width;
-            const bool is_inside = excess <= CORE_CONSTRAINT_NORM * (elvis_real(2) * piece.beyond + along_ray);
-            const bool is_surely_inside = excess <= -CORE_CONSTRAINT_NORM * (piece.beyond + along_ray);
+            bool is_inside = excess <= CORE_CONSTRAINT_NORM * (elvis_real(2) * piece.beyond + along_ray);
+            bool is_surely_inside = excess <= -CORE_CONSTRAINT_NORM * (piece.beyond + along_ray);
+#if ELVIS_HAS_INSIDE
+            const elvis_real own_excess = own.value + dot(own.slope, to_root), own_size = core_model_norm1(own.slope);
+            const elvis_real own_error = own.rounding + core_inside_bend(own, distance);
+            is_inside = is_inside && own_excess <= own_size * (elvis_real(2) * piece.beyond + along_ray) + own_error;
+            is_surely_inside = is_surely_inside && own_excess <= -own_size * (piece.beyond + along_ray) - own_error;
+#endif
 
             // A narrow part is looked at as a whole, even if it reaches beyond the piece: then the root is in its middle.
             const bool is_part = piece.is_known && to - from < elvis_real(0.6LF) * (piece.high - piece.low) && from <= piece.high && to >= piece.low;

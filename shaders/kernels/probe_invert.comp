@@ -1,6 +1,7 @@
 // Inverse mapping for probing: one query (element, position) an invocation, always in double precision.
 
 #include "library/newton.glsl"
+#include "library/inside.glsl"
 
 layout(local_size_x = 32) in;
 
@@ -44,6 +45,12 @@ void main() {
         status = core_newton_step(element, target, core_position_error, state, inverse_jacobian);
         error = max(max(inverse_jacobian.error0, inverse_jacobian.error1), inverse_jacobian.error2);
     }
+#if ELVIS_HAS_INSIDE
+    // As near as the host allows beside a face (core/probe/point_evaluator.hpp).
+    const elvis_vec3 xi = elvis_vec3(state.x, state.y, state.z);
+    const bool is_within = core_is_within(element, xi, elvis_vec3(error + elvis_real(1e-10LF)));
+    status = status == CORE_NEWTON_CONVERGED && !is_within ? CORE_NEWTON_OUTSIDE : status;
+#endif
     core_answers[index].x = state.x;
     core_answers[index].y = state.y;
     core_answers[index].z = state.z;

@@ -83,7 +83,7 @@ void main() {
 #if CORE_ON_FACES
         const core_own_cell own = core_own_cell_at(xi, position, jacobian, shift, max(core_face_of(place), 0), curvature,
                                                    elvis_real(column), elvis_real(row), elvis_real(0.5LF));
-        const core_cell cell = own.cell;
+        core_cell cell = own.cell;
         const core_tangent tangent = own.tangent;
         const core_surroundings around = core_look_around(uvec2(column, row), pixel, true, tangent);
         const bool is_usable = own.square.all_hit && !around.is_hidden;
@@ -104,12 +104,15 @@ void main() {
             core_departure_in(tangent, square, core_bending[pixel], around.turning, -dot(tangent.normal, direction) / stretch);
         const elvis_real error = square.error + bent.distance + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
         const elvis_vec3 origin = shift - position;
-        const core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0,
-                                            origin + square.corner1, origin + square.corner2, origin + square.corner3, curvature,
-                                            tangent.normal, direction, CORE_NO_FACE);
+        core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
+                                      origin + square.corner2, origin + square.corner3, curvature, tangent.normal, direction,
+                                      CORE_NO_FACE);
         const bool is_usable = square.all_hit && !around.is_hidden;
         const bool fills = around.is_smooth, is_estimated = !around.is_smooth || bent.is_estimated;
         const uint entering = 0u;
+#endif
+#if ELVIS_HAS_INSIDE
+        core_judge_inside(cell, element, xi);
 #endif
         const bool is_inside = !is_outside && is_usable && cell.is_inside;
         const bool is_filled = is_inside && fills;

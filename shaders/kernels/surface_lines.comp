@@ -215,8 +215,11 @@ void main() {
 #endif
         const core_frame frame = core_frame_at(position, jacobian, error);
         const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
-        const core_cell cell = core_cell_at(xi, frame, origin + part.corner0, origin + part.corner1, origin + part.corner2,
-                                            origin + part.corner3, curvature, normal, direction, own_face);
+        core_cell cell = core_cell_at(xi, frame, origin + part.corner0, origin + part.corner1, origin + part.corner2,
+                                      origin + part.corner3, curvature, normal, direction, own_face);
+#if ELVIS_HAS_INSIDE
+        core_judge_inside(cell, safe_element, xi);
+#endif
         n_evaluations += is_active ? 1u : 0u;
 
         // Nearer to the cell everything is known better: the point of the element that is nearest to its middle, if that is needed.

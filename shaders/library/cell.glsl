@@ -15,6 +15,7 @@
 #define CORE_CELL
 
 #include "library/element_frame.glsl"
+#include "library/inside.glsl"
 #include "library/isovalues.glsl"
 #include "library/model.glsl"
 #include "library/prediction.glsl"
@@ -23,6 +24,10 @@
 struct core_cell {
     core_patch region;
     bool is_inside, is_outside, is_crossed;
+#if ELVIS_HAS_INSIDE
+    // Bits of the corners that lie inside, and outside.
+    uint inside_corners, outside_corners;
+#endif
     // The surface lies in a face of the element, which is on the far side.
     bool is_behind;
     // By how much at least the corners violate a face together, or leave the surface's own one, as predicted; negative if they do
@@ -83,7 +88,29 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
     }
     cell.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
                       (is_outside0 || is_outside1 || is_outside2 || is_outside3);
+#if ELVIS_HAS_INSIDE
+    cell.inside_corners = uint(is_inside0) | uint(is_inside1) << 1 | uint(is_inside2) << 2 | uint(is_inside3) << 3;
+    cell.outside_corners = uint(is_outside0) | uint(is_outside1) << 1 | uint(is_outside2) << 2 | uint(is_outside3) << 3;
+#endif
 }
+
+#if ELVIS_HAS_INSIDE
+// What the element's own boundary says, beside the faces (core_cell_at).
+void core_judge_inside(inout core_cell cell, uint element, elvis_vec3 xi) {
+    const core_patch region = cell.region;
+    const core_inside g = core_inside_at(element, xi);
+    const elvis_real slack = core_model_norm1(g.slope) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF) + g.rounding +
+                             core_inside_bend(g, region.radius);
+    const elvis_real g0 = g.value + dot(g.slope, region.corner0), g1 = g.value + dot(g.slope, region.corner1);
+    const elvis_real g2 = g.value + dot(g.slope, region.corner2), g3 = g.value + dot(g.slope, region.corner3);
+    cell.inside_corners &= uint(g0 < -slack) | uint(g1 < -slack) << 1 | uint(g2 < -slack) << 2 | uint(g3 < -slack) << 3;
+    cell.outside_corners |= uint(g0 > slack) | uint(g1 > slack) << 1 | uint(g2 > slack) << 2 | uint(g3 > slack) << 3;
+    const bool is_sound = core_is_finite(g0 + g1 + g2 + g3 + slack);
+    cell.is_inside = cell.is_inside && is_sound && max(max(g0, g1), max(g2, g3)) + slack <= elvis_real(0);
+    cell.is_outside = cell.is_outside || (is_sound && min(min(g0, g1), min(g2, g3)) - slack > elvis_real(0));
+    cell.is_crossed = is_sound && cell.inside_corners != 0u && cell.outside_corners != 0u;
+}
+#endif
 
 // `corners`: relative to the image of xi. `own_face`: as in core_judge_faces.
 core_cell core_cell_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvis_vec3 corner1, elvis_vec3 corner2,

@@ -11,7 +11,8 @@ bool core_leaf_is_met(uint item, core_beam beam, vec2 span) {
     for (int corner = 0; corner < 4; ++corner) {
         motions[corner] = core_motion_along(linearization, curvature, elvis_vec3(beam.directions[corner]));
     }
-    bool may_start = span.x <= beam.eye_t;
+    // The element's own boundary is anywhere in it.
+    bool may_start = ELVIS_HAS_INSIDE == 1 || span.x <= beam.eye_t;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const bool leaves = core_surely_leaves(motions[0], face) && core_surely_leaves(motions[1], face) &&
                             core_surely_leaves(motions[2], face) && core_surely_leaves(motions[3], face);

@@ -35,5 +35,6 @@ bool core_may_start(core_walk_ray ray, uint element, elvis_real begin, elvis_rea
         n_once += is_open && core_surely_enters(motion, face) ? 1u : 0u;
     }
     const bool is_met = max(possible_from, open_from) <= min(possible_to, open_to);
-    return !motion.is_known || (is_met && !(is_taken && n_open == 1u && n_once == 1u));
+    // The element's own boundary (library/inside.glsl) is anywhere in it.
+    return ELVIS_HAS_INSIDE == 1 || !motion.is_known || (is_met && !(is_taken && n_open == 1u && n_once == 1u));
 }

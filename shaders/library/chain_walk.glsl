@@ -70,6 +70,10 @@ uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint ot
         y = leaves ? CORE_CENTROID.y : new_y;
         z = leaves ? CORE_CENTROID.z : new_z;
     }
+#if ELVIS_HAS_INSIDE
+    // Beyond the element's own boundary there is no one to ask.
+    is_found = is_found && core_is_within(element, elvis_vec3(x, y, z), elvis_vec3(CORE_ALONG));
+#endif
     return is_found ? element : CORE_NO_ELEMENT;
 }
 

@@ -17,6 +17,7 @@
 
 #include "library/newton.glsl"
 #include "library/hierarchy.glsl"
+#include "library/inside.glsl"
 #include "library/linearization.glsl"
 
 // Unit normal of the surface at the point: the plane's, unless the kernel knows another.
@@ -76,6 +77,21 @@ core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction
     }
     return side;
 }
+
+#if ELVIS_HAS_INSIDE
+// The same for the element's own boundary, added to what the faces say.
+void core_add_own_side(uint element, elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction, inout core_side side) {
+    const core_inside g = core_inside_at(element, xi);
+    const elvis_vec3 error = elvis_real(2) * elvis_vec3(inverse.error0, inverse.error1, inverse.error2);
+    const elvis_vec3 towards_viewer = -elvis_vec3(dot(inverse.row0, direction), dot(inverse.row1, direction), dot(inverse.row2, direction));
+    const elvis_real tolerance = dot(abs(g.slope), error) + g.rounding;
+    const bool is_active = g.value >= -tolerance;
+    side.is_inside = side.is_inside && g.value <= tolerance;
+    side.is_on_face = side.is_on_face || is_active;
+    side.is_on_crossing_face = side.is_on_crossing_face || is_active;
+    side.key = is_active && dot(g.slope, towards_viewer) > elvis_real(0) ? 1u : side.key;
+}
+#endif
 
 struct core_target {
     // In the snippet's coordinates, and its rounding error.
@@ -184,8 +200,18 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             is_on_crossing_face = side.is_on_crossing_face;
             key = side.key;
         }
+#if ELVIS_HAS_INSIDE
+        for (uint own_turn = 0u; own_turn < (is_inside ? 1u : 0u); ++own_turn) {
+            core_side side = core_side(is_inside, is_on_face, is_on_crossing_face, key);
+            core_add_own_side(safe_element, elvis_vec3(state.x, state.y, state.z), inverse, point.direction, side);
+            is_inside = side.is_inside;
+            is_on_face = side.is_on_face;
+            is_on_crossing_face = side.is_on_crossing_face;
+            key = side.key;
+        }
+#endif
         // In no other element of a valid mesh.
-        const bool is_alone = is_inside && excess < -most;
+        const bool is_alone = is_inside && excess < -most && (ELVIS_HAS_INSIDE == 0 || !is_on_face);
         const bool is_accepted = is_inside && (is_alone || !is_tracked);
         const uint number = elvis_fetch_core_elements(safe_element, 0u);
         const bool is_better = is_accepted && (key < found.key || (key == found.key && number < found.number));

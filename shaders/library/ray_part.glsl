@@ -41,6 +41,10 @@
 // Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's neighbourhood are
 // taken for each other.
 #define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
+// Of tolerances.
+#define CORE_MOST_BLUR elvis_real(64)
+// Cut elements have ends of two kinds, and are asked for more of both.
+#define CORE_TURNS_SHARE (1u + 2u * uint(ELVIS_HAS_INSIDE))
 
 #define CORE_PART_OPEN 0u
 #define CORE_PART_FOUND 1u
@@ -101,18 +105,23 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     model.slope = (there - here) / ray.reach;
     model.anchor = begin;
     model.step = model.noise = elvis_vec3(0);
+#if ELVIS_HAS_INSIDE
+    core_take_no_inside(model);
+#endif
     // Points of the shape are no farther away than its radius, wherever they are predicted.
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
     const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), elvis_real(0), false, false, begin, end);
     const bool is_possible = clip.possible_from <= clip.possible_to && begin < end;
-    const bool is_sure = is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
+    // Without an evaluation nothing is known of the element's own boundary.
+    const bool is_sure =
+        ELVIS_HAS_INSIDE == 0 && is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
 
     part.element = element;
     part.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
     part.has_failed = false;
     part.curvature = part.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
     part.is_followed = false;
-    part.is_assumed = is_entered && !is_sure && clip.possible_from <= begin;
+    part.is_assumed = ELVIS_HAS_INSIDE == 0 && is_entered && !is_sure && clip.possible_from <= begin;
     part.is_inside = part.is_assumed || (is_sure && (is_entered || clip.sure_from <= begin));
     part.last = clip.possible_to;
     part.begin = part.is_inside && is_sure ? clip.sure_to : clip.possible_from;
@@ -221,6 +230,11 @@ void core_seek_entry(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool i
     // Twice as far as what was decided.
     const elvis_real farther = min(part.last, end + elvis_real(2) * (end - begin));
     part.end = is_found ? (is_bounded ? clip.possible_to : part.last) : is_over ? farther : is_shrunk ? open_end : middle;
+#if ELVIS_HAS_INSIDE
+    // What is left may be rounding's alone, along which faces do not bound: where the ray leaves is looked for from further inside.
+    const elvis_real further = max(part.known_to - elvis_real(4) * (part.end - part.known_to), clip.sure_from);
+    part.begin = is_found && is_bounded ? min(part.begin, further) : part.begin;
+#endif
     part.next = is_found || is_over || !is_sure || !is_shrunk ? elvis_real(0.5LF) * (part.begin + part.end)
                                                               : clamp(clip.from, part.begin, part.end);
 }
@@ -281,17 +295,20 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const bool is_sound = frame.is_sound && core_is_finite(model.step.x + model.step.y + model.step.z);
 
     part.turns += 1u;
-    const bool is_certain = part.turns <= CORE_CERTAIN_TURNS;
+    const bool is_certain = part.turns <= CORE_CERTAIN_TURNS * CORE_TURNS_SHARE;
     part.is_estimated = part.is_estimated || !is_certain;
     const elvis_real curvature = is_certain ? part.curvature
                                  : part.curvature *
-                                       (part.turns < CORE_CERTAIN_TURNS + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
+                                       (part.turns < CORE_CERTAIN_TURNS * CORE_TURNS_SHARE + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
     const elvis_real step = max(core_model_step(model, part.begin), core_model_step(model, part.end));
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in library/newton.glsl.
     const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);
     const elvis_real along = max(max(slope.x, slope.y), slope.z) * (part.end - part.begin);
     const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
+#if ELVIS_HAS_INSIDE
+    core_take_inside(model, element, elvis_vec3(x, y, z), step + bound);
+#endif
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
     core_ray_clip clip = core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound,
                                        core_slope_change(model, curvature, distance), part.is_inside, part.is_followed || !part.is_assumed, part.begin,
@@ -304,16 +321,24 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const bool was_inside = part.is_inside;
     const int face = was_inside ? clip.to_face : clip.from_face;
     const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
-    const bool is_exact = is_sound && face >= 0 && core_is_near(curvature, core_model_step(model, was_inside ? clip.to : clip.from)) && error.distance <= ray.tolerance * ray.speed;
+    bool is_exact = is_sound && face >= 0 && core_is_near(curvature, core_model_step(model, was_inside ? clip.to : clip.from)) &&
+                    error.distance <= ray.tolerance * ray.speed;
+#if ELVIS_HAS_INSIDE
+    // The error is that of one face. Flat ones are known equally well; of the other one, more must be known.
+    const bool own_holds = was_inside ? clip.own_holds_to : clip.own_holds_from;
+    is_exact = is_exact && (face == CORE_INSIDE_FACE || !own_holds);
+    // No more is wanted of its place than rounding leaves.
+    ray.tolerance = own_holds ? max(ray.tolerance, min(core_own_blur(model), CORE_MOST_BLUR * ray.tolerance)) : ray.tolerance;
+#endif
     const bool is_denied = part.is_assumed && clip.possible_from > min(clip.possible_to, part.begin + ray.tolerance);
     const bool is_confirmed = is_sure && clip.sure_from <= part.begin + ray.tolerance;
     const bool is_kept_in = was_inside && !is_denied;
     part.is_assumed = part.is_assumed && is_kept_in && !is_confirmed;
     bool has_left = false;
-    for (uint turn = 0u; turn < (is_kept_in ? 1u : 0u); ++turn) {
+    if (is_kept_in) {
         has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, part);
     }
-    for (uint turn = 0u; turn < (is_kept_in ? 0u : 1u); ++turn) {
+    if (!is_kept_in) {
         core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, part);
     }
     part.is_followed = part.is_followed && !is_denied;
@@ -333,7 +358,7 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     part.end = is_too_far ? follow_end : part.end;
     part.next = is_too_far ? clamp(part.next, part.begin, part.end) : part.next;
 
-    const bool is_given_up = part.turns >= CORE_PART_TURNS;
+    const bool is_given_up = part.turns >= CORE_PART_TURNS * CORE_TURNS_SHARE;
     const bool is_found = is_kept_in && (has_left || is_given_up);
     part.has_failed = is_given_up && !has_left;
     const bool is_last = !is_kept_in && !part.is_inside && (part.begin >= part.last || is_given_up);

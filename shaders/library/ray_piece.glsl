@@ -9,6 +9,7 @@
 //
 // The kernel brings library/isovalues.glsl, library/element_frame.glsl and library/shown_model.glsl.
 
+#include "library/inside.glsl"
 #include "library/model.glsl"
 #include "library/prediction.glsl"
 #include "library/shape_region.glsl"
@@ -67,6 +68,19 @@ core_piece core_piece_in_element(elvis_vec3 xi, core_frame frame, elvis_vec3 off
     }
     return piece;
 }
+
+#if ELVIS_HAS_INSIDE
+// Cuts the piece, which the faces have cut, by the element's own boundary, too.
+void core_cut_piece_inside(core_inside g, inout core_piece piece) {
+    const elvis_real slack = core_model_norm1(g.slope) * (piece.beyond + elvis_real(8) * CORE_ROUNDOFF) + g.rounding +
+                             core_inside_bend(g, piece.radius);
+    const elvis_real excess = g.value + dot(g.slope, piece.q) - slack, slope = dot(g.slope, piece.w);
+    const elvis_real root = -excess / slope;
+    const bool is_beyond = slope == elvis_real(0) && excess > elvis_real(0);
+    piece.high = is_beyond ? piece.low - elvis_real(1) : slope > elvis_real(0) ? min(piece.high, root) : piece.high;
+    piece.low = slope < elvis_real(0) ? max(piece.low, root) : piece.low;
+}
+#endif
 
 void core_piece_take_field(inout core_piece piece, uint element, elvis_vec3 xi, out core_model model, out elvis_real value) {
     core_patch region;

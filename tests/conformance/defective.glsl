@@ -131,3 +131,29 @@ void elvis_mapping_hessian(uint element, elvis_vec3 xi, out elvis_vec3 x, out el
     hessian_z[1].x = elvis_real(0.2LF) * xi.x;
 #endif
 }
+
+// Of each there is only the part 0.2 xi1^2 + xi2^2 + xi3^2 <= 2.
+void elvis_inside(uint element, elvis_vec3 xi, out elvis_real g, out elvis_vec3 gradient) {
+    g = elvis_real(0.2LF) * xi.x * xi.x + xi.y * xi.y + xi.z * xi.z - elvis_real(2);
+#if DEFECTIVE_DEFECT == 24
+    // The two have different parts of the face that they share.
+    g += element == 0u ? elvis_real(0) : elvis_real(1);
+#elif DEFECTIVE_DEFECT == 25
+    g += elvis_real(3);
+#endif
+#if DEFECTIVE_DEFECT == 22
+    gradient = elvis_vec3(elvis_real(0.4LF) * xi.x, xi.y, elvis_real(2) * xi.z);
+#elif DEFECTIVE_DEFECT == 26
+    gradient.xy = elvis_vec2(elvis_real(0.4LF) * xi.x, elvis_real(2) * xi.y);
+#else
+    gradient = elvis_vec3(elvis_real(0.4LF) * xi.x, elvis_real(2) * xi.y, elvis_real(2) * xi.z);
+#endif
+}
+
+elvis_vec2 elvis_inside_bounds(uint element) {
+#if DEFECTIVE_DEFECT == 23
+    return elvis_vec2(elvis_real(4.5LF), elvis_real(0.5LF));
+#else
+    return elvis_vec2(elvis_real(4.5LF), elvis_real(4.5LF));
+#endif
+}

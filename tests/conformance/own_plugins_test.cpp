@@ -72,6 +72,11 @@ TEST_CASE("The plugin of closed-form fields passes every check") {
     Workplace().check("elvis_analytic", "--volume '" ELVIS_SOURCES "/plugins/analytic/samples/twisted_box.txt'");
 }
 
+TEST_CASE("The plugin of cut cells passes every check") {
+    Workplace().check("elvis_cut_cells", "--volume '" ELVIS_SOURCES "/plugins/cut_cells/samples/ball.cut'");
+    Workplace().check("elvis_cut_cells", "--volume '" ELVIS_SOURCES "/plugins/cut_cells/samples/gyroid.cut'");
+}
+
 TEST_CASE("The conversion plugins pass every check") {
     const Workplace place;
     place.write("ball.json", ball);

@@ -167,6 +167,12 @@ typedef struct elvis_fill_request {
 #define ELVIS_SNIPPET_FIELD_HESSIAN 32u
 /** elvis_mapping_hessian: mapping, Jacobian and second derivatives of the mapping. Since 0.9.1. */
 #define ELVIS_SNIPPET_MAPPING_HESSIAN 64u
+/**
+ * elvis_inside, elvis_inside_bounds: the class has a reference shape of its own, the part of `shape` in which a function is not
+ * positive (cut cells). Mapping and fields are defined on all of `shape`; bounds, ranges and checks of the Jacobian may be of all
+ * of it, too. See "Shapes of one's own" in glsl_interface.md. Since 0.9.2.
+ */
+#define ELVIS_SNIPPET_INSIDE 128u
 
 /** One GLSL text. */
 typedef struct elvis_text {
