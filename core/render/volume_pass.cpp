@@ -21,6 +21,8 @@ constexpr std::array<double, 7> kronrod_points = {0.0197543656459898582, 0.11270
                                                   0.717121874673401279,  0.887298334620741689, 0.980245634354010142};
 /** A ray has no more chains, and chains no more parts in different classes: far more than there are elements along a ray. */
 constexpr std::uint32_t most_rounds = 4096;
+/** Beyond all values, and a number in single precision. */
+constexpr double unbounded = 3e38;
 /** Of m_counts. */
 constexpr std::size_t n_counts = 8;
 enum SeekCount : std::size_t { seeking, seek_evaluations };
@@ -174,9 +176,11 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
         const double steep = is_bounded ? steepness(piece, table.breakpoints[i] - piece.from) : 0;
         m_steepest = std::max(m_steepest, steep);
         m_has_steps = m_has_steps || (i > 0 && is_step(table.pieces[i - 1], piece));
+        const double below = i > 0 ? table.breakpoints[i - 1] - offset : -unbounded;
+        const double above = i < table.breakpoints.size() ? table.breakpoints[i] - offset : unbounded;
         const std::array<double, 12> rows = {piece.from - offset, piece.density, piece.density_slope, steep,
-                                             piece.rgb[0], piece.rgb[1], piece.rgb[2], 0,
-                                             piece.rgb_slope[0], piece.rgb_slope[1], piece.rgb_slope[2], 0};
+                                             piece.rgb[0], piece.rgb[1], piece.rgb[2], below,
+                                             piece.rgb_slope[0], piece.rgb_slope[1], piece.rgb_slope[2], above};
         pieces.insert(pieces.end(), rows.begin(), rows.end());
     }
     write_reals(provide(m_breakpoints, m_device, values.size() * real_bytes(m_precision)), m_precision, values);

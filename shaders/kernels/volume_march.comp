@@ -116,167 +116,185 @@ void main() {
     part.turns = 0u;
     core_held_piece held = core_hold_piece(0u);
     bool goes = is_mine && status == CORE_RAY_GOES;
+    // What few rays need stands behind the loop over elements, which ends for all lanes when one needs it: inside it would be gone through
+    // in every element.
+    bool is_rough = false, is_lost = false, has_part = false;
     while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
-        n_elements += 1u;
-        const uint work_before = work;
-        const uint local = element - core_first_element;
-        // Where the ray leaves.
-        uint ending = CORE_PART_NONE;
-        for (uint turn = 0u; turn < 1u; ++turn) {
-            const bool is_possible = core_part_begin(ray, local, chain, chain + ray.reach, true, part);
-            ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
-        }
-        while (ending == CORE_PART_OPEN) {
-            ending = core_part_turn(ray, true, part);
-            n_mappings += 1u;
-            work += 1u;
-            if (ending != CORE_PART_OPEN) {
-                break;
+        while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
+            n_elements += 1u;
+            const uint work_before = work;
+            const uint local = element - core_first_element;
+            // Where the ray leaves.
+            uint ending = CORE_PART_FOUND;
+            if (!has_part) {
+                const bool is_possible = core_part_begin(ray, local, chain, chain + ray.reach, true, part);
+                ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
             }
-        }
-        if (part.has_failed) {
-            core_leave_roughly(ray, chain, part);
-            flags |= CORE_FLAG_UNDECIDED;
-            ending = CORE_PART_FOUND;
-        }
-        // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
-        const elvis_real gap = part.enter - chain - part.enter_error;
-        const bool is_met = ending == CORE_PART_FOUND && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
-        const bool is_estimated = is_met && part.is_estimated;
-        flags |= is_estimated ? CORE_FLAG_ESTIMATED : 0u;
-        const elvis_real leave = is_met ? max(part.leave, chain) : chain;
-        // What is too short to matter is the next one's.
-        const bool is_joined = chain - done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
-        flags |= is_met && !is_joined && done > start ? CORE_FLAG_UNDECIDED : 0u;
-        const elvis_real from = is_joined ? done : chain, until = min(leave, to);
-
-        // What lies between.
-        const bool has_segment = is_met && from < until;
-        const bool is_level = core_is_level(core_level_range(part, from, until), held) && has_segment && core_skips_by_range != 0u;
-        if (is_level) {
-            core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
-        }
-        n_segments += has_segment ? 1u : 0u;
-        n_empty += is_level ? 1u : 0u;
-        core_integral integral = core_integral_begin(from, has_segment && !is_level ? until : from, ray.speed, step);
-        const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - start), until - from);
-        const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
-                                  (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
-        core_follower follower;
-        follower.known = part.anchor;
-        follower.known_x = part.x;
-        follower.known_y = part.y;
-        follower.known_z = part.z;
-        follower.slope_x = part.slope_x;
-        follower.slope_y = part.slope_y;
-        follower.slope_z = part.slope_z;
-        core_follow_to(follower, core_integral_at(integral));
-        follower.span = core_integral_span(integral);
-        follower.enough = enough;
-        bool is_broken = false, is_no_number = false, is_fresh = true, is_dismissed = false;
-#if CORE_BEGINS_AT_END
-        // Where the ray leaves the mapping has been evaluated.
-        if (integral.wants != CORE_WANTS_NOTHING) {
-            const core_ray_sample result = core_sample_predicted(part, core_integral_at(integral), follower.span, enough);
-            n_evaluations += 1u;
-            const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
-            const bool is_all = abs(follower.span) >= until - from && result.is_known && core_skips_by_range != 0u;
-            is_dismissed =
-                is_all && core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
-            if (!is_dismissed && result.status == CORE_SAMPLE_FOUND) {
-                core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead,
-                                  held, work);
-                core_follow_to(follower, core_integral_at(integral));
-                follower.span = core_integral_span(integral);
-                follower.enough = enough;
-            }
-        }
-#endif
-        while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
-            // Until all lanes have what they need, so that what follows is done for all of them together.
-            bool is_running = core_integral_wants_sample(integral);
-            while (is_running) {
-                work += CORE_WORK_A_SAMPLE;
-                const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
-                n_evaluations += 1u;
-                const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
-                is_broken = is_nan || has_failed;
-                is_no_number = is_nan;
-                n_failures += has_failed ? 1u : 0u;
-                flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
-#if !CORE_BEGINS_AT_END
-                // The first evaluation at an end of the part may tell that there is nothing in all of it.
-                const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
-                if (is_all) {
-                    const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
-                    is_dismissed = core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+            while (ending == CORE_PART_OPEN) {
+                ending = core_part_turn(ray, true, part);
+                n_mappings += 1u;
+                work += 1u;
+                if (ending != CORE_PART_OPEN) {
+                    break;
                 }
-#endif
-                const bool is_found = !is_broken && !is_dismissed && result.status == CORE_SAMPLE_FOUND;
-                if (is_found) {
-                    is_fresh = false;
-                    core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance,
-                                      ahead, held, work);
+            }
+            is_rough = part.has_failed && !has_part;
+            has_part = false;
+            // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
+            const elvis_real gap = part.enter - chain - part.enter_error;
+            const bool is_met = ending == CORE_PART_FOUND && !is_rough && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
+            const bool is_estimated = is_met && part.is_estimated;
+            flags |= is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+            const elvis_real leave = is_met ? max(part.leave, chain) : chain;
+            // What is too short to matter is the next one's.
+            const bool is_joined = chain - done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
+            flags |= is_met && !is_joined && done > start ? CORE_FLAG_UNDECIDED : 0u;
+            const elvis_real from = is_joined ? done : chain, until = min(leave, to);
+
+            // What lies between.
+            const bool has_segment = is_met && from < until;
+            const bool is_level = core_is_level(core_level_range(part, from, until), held) && has_segment && core_skips_by_range != 0u;
+            if (is_level) {
+                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
+            }
+            n_segments += has_segment ? 1u : 0u;
+            n_empty += is_level ? 1u : 0u;
+            core_integral integral = core_integral_begin(from, has_segment && !is_level ? until : from, ray.speed, step);
+            const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - start), until - from);
+            const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
+                                      (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
+            core_follower follower;
+            follower.known = part.anchor;
+            follower.known_x = part.x;
+            follower.known_y = part.y;
+            follower.known_z = part.z;
+            follower.slope_x = part.slope_x;
+            follower.slope_y = part.slope_y;
+            follower.slope_z = part.slope_z;
+            core_follow_to(follower, core_integral_at(integral));
+            follower.span = core_integral_span(integral);
+            follower.enough = enough;
+            bool is_broken = false, is_no_number = false, is_fresh = true, is_dismissed = false;
+#if CORE_BEGINS_AT_END
+            // Where the ray leaves the mapping has been evaluated.
+            if (integral.wants != CORE_WANTS_NOTHING) {
+                const core_ray_sample result = core_sample_predicted(part, core_integral_at(integral), follower.span, enough);
+                n_evaluations += 1u;
+                const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+                const bool is_all = abs(follower.span) >= until - from && result.is_known && core_skips_by_range != 0u;
+                is_dismissed =
+                    is_all && core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+                if (!is_dismissed && result.status == CORE_SAMPLE_FOUND) {
+                    core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead,
+                                      held, work);
                     core_follow_to(follower, core_integral_at(integral));
                     follower.span = core_integral_span(integral);
                     follower.enough = enough;
                 }
-                is_running = !is_broken && !is_dismissed && core_integral_wants_sample(integral) &&
-                             (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral));
-                if (!is_running) {
+            }
+#endif
+            while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
+                // Until all lanes have what they need, so that what follows is done for all of them together.
+                bool is_running = core_integral_wants_sample(integral);
+                while (is_running) {
+                    work += CORE_WORK_A_SAMPLE;
+                    const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
+                    n_evaluations += 1u;
+                    const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
+                    is_broken = is_nan || has_failed;
+                    is_no_number = is_nan;
+                    n_failures += has_failed ? 1u : 0u;
+                    flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
+#if !CORE_BEGINS_AT_END
+                    // The first evaluation at an end of the part may tell that there is nothing in all of it.
+                    const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
+                    if (is_all) {
+                        const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+                        is_dismissed = core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+                    }
+#endif
+                    const bool is_found = !is_broken && !is_dismissed && result.status == CORE_SAMPLE_FOUND;
+                    if (is_found) {
+                        is_fresh = false;
+                        core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance,
+                                          ahead, held, work);
+                        core_follow_to(follower, core_integral_at(integral));
+                        follower.span = core_integral_span(integral);
+                        follower.enough = enough;
+                    }
+                    is_running = !is_broken && !is_dismissed && core_integral_wants_sample(integral) &&
+                                 (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral));
+                    if (!is_running) {
+                        break;
+                    }
+                }
+                work = subgroupMax(work);
+#if CORE_SETTLES
+                if (!is_broken && !is_dismissed) {
+                    core_integral_settle(integral, light, ray.speed, tolerance, ahead, held, work);
+                    core_follow_to(follower, core_integral_at(integral));
+                    follower.span = core_integral_span(integral);
+                    follower.enough = enough;
+                }
+#endif
+                if (integral.wants == CORE_WANTS_NOTHING || is_broken || is_dismissed) {
                     break;
                 }
             }
-            work = subgroupMax(work);
-#if CORE_SETTLES
-            if (!is_broken && !is_dismissed) {
-                core_integral_settle(integral, light, ray.speed, tolerance, ahead, held, work);
-                core_follow_to(follower, core_integral_at(integral));
-                follower.span = core_integral_span(integral);
-                follower.enough = enough;
+            if (is_dismissed) {
+                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
             }
-#endif
-            if (integral.wants == CORE_WANTS_NOTHING || is_broken || is_dismissed) {
+            n_empty += is_dismissed ? 1u : 0u;
+            n_steps += integral.n_steps;
+            n_breakpoints += integral.n_breakpoints;
+            flags |= has_segment && core_is_model_estimated(local) ? CORE_FLAG_ESTIMATED : 0u;
+            // What is no number hides all behind it, in a colour of its own.
+            if (is_no_number) {
+                core_add_light(light, elvis_vec3(1, 0, 1), elvis_real(0));
+            }
+
+            // Where to go on: in the same element, if there was no time for all of it.
+            const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed;
+            step = is_left_open ? core_integral_step(integral) : CORE_FAR;
+            done = is_rough ? done : max(done, is_left_open ? core_integral_done(integral) : until);
+            const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
+            const bool is_over = is_opaque || is_stopped || is_left_open;
+            const bool stays = is_over || is_rough;
+            chain = stays ? chain : leave;
+            const uint next = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
+            // Elements on both sides of a face that the ray grazes may hand it to and fro.
+            const bool is_stuck = leave - from <= elvis_real(4) * ray.tolerance;
+            is_lost = !stays && (!is_met || part.leave_face < 0 || (is_stuck && n_lost >= CORE_MOST_GRAZES));
+            n_lost = is_rough ? n_lost : is_lost || is_stuck ? n_lost + 1u : 0u;
+            element = stays || is_lost ? element : next;
+            status = is_opaque                                ? CORE_RAY_ENDS
+                     : is_left_open || is_rough || is_lost    ? CORE_RAY_GOES
+                     : is_stopped                             ? status_at_end
+                     : next == CORE_NO_LINK                   ? CORE_RAY_SEEKS
+                                                              : CORE_RAY_GOES;
+            goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;
+            // Lanes wait for each other.
+            work = work_before + subgroupMax(work - work_before);
+            const bool is_interrupted = subgroupAny(is_rough || is_lost);
+            if (!goes || is_interrupted) {
                 break;
             }
         }
-        if (is_dismissed) {
-            core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
+        if (is_rough) {
+            core_leave_roughly(ray, chain, part);
+            flags |= CORE_FLAG_UNDECIDED;
+            has_part = true;
         }
-        n_empty += is_dismissed ? 1u : 0u;
-        n_steps += integral.n_steps;
-        n_breakpoints += integral.n_breakpoints;
-        flags |= has_segment && core_is_model_estimated(local) ? CORE_FLAG_ESTIMATED : 0u;
-        // What is no number hides all behind it, in a colour of its own.
-        if (is_no_number) {
-            core_add_light(light, elvis_vec3(1, 0, 1), elvis_real(0));
-        }
-
-        // Where to go on: in the same element, if there was no time for all of it.
-        const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed;
-        step = is_left_open ? core_integral_step(integral) : CORE_FAR;
-        done = max(done, is_left_open ? core_integral_done(integral) : until);
-        const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
-        const bool is_over = is_opaque || is_stopped || is_left_open;
-        chain = is_over ? chain : leave;
-        const uint link = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
-        uint next = link;
-        // Elements on both sides of a face that the ray grazes may hand it to and fro.
-        const bool is_stuck = leave - from <= elvis_real(4) * ray.tolerance;
-        const bool is_lost = !is_over && (!is_met || part.leave_face < 0 || (is_stuck && n_lost >= CORE_MOST_GRAZES));
         if (is_lost) {
-            const elvis_real probe = chain + elvis_real(4) * exp2(float(min(n_lost, 30u))) * ray.tolerance;
+            const elvis_real probe = chain + elvis_real(4) * exp2(float(min(n_lost - 1u, 30u))) * ray.tolerance;
             uint other;
-            const uint found = core_find_around(ray, local, probe, other);
-            next = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+            const uint found = core_find_around(ray, element - core_first_element, probe, other);
+            element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
             chain = probe;
+            status = element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+            goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;
         }
-        n_lost = is_lost || is_stuck ? n_lost + 1u : 0u;
-        element = is_over ? element : next;
-        status = is_opaque ? CORE_RAY_ENDS : is_left_open ? CORE_RAY_GOES : is_stopped ? status_at_end : next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
-        goes = status == CORE_RAY_GOES && element >= core_first_element && element - core_first_element < core_n_elements;
-        // Lanes wait for each other.
-        work = work_before + subgroupMax(work - work_before);
+        is_rough = is_lost = false;
         if (!goes) {
             break;
         }
