@@ -16,9 +16,6 @@ constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
 /** Of the polynomials of one step. */
 constexpr int step_degree = 5;
-/** Where shaders/library/kronrod.glsl samples. */
-constexpr std::array<double, 7> kronrod_points = {0.0197543656459898582, 0.112701665379258311, 0.282878125326598721, 0.5,
-                                                  0.717121874673401279,  0.887298334620741689, 0.980245634354010142};
 /** A ray has no more chains, and chains no more parts in different classes: far more than there are elements along a ray. */
 constexpr std::uint32_t most_rounds = 4096;
 /** Beyond all values, and a number in single precision. */
@@ -215,7 +212,7 @@ const ComposedKernel& VolumePass::march_kernel(ClassKernels& kernels) {
         KernelRequest request = request_of(kernels, "volume_march");
         request.buffers.push_back(m_models.host_buffer(kernels.element_class));
         m_data.add_field(request, kernels.element_class, true);
-        request.text += segment::segment_glsl(segment::fixed_plan(step_degree)) + segment::quadrature_glsl(step_degree, kronrod_points);
+        request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
         request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
         request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
         for (std::uint32_t binding = 1; binding <= 6; ++binding) {
