@@ -2,6 +2,9 @@
 //
 // In each element: where the ray leaves it, by evaluations of the mapping alone (library/ray_part.glsl); then samples of the field, as
 // the integrator wants them, and its integral of what lies between. Lanes do both together, each in its own element.
+//
+// Loops end with a break where their condition has become false, and rare code stands in an if, not in a loop of one turn: lavapipe
+// leaves a loop only behind its body, so that one that is tested at its head goes through it once more than it is taken, lanes off.
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
