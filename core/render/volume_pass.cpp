@@ -16,11 +16,10 @@ constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
 /** Of the polynomials of one step. */
 constexpr int step_degree = 5;
-/** Where shaders/library/kronrod.glsl samples. */
-constexpr std::array<double, 7> kronrod_points = {0.0197543656459898582, 0.112701665379258311, 0.282878125326598721, 0.5,
-                                                  0.717121874673401279,  0.887298334620741689, 0.980245634354010142};
 /** A ray has no more chains, and chains no more parts in different classes: far more than there are elements along a ray. */
 constexpr std::uint32_t most_rounds = 4096;
+/** Beyond all values, and a number in single precision. */
+constexpr double unbounded = 3e38;
 /** Of m_counts. */
 constexpr std::size_t n_counts = 8;
 enum SeekCount : std::size_t { seeking, seek_evaluations };
@@ -175,9 +174,11 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
         const double steep = is_bounded ? steepness(piece, table.breakpoints[i] - piece.from) : 0;
         m_steepest = std::max(m_steepest, steep);
         m_has_steps = m_has_steps || (i > 0 && is_step(table.pieces[i - 1], piece));
+        const double below = i > 0 ? table.breakpoints[i - 1] - offset : -unbounded;
+        const double above = i < table.breakpoints.size() ? table.breakpoints[i] - offset : unbounded;
         const std::array<double, 12> rows = {piece.from - offset, piece.density, piece.density_slope, steep,
-                                             piece.rgb[0], piece.rgb[1], piece.rgb[2], 0,
-                                             piece.rgb_slope[0], piece.rgb_slope[1], piece.rgb_slope[2], 0};
+                                             piece.rgb[0], piece.rgb[1], piece.rgb[2], below,
+                                             piece.rgb_slope[0], piece.rgb_slope[1], piece.rgb_slope[2], above};
         pieces.insert(pieces.end(), rows.begin(), rows.end());
     }
     write_reals(provide(m_breakpoints, m_device, values.size() * real_bytes(m_precision)), m_precision, values);
@@ -212,7 +213,7 @@ const ComposedKernel& VolumePass::march_kernel(ClassKernels& kernels) {
         KernelRequest request = request_of(kernels, "volume_march");
         request.buffers.push_back(m_models.host_buffer(kernels.element_class));
         m_data.add_field(request, kernels.element_class, true);
-        request.text += segment::segment_glsl(segment::fixed_plan(step_degree)) + segment::quadrature_glsl(step_degree, kronrod_points);
+        request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
         request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
         request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
         for (std::uint32_t binding = 1; binding <= 6; ++binding) {

@@ -210,39 +210,6 @@ std::vector<double> bernstein_growth(int n) {
     return growth;
 }
 
-std::vector<double> bernstein_at(int n, double t) {
-    std::vector<double> values;
-    const std::vector<double> row = binomials(n);
-    for (int i = 0; i <= n; ++i) {
-        values.push_back(row[static_cast<std::size_t>(i)] * std::pow(t, i) * std::pow(1 - t, n - i));
-    }
-    return values;
-}
-
-std::vector<double> bernstein_integrals(int n, double t) {
-    // The integral of one of them is the mean of those of one degree more that come after it (Farouki 2012, section 3.4).
-    const std::vector<double> higher = bernstein_at(n + 1, t);
-    std::vector<double> integrals(static_cast<std::size_t>(n + 1), 0.0);
-    double sum = 0;
-    for (int i = n; i >= 0; --i) {
-        sum += higher[static_cast<std::size_t>(i + 1)];
-        integrals[static_cast<std::size_t>(i)] = sum / static_cast<double>(n + 1);
-    }
-    return integrals;
-}
-
-std::string quadrature_glsl(int degree, std::span<const double> points) {
-    const int n_points = static_cast<int>(points.size());
-    std::vector<double> values, integrals;
-    for (const double point : points) {
-        const std::vector<double> value = bernstein_at(degree, point), integral = bernstein_integrals(degree, point);
-        values.insert(values.end(), value.begin(), value.end());
-        integrals.insert(integrals.end(), integral.begin(), integral.end());
-    }
-    return array("core_quadrature_values", {n_points, degree + 1}, values) +
-           array("core_quadrature_integrals", {n_points, degree + 1}, integrals);
-}
-
 std::string segment_glsl(const SamplePlan& plan) {
     const int size = plan.degree + 1, n_levels = static_cast<int>(plan.levels.size());
     const int n_samples = static_cast<int>(plan.parameters.size());

@@ -13,7 +13,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -60,12 +59,6 @@ std::vector<double> bernstein_of_chebyshev(int n);
 std::vector<double> bernstein_growth(int n);
 /** n over i, for i = 0 .. n. */
 std::vector<double> binomials(int n);
-
-/** The Bernstein polynomials of degree n at t, and their integrals from 0 to t. */
-std::vector<double> bernstein_at(int n, double t);
-std::vector<double> bernstein_integrals(int n, double t);
-/** The same at several points, as GLSL: core_quadrature_values and core_quadrature_integrals, [point][polynomial]. */
-std::string quadrature_glsl(int degree, std::span<const double> points);
 
 /** All of it as GLSL, which library/segment_polynomial.glsl needs before it. */
 std::string segment_glsl(const SamplePlan& plan);

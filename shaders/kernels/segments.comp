@@ -56,7 +56,7 @@ void main() {
     const core_walk_ray ray = core_walk_ray_of(core_chain_ray(column, row, index), elvis_real(core_extent));
     const elvis_real to = core_chain_ray_end(index);
     core_chain chain = core_chain(state.done, state.chain, state.start, state.start_element, state.element,
-                                  is_ray ? state.status : CORE_RAY_ENDS, 0u);
+                                  is_ray ? state.status : CORE_RAY_ENDS, 0u, false, false, false);
     bool is_mine;
     bool goes = core_chain_begin(chain, to, CORE_RAY_ENDS, is_mine);
     elvis_real done_error = state.done_error, chain_error = state.chain_error, sum = state.sum;
@@ -74,7 +74,7 @@ void main() {
         const core_reach reach = core_chain_reach(ray, chain, part);
         flags |= reach.flags;
         n_evaluations += part.turns;
-        n_failures += part.has_failed ? 1u : 0u;
+        n_failures += chain.needs_roughly ? 1u : 0u;
         const elvis_real leave_error = reach.is_met ? part.leave_error : chain_error;
         const elvis_real errors = done_error + leave_error;
         // A chain that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
@@ -97,11 +97,13 @@ void main() {
         chain.done = is_segment ? until : chain.done;
         done_error = is_segment ? leave_error : done_error;
         chain_error = leave_error;
-        is_first = false;
+        is_first = is_first && chain.needs_roughly;
         const bool is_over = reach.is_met && reach.leave >= to;
-        for (uint turn = 0u; turn < (is_over ? 0u : 1u); ++turn) {
-            n_breaks += core_chain_go_on(ray, chain, part, reach, from) ? 1u : 0u;
+        if (!is_over) {
+            core_chain_go_on(ray, chain, part, reach, from);
+            n_breaks += chain.needs_element ? 1u : 0u;
         }
+        core_chain_help(ray, chain, part, flags);
         chain.status = is_over ? CORE_RAY_ENDS : chain.status;
         goes = core_chain_goes(chain);
     }

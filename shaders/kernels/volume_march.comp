@@ -92,7 +92,7 @@ void main() {
 
     uint flags = 0u;
     core_chain chain = core_chain(state.done, state.chain, state.start, state.start_element, state.element,
-                                  is_pixel ? state.status : CORE_RAY_ENDS, 0u);
+                                  is_pixel ? state.status : CORE_RAY_ENDS, 0u, false, false, false);
     bool is_mine;
     bool goes = core_chain_begin(chain, to, status_at_end, is_mine);
     elvis_real step = state.step;
@@ -107,136 +107,145 @@ void main() {
     part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
     part.turns = 0u;
     core_held_piece held = core_hold_piece(0u);
+    // What few rays need stands behind the loop over elements, which ends for all lanes when one needs it: inside it would be gone through
+    // in every element.
     while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
-        n_elements += 1u;
-        const uint work_before = work;
-        const uint local = chain.element - core_first_element;
-        const core_reach reach = core_chain_reach(ray, chain, part);
-        const bool is_met = reach.is_met;
-        const elvis_real leave = reach.leave;
-        flags |= reach.flags;
-        n_mappings += part.turns;
-        work += part.turns;
-        // What is too short to matter is the next one's.
-        const bool is_joined = chain.at - chain.done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
-        flags |= is_met && !is_joined && chain.done > chain.start ? CORE_FLAG_UNDECIDED : 0u;
-        const elvis_real from = is_joined ? chain.done : chain.at, until = min(leave, to);
+        while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
+            n_elements += 1u;
+            const uint work_before = work;
+            const uint local = chain.element - core_first_element;
+            const core_reach reach = core_chain_reach(ray, chain, part);
+            const bool is_met = reach.is_met;
+            const elvis_real leave = reach.leave;
+            flags |= reach.flags;
+            n_mappings += part.turns;
+            work += part.turns;
+            // What is too short to matter is the next one's.
+            const bool is_joined = chain.at - chain.done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
+            flags |= is_met && !is_joined && chain.done > chain.start ? CORE_FLAG_UNDECIDED : 0u;
+            const elvis_real from = is_joined ? chain.done : chain.at, until = min(leave, to);
 
-        // What lies between.
-        const bool has_segment = is_met && from < until;
-        const bool is_level = core_is_level(core_level_range(part, from, until), held) && has_segment && core_skips_by_range != 0u;
-        if (is_level) {
-            core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
-        }
-        n_segments += has_segment ? 1u : 0u;
-        n_empty += is_level ? 1u : 0u;
-        core_integral integral = core_integral_begin(from, has_segment && !is_level ? until : from, ray.speed, step);
-        const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - chain.start), until - from);
-        const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
-                                  (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
-        core_follower follower;
-        follower.known = part.anchor;
-        follower.known_x = part.x;
-        follower.known_y = part.y;
-        follower.known_z = part.z;
-        follower.slope_x = part.slope_x;
-        follower.slope_y = part.slope_y;
-        follower.slope_z = part.slope_z;
-        core_follow_to(follower, core_integral_at(integral));
-        follower.span = core_integral_span(integral);
-        follower.enough = enough;
-        bool is_broken = false, is_no_number = false, is_fresh = true, is_dismissed = false;
-#if CORE_BEGINS_AT_END
-        // Where the ray leaves the mapping has been evaluated.
-        if (integral.wants != CORE_WANTS_NOTHING) {
-            const core_ray_sample result = core_sample_predicted(part, core_integral_at(integral), follower.span, enough);
-            n_evaluations += 1u;
-            const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
-            const bool is_all = abs(follower.span) >= until - from && result.is_known && core_skips_by_range != 0u;
-            is_dismissed =
-                is_all && core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
-            if (!is_dismissed && result.status == CORE_SAMPLE_FOUND) {
-                core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead,
-                                  held, work);
-                core_follow_to(follower, core_integral_at(integral));
-                follower.span = core_integral_span(integral);
-                follower.enough = enough;
+            // What lies between.
+            const bool has_segment = is_met && from < until;
+            const bool is_level = core_is_level(core_level_range(part, from, until), held) && has_segment && core_skips_by_range != 0u;
+            if (is_level) {
+                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
             }
-        }
-#endif
-        while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
-            // Until all lanes have what they need, so that what follows is done for all of them together.
-            bool is_running = core_integral_wants_sample(integral);
-            while (is_running) {
-                work += CORE_WORK_A_SAMPLE;
-                const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
+            n_segments += has_segment ? 1u : 0u;
+            n_empty += is_level ? 1u : 0u;
+            core_integral integral = core_integral_begin(from, has_segment && !is_level ? until : from, ray.speed, step);
+            const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - chain.start), until - from);
+            const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
+                                      (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
+            core_follower follower;
+            follower.known = part.anchor;
+            follower.known_x = part.x;
+            follower.known_y = part.y;
+            follower.known_z = part.z;
+            follower.slope_x = part.slope_x;
+            follower.slope_y = part.slope_y;
+            follower.slope_z = part.slope_z;
+            core_follow_to(follower, core_integral_at(integral));
+            follower.span = core_integral_span(integral);
+            follower.enough = enough;
+            bool is_broken = false, is_no_number = false, is_fresh = true, is_dismissed = false;
+#if CORE_BEGINS_AT_END
+            // Where the ray leaves the mapping has been evaluated.
+            if (integral.wants != CORE_WANTS_NOTHING) {
+                const core_ray_sample result = core_sample_predicted(part, core_integral_at(integral), follower.span, enough);
                 n_evaluations += 1u;
-                const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
-                is_broken = is_nan || has_failed;
-                is_no_number = is_nan;
-                n_failures += has_failed ? 1u : 0u;
-                flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
-#if !CORE_BEGINS_AT_END
-                // The first evaluation at an end of the part may tell that there is nothing in all of it.
-                const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
-                if (is_all) {
-                    const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
-                    is_dismissed = core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
-                }
-#endif
-                const bool is_found = !is_broken && !is_dismissed && result.status == CORE_SAMPLE_FOUND;
-                if (is_found) {
-                    is_fresh = false;
-                    core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance,
-                                      ahead, held, work);
+                const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+                const bool is_all = abs(follower.span) >= until - from && result.is_known && core_skips_by_range != 0u;
+                is_dismissed =
+                    is_all && core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+                if (!is_dismissed && result.status == CORE_SAMPLE_FOUND) {
+                    core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead,
+                                      held, work);
                     core_follow_to(follower, core_integral_at(integral));
                     follower.span = core_integral_span(integral);
                     follower.enough = enough;
                 }
-                is_running = !is_broken && !is_dismissed && core_integral_wants_sample(integral) &&
-                             (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral));
-                if (!is_running) {
+            }
+#endif
+            while (integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
+                // Until all lanes have what they need, so that what follows is done for all of them together.
+                bool is_running = core_integral_wants_sample(integral);
+                while (is_running) {
+                    work += CORE_WORK_A_SAMPLE;
+                    const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
+                    n_evaluations += 1u;
+                    const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
+                    is_broken = is_nan || has_failed;
+                    is_no_number = is_nan;
+                    n_failures += has_failed ? 1u : 0u;
+                    flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
+#if !CORE_BEGINS_AT_END
+                    // The first evaluation at an end of the part may tell that there is nothing in all of it.
+                    const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
+                    if (is_all) {
+                        const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
+                        is_dismissed = core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+                    }
+#endif
+                    const bool is_found = !is_broken && !is_dismissed && result.status == CORE_SAMPLE_FOUND;
+                    if (is_found) {
+                        is_fresh = false;
+                        core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance,
+                                          ahead, held, work);
+                        core_follow_to(follower, core_integral_at(integral));
+                        follower.span = core_integral_span(integral);
+                        follower.enough = enough;
+                    }
+                    is_running = !is_broken && !is_dismissed && core_integral_wants_sample(integral) &&
+                                 (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral));
+                    if (!is_running) {
+                        break;
+                    }
+                }
+                work = subgroupMax(work);
+#if CORE_SETTLES
+                if (!is_broken && !is_dismissed) {
+                    core_integral_settle(integral, light, ray.speed, tolerance, ahead, held, work);
+                    core_follow_to(follower, core_integral_at(integral));
+                    follower.span = core_integral_span(integral);
+                    follower.enough = enough;
+                }
+#endif
+                if (integral.wants == CORE_WANTS_NOTHING || is_broken || is_dismissed) {
                     break;
                 }
             }
-            work = subgroupMax(work);
-#if CORE_SETTLES
-            if (!is_broken && !is_dismissed) {
-                core_integral_settle(integral, light, ray.speed, tolerance, ahead, held, work);
-                core_follow_to(follower, core_integral_at(integral));
-                follower.span = core_integral_span(integral);
-                follower.enough = enough;
+            if (is_dismissed) {
+                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
             }
-#endif
-            if (integral.wants == CORE_WANTS_NOTHING || is_broken || is_dismissed) {
+            n_empty += is_dismissed ? 1u : 0u;
+            n_steps += integral.n_steps;
+            n_breakpoints += integral.n_breakpoints;
+            flags |= has_segment && core_is_model_estimated(local) ? CORE_FLAG_ESTIMATED : 0u;
+            // What is no number hides all behind it, in a colour of its own.
+            if (is_no_number) {
+                core_add_light(light, elvis_vec3(1, 0, 1), elvis_real(0));
+            }
+
+            // Where to go on: in the same element, if there was no time for all of it.
+            const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed;
+            step = is_left_open ? core_integral_step(integral) : CORE_FAR;
+            chain.done = chain.needs_roughly ? chain.done : max(chain.done, is_left_open ? core_integral_done(integral) : until);
+            const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
+            const bool is_over = is_opaque || is_stopped || is_left_open;
+            if (!is_over) {
+                core_chain_go_on(ray, chain, part, reach, from);
+            }
+            chain.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? status_at_end : chain.status;
+            goes = core_chain_goes(chain);
+            // Lanes wait for each other.
+            work = work_before + subgroupMax(work - work_before);
+            if (!goes || subgroupAny(core_chain_needs_help(chain))) {
                 break;
             }
         }
-        if (is_dismissed) {
-            core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
-        }
-        n_empty += is_dismissed ? 1u : 0u;
-        n_steps += integral.n_steps;
-        n_breakpoints += integral.n_breakpoints;
-        flags |= has_segment && core_is_model_estimated(local) ? CORE_FLAG_ESTIMATED : 0u;
-        // What is no number hides all behind it, in a colour of its own.
-        if (is_no_number) {
-            core_add_light(light, elvis_vec3(1, 0, 1), elvis_real(0));
-        }
-
-        // Where to go on: in the same element, if there was no time for all of it.
-        const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed;
-        step = is_left_open ? core_integral_step(integral) : CORE_FAR;
-        chain.done = max(chain.done, is_left_open ? core_integral_done(integral) : until);
-        const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
-        const bool is_over = is_opaque || is_stopped || is_left_open;
-        if (!is_over) {
-            core_chain_go_on(ray, chain, part, reach, from);
-        }
-        chain.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? status_at_end : chain.status;
+        core_chain_help(ray, chain, part, flags);
         goes = core_chain_goes(chain);
-        // Lanes wait for each other.
-        work = work_before + subgroupMax(work - work_before);
         if (!goes) {
             break;
         }

@@ -27,6 +27,10 @@ struct core_chain {
     uint status;
     // How often on end the element was not met where it was to be.
     uint n_lost;
+    // What few rays need (core_chain_help): where it leaves an element without bounds, and the element around it.
+    bool needs_roughly, needs_element;
+    // Where it leaves is known already, roughly.
+    bool has_part;
 };
 
 #endif

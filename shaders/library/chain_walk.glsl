@@ -4,10 +4,14 @@
 //     goes = core_chain_begin(chain, its end, its status there)
 //     while (goes) {
 //         core_reach reach = core_chain_reach(ray, chain, part): how far it is in the chain's next element
-//         the ray is in that element from reach.from to reach.leave, where what is settled already does not count
-//         core_chain_go_on(ray, chain, part, reach): the next element
+//         the ray is in that element from chain.at to reach.leave, where what is settled already does not count
+//         core_chain_go_on(ray, chain, part, reach, from): the next element
+//         core_chain_help(ray, chain, part, flags)
 //         goes = core_chain_goes(chain)
 //     }
+//
+// Few rays need help. The code for it is gone through for all of them where it stands, so kernels whose loops are long have another loop
+// inside, from which all lanes break when one needs it.
 //
 // The kernel brings library/ray_part.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
 // volume, which links are of; core_extent, the diagonal of the volume's bounds; and CORE_FOLLOWS, whether the class has elements above
@@ -144,12 +148,14 @@ struct core_reach {
     uint flags;
 };
 
-core_reach core_chain_reach(core_walk_ray ray, core_chain chain, inout core_part part) {
-    uint ending = CORE_PART_NONE;
-    const bool is_possible = core_part_begin(ray, chain.element - core_first_element, chain.at, chain.at + ray.reach, true, part);
-    ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
+core_reach core_chain_reach(core_walk_ray ray, inout core_chain chain, inout core_part part) {
+    uint ending = CORE_PART_FOUND;
+    if (!chain.has_part) {
+        const bool is_possible = core_part_begin(ray, chain.element - core_first_element, chain.at, chain.at + ray.reach, true, part);
+        ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
+    }
 #if CORE_FOLLOWS
-    if (part.curvature > CORE_FOLLOWED_CURVATURE) {
+    if (!chain.has_part && part.curvature > CORE_FOLLOWED_CURVATURE) {
         const bool is_entered = core_part_enter(ray, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed, part);
         ending = is_entered ? CORE_PART_OPEN : ending;
     }
@@ -160,41 +166,49 @@ core_reach core_chain_reach(core_walk_ray ray, core_chain chain, inout core_part
             break;
         }
     }
+    chain.needs_roughly = part.has_failed && !chain.has_part;
+    chain.has_part = false;
     core_reach reach;
-    reach.flags = 0u;
-    if (part.has_failed) {
-        core_leave_roughly(ray, chain.at, part);
-        reach.flags |= CORE_FLAG_UNDECIDED;
-        ending = CORE_PART_FOUND;
-    }
     // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
     const elvis_real gap = part.enter - chain.at - part.enter_error;
-    reach.is_met = ending == CORE_PART_FOUND && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
-    reach.flags |= reach.is_met && part.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+    reach.is_met = ending == CORE_PART_FOUND && !chain.needs_roughly && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
+    reach.flags = reach.is_met && part.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     reach.leave = reach.is_met ? max(part.leave, chain.at) : chain.at;
     return reach;
 }
 
-// The next element, where the ray has left this one. `from`: up to where it was settled when it came in. True where the face did not
-// tell, or rounding led past an edge.
-bool core_chain_go_on(core_walk_ray ray, inout core_chain chain, core_part part, core_reach reach, elvis_real from) {
-    chain.at = reach.leave;
-    const uint local = chain.element - core_first_element;
-    uint next = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
+// The next element, where the ray has left this one. `from`: up to where it was settled when it came in.
+void core_chain_go_on(core_walk_ray ray, inout core_chain chain, core_part part, core_reach reach, elvis_real from) {
+    bool stays = chain.needs_roughly;
+    chain.at = stays ? chain.at : reach.leave;
+    const uint next = elvis_fetch_core_links(chain.element - core_first_element, uint(max(part.leave_face, 0)));
     // Elements on both sides of a face that the ray grazes may hand it to and fro.
     const bool is_stuck = reach.leave - from <= elvis_real(4) * ray.tolerance;
-    const bool is_lost = !reach.is_met || part.leave_face < 0 || (is_stuck && chain.n_lost >= CORE_MOST_GRAZES);
-    if (is_lost) {
-        const elvis_real probe = chain.at + elvis_real(4) * exp2(float(min(chain.n_lost, 30u))) * ray.tolerance;
-        uint other;
-        const uint found = core_find_around(ray, local, probe, other);
-        next = found != CORE_NO_ELEMENT ? core_first_element + found : other;
-        chain.at = probe;
+    // The face did not tell, or rounding led past an edge.
+    chain.needs_element = !stays && (!reach.is_met || part.leave_face < 0 || (is_stuck && chain.n_lost >= CORE_MOST_GRAZES));
+    chain.n_lost = stays ? chain.n_lost : chain.needs_element || is_stuck ? chain.n_lost + 1u : 0u;
+    stays = stays || chain.needs_element;
+    chain.element = stays ? chain.element : next;
+    chain.status = !stays && next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+}
+
+bool core_chain_needs_help(core_chain chain) { return chain.needs_roughly || chain.needs_element; }
+
+void core_chain_help(core_walk_ray ray, inout core_chain chain, inout core_part part, inout uint flags) {
+    if (chain.needs_roughly) {
+        core_leave_roughly(ray, chain.at, part);
+        flags |= CORE_FLAG_UNDECIDED;
+        chain.has_part = true;
     }
-    chain.n_lost = is_lost || is_stuck ? chain.n_lost + 1u : 0u;
-    chain.element = next;
-    chain.status = next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
-    return is_lost;
+    if (chain.needs_element) {
+        const elvis_real probe = chain.at + elvis_real(4) * exp2(float(min(chain.n_lost - 1u, 30u))) * ray.tolerance;
+        uint other;
+        const uint found = core_find_around(ray, chain.element - core_first_element, probe, other);
+        chain.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+        chain.at = probe;
+        chain.status = chain.element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+    }
+    chain.needs_roughly = chain.needs_element = false;
 }
 
 #endif

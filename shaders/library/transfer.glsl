@@ -2,7 +2,7 @@
 // and colour are linear in the field's value less the value that the piece starts from. Values lack the field's offset.
 //
 // The kernel brings core_n_breakpoints; core_breakpoints, ascending; and core_pieces, one more than those: (from, density, its slope,
-// steepness), colour, its slope. Steepness: how much density and light per length change at most with the value, also at the
+// steepness), (colour, breakpoint below), (the colour's slope, breakpoint above). Steepness: how much density and light per length change at most with the value, also at the
 // piece's ends, but for steps.
 
 struct core_transfer_piece {
@@ -40,22 +40,21 @@ struct core_held_piece {
 };
 
 core_held_piece core_hold_piece(uint index) {
-    const bool is_first = index == 0u, is_last = index == core_n_breakpoints;
-    const core_transfer_piece piece = core_fetch_piece(index);
+    const elvis_vec4 first = core_pieces[3u * index], color = core_pieces[3u * index + 1u], slope = core_pieces[3u * index + 2u];
     core_held_piece held;
     held.index = index;
-    held.lower = is_first ? elvis_real(-3e38LF) : core_breakpoints[index - (is_first ? 0u : 1u)];
-    held.upper = is_last ? elvis_real(3e38LF) : core_breakpoints[index - (is_last ? 1u : 0u)];
-    held.from = piece.from;
-    held.density = piece.density;
-    held.density_slope = piece.density_slope;
-    held.steepness = piece.steepness;
-    held.red = piece.color.x;
-    held.green = piece.color.y;
-    held.blue = piece.color.z;
-    held.red_slope = piece.color_slope.x;
-    held.green_slope = piece.color_slope.y;
-    held.blue_slope = piece.color_slope.z;
+    held.lower = color.w;
+    held.upper = slope.w;
+    held.from = first.x;
+    held.density = first.y;
+    held.density_slope = first.z;
+    held.steepness = first.w;
+    held.red = color.x;
+    held.green = color.y;
+    held.blue = color.z;
+    held.red_slope = slope.x;
+    held.green_slope = slope.y;
+    held.blue_slope = slope.z;
     return held;
 }
 

@@ -307,33 +307,3 @@ TEMPLATE_TEST_CASE("Fits on the device are those on the CPU", "", float, double)
 }
 
 TEST_CASE("the validation layer has nothing to say about segments") { CHECK(device().validation_messages().empty()); }
-
-TEMPLATE_TEST_CASE("Tables of quadrature are the polynomials' on the device", "", float, double) {
-    constexpr int degree = 5;
-    const std::array<double, 3> points{0.1, 0.5, 0.8};
-    const std::string kernel = quadrature_glsl(degree, points) + R"(
-void main() {
-    const uint to = gl_GlobalInvocationID.x * 6u;
-    for (int i = 0; i < 3; ++i) {
-        elvis_real value = elvis_real(0), integral = elvis_real(0);
-        for (int j = 0; j < CORE_SEGMENT_SIZE; ++j) {
-            value += core_quadrature_values[i][j] * given[j];
-            integral += core_quadrature_integrals[i][j] * given[j];
-        }
-        results[to + uint(2 * i)] = value;
-        results[to + uint(2 * i + 1)] = integral;
-    }
-}
-)";
-    // t, of which the integral is t^2 / 2.
-    std::vector<TestType> given;
-    for (int i = 0; i <= degree; ++i) {
-        given.push_back(static_cast<TestType>(i) / degree);
-    }
-    const std::vector<TestType> results = run<TestType>(kernel, fixed_plan(degree), given, 6);
-    const double allowed = 8 * static_cast<double>(std::numeric_limits<TestType>::epsilon());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        CHECK(std::abs(static_cast<double>(results[2 * i]) - points[i]) <= allowed);
-        CHECK(std::abs(static_cast<double>(results[2 * i + 1]) - 0.5 * points[i] * points[i]) <= allowed);
-    }
-}

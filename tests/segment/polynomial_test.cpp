@@ -81,29 +81,3 @@ TEST_CASE("Changes of sign are counted without zeros") {
     CHECK(is_monotone(Polynomial<double>{3, {0, 1, 1, 2}}));
     CHECK(is_monotone(Polynomial<double>{2, {1, 1, 1}}));
 }
-
-TEST_CASE("Bernstein polynomials at a point give values, and their integrals those from the beginning") {
-    test::Random random(3);
-    for (int degree = 2; degree <= max_degree; ++degree) {
-        const Polynomial<double> p = to_bernstein(random.chebyshev<double>(degree));
-        for (const double t : {0.0, 0.13, 0.5, 0.9, 1.0}) {
-            const std::vector<double> values = bernstein_at(degree, t), integrals = bernstein_integrals(degree, t);
-            REQUIRE(values.size() == static_cast<std::size_t>(degree) + 1);
-            REQUIRE(integrals.size() == values.size());
-            double value = 0, integral = 0;
-            for (int i = 0; i <= degree; ++i) {
-                value += values[static_cast<std::size_t>(i)] * p[i];
-                integral += integrals[static_cast<std::size_t>(i)] * p[i];
-            }
-            CHECK(value == Approx(bernstein_value(p, t)).margin(1e-10));
-            // Simpson's rule in many parts.
-            constexpr int n = 2000;
-            double sum = 0;
-            for (int i = 0; i <= 2 * n; ++i) {
-                const double weight = i == 0 || i == 2 * n ? 1 : i % 2 == 1 ? 4 : 2;
-                sum += weight * bernstein_value(p, t * i / (2.0 * n));
-            }
-            CHECK(integral == Approx(sum * t / (6 * n)).margin(1e-9));
-        }
-    }
-}
