@@ -139,11 +139,13 @@ ordered_json describe(const RuntimeVolume& volume, const Arguments& arguments) {
     root["n_elements"] = volume.n_elements();
     root["n_faces"] = volume.n_faces();
     root["classes"] = ordered_json::array();
-    for (const ClassInfo& info : volume.classes()) {
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        const ClassInfo& info = volume.classes()[index];
         root["classes"].push_back(
             {{"shape", shape_name(info.shape)},
              {"n_elements", info.n_elements},
-             {"geometry_order", {info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]}}});
+             {"geometry_order", {info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]}},
+             {"cut", volume.is_cut(index)}});
     }
     Range bounds[3];
     std::vector<double> boxes(6 * volume.n_elements());
@@ -193,8 +195,9 @@ void print_table(const ordered_json& root) {
     std::printf("%s\n  served by %s\n  %s elements, %s faces\n", text_of(root["path"]).c_str(), text_of(root["plugin"]).c_str(),
                 root["n_elements"].dump().c_str(), root["n_faces"].dump().c_str());
     for (const ordered_json& element_class : root["classes"]) {
-        std::printf("    %s %s, geometry order %s\n", element_class["n_elements"].dump().c_str(),
-                    text_of(element_class["shape"]).c_str(), element_class["geometry_order"].dump().c_str());
+        std::printf("    %s %s, geometry order %s%s\n", element_class["n_elements"].dump().c_str(),
+                    text_of(element_class["shape"]).c_str(), element_class["geometry_order"].dump().c_str(),
+                    element_class["cut"] ? ", cut (elvis_inside)" : "");
     }
     std::printf("  bounds %s (%s)\n", root["bounds"].dump().c_str(), text_of(root["bounds_certainty"]).c_str());
     for (const ordered_json& field : root["fields"]) {

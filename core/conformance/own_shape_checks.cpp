@@ -55,7 +55,8 @@ void check_bounds(const RuntimeVolume& volume, const std::vector<SamplePoint>& a
                 change[k] = samples[j].inside_gradient[k] - s.inside_gradient[k];
                 distance[k] = std::abs(all[j].xi[k] - all[i].xi[k]);
             }
-            // Integrated along the way between them, each second derivative counts at most with the largest coordinate of the way.
+            // Integrated along the way between them, each second derivative counts at most with the largest coordinate of the
+            // way.
             const double most = s.inside_bounds[1] * *std::max_element(distance.begin(), distance.end());
             if (sum_of(change) > room * most + 1e-10 * s.inside_bounds[0]) {
                 complaints.add(place(volume, all[i]) + ": from there to " + text_of(all[j].xi) +
@@ -88,8 +89,8 @@ void check_gradient(const RuntimeVolume& volume, const DeviceSampler& sampler, c
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double size = std::abs(samples[i].inside) + samples[i].inside_bounds[0];
             if (!(std::abs(samples[i].inside_gradient[j] - expected[i][0]) <= 1e-7 * size)) {
-                complaints.add(place(volume, points[i]) + ": elvis_inside gives the derivative by xi_" + std::to_string(j) + " as " +
-                               text_of(samples[i].inside_gradient[j]) + ", differences of its values say " +
+                complaints.add(place(volume, points[i]) + ": elvis_inside gives the derivative by xi_" + std::to_string(j) +
+                               " as " + text_of(samples[i].inside_gradient[j]) + ", differences of its values say " +
                                text_of(expected[i][0]));
             }
         }

@@ -137,7 +137,8 @@ private:
             for (std::size_t field = 0; field < m_file.fields.size(); ++field) {
                 if (m_file.cells[cell].modes[field].empty()) {
                     throw api::Error(ELVIS_ERROR_FORMAT, m_path,
-                                     "there are no modes of field '" + m_file.fields[field].name + "' in cell " + std::to_string(cell));
+                                     "there are no modes of field '" + m_file.fields[field].name + "' in cell " +
+                                         std::to_string(cell));
                 }
             }
         }

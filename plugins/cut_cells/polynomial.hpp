@@ -30,8 +30,8 @@ struct PolynomialBounds {
 };
 
 /**
- * From the largest |P_n| = 1, |P_n'| = n (n+1) / 2 and |P_n''| = (n-1) n (n+1) (n+2) / 8 on [-1,1], all at the ends (DLMF 18.14):
- * sharp where one mode rules, and never wrong.
+ * From the largest |P_n| = 1, |P_n'| = n (n+1) / 2 and |P_n''| = (n-1) n (n+1) (n+2) / 8 on [-1,1], all at the ends
+ * (DLMF 18.14): sharp where one mode rules, and never wrong.
  */
 PolynomialBounds bounds_of(std::size_t order, std::span<const double> modes);
 
