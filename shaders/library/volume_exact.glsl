@@ -22,8 +22,8 @@
 #define CORE_QUADRATURE_SHARE elvis_real(0.001953125LF)
 
 // Gauss' rule with three points on [0, 1], and the integrals up to these of the parabola through the values there: with these as depths
-// the outer integral is of order 6 as well (the coefficients are those of Gauss' method for differential equations; E. Hairer, S. P. Norsett, G. Wanner, Solving
-// Ordinary Differential Equations I, table II.7.4).
+// the outer integral is of order 6 as well (the coefficients are those of Gauss' method for differential equations; E. Hairer, S. P.
+// Norsett, G. Wanner, Solving Ordinary Differential Equations I, table II.7.4).
 #define CORE_GAUSS_AT elvis_vec3(0.11270166537925831148LF, 0.5LF, 0.88729833462074168852LF)
 #define CORE_GAUSS_WEIGHTS elvis_vec3(0.27777777777777777778LF, 0.44444444444444444444LF, 0.27777777777777777778LF)
 #define CORE_GAUSS_TO_FIRST elvis_vec3(0.13888888888888888889LF, -0.03597666752493890346LF, 0.00978944401530832605LF)
@@ -194,7 +194,8 @@ void core_add_polynomial(inout core_light light, core_polynomial p, core_polynom
         const core_faded_part part =
             core_fade_part(powers, held, from, width, first - held.from, end - held.from, part_length);
         const elvis_real color_slope = max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
-        const elvis_real left = light.left, miss = left * color_slope * part.missed, of_field = left * part_length * held.steepness * error;
+        const elvis_real left = light.left, miss = left * color_slope * part.missed;
+        const elvis_real of_field = left * part_length * held.steepness * error;
         // Quadrature need not be better than the field.
         const bool is_good = miss <= max(allowed, elvis_real(0.25LF) * (miss + of_field)) || is_smallest;
         const bool is_done = is_simple && is_good, crosses = is_done && meets && !is_limited;
@@ -235,7 +236,9 @@ void core_add_polynomial(inout core_light light, core_polynomial p, core_polynom
         const bool is_beyond = is_done && !crosses && until >= to;
         first = is_done ? end : first;
         from = is_done ? until : from;
-        to = is_beyond ? min(to + elvis_real(2) * max(step, CORE_SMALLEST_CELL), elvis_real(1)) : is_simple ? to : from + elvis_real(0.5LF) * step;
+        to = is_beyond   ? min(to + elvis_real(2) * max(step, CORE_SMALLEST_CELL), elvis_real(1))
+             : is_simple ? to
+                         : from + elvis_real(0.5LF) * step;
         limit = is_done ? min(elvis_real(2) * limit, elvis_real(1)) : is_simple ? elvis_real(0.5LF) * width : limit;
         is_new = is_beyond || !is_simple;
         if (from >= elvis_real(1) || light.error > most) {

@@ -229,8 +229,8 @@ void core_integral_settle(inout core_integral integral, inout core_light light, 
         work += CORE_WORK_A_STEP;
         if (judgement.is_tried) {
             const elvis_real most = judgement.is_exhausted ? CORE_FAR : light.error + allowed;
-            core_add_polynomial(next, fitted.p, fitted.powers, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed, held, n_breakpoints,
-                                missed, work);
+            core_add_polynomial(next, fitted.p, fitted.powers, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed,
+                                held, n_breakpoints, missed, work);
         }
         // The rest is not of the polynomial's making.
         const bool is_rounding = fitted.error <= elvis_real(2) * integral.error && missed <= allowed;
