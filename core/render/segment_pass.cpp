@@ -159,6 +159,7 @@ KernelRequest SegmentPass::request_of(const ClassKernels& kernels, const char* n
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                        {"CORE_LEAF_WORD", "index"},
+                       m_chains.curved_define(kernels.element_class),
                        {"CORE_MAKES_SEGMENTS", "1"},
                        {"CORE_RAYS_ARE_GIVEN", are_given ? "1" : "0"}};
     request.bindings = {{0, BindingType::uniform_buffer}};

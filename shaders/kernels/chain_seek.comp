@@ -151,6 +151,7 @@ void main() {
                 has_entered = false;
             }
         }
+#if CORE_HAS_CURVED
         // Where bounds tell little.
         const bool is_curved = is_searching && part.curvature > CORE_FOLLOWED_CURVATURE;
         for (uint turn = 0u; turn < (is_curved && is_first && part.anchor <= from ? 1u : 0u); ++turn) {
@@ -181,6 +182,7 @@ void main() {
             }
         }
         is_searching = is_searching && !is_curved;
+#endif
         // A start that is not the one wanted is followed to where the ray leaves.
         const uint ending = is_searching ? core_part_turn(ray, is_searching, part) : CORE_PART_NONE;
         n_evaluations += is_searching ? 1u : 0u;

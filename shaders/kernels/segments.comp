@@ -45,6 +45,8 @@ layout(push_constant) uniform core_parameters {
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 256u
 #define CORE_WORK_LIMIT 2500u
+// How often it may be lost in one dispatch.
+#define CORE_MOST_LEGS 16u
 // Over the tolerance of ends: how far apart parts of a chain may be where a ray runs through edges.
 #define CORE_WIDEST_BREAK 64
 
@@ -69,40 +71,46 @@ void main() {
     part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
     part.turns = 0u;
     const uint most = core_capacity > 0u ? core_capacity : 0xffffffffu;
-    while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
-        n_elements += 1u;
-        const core_reach reach = core_chain_reach(ray, chain, part);
-        flags |= reach.flags;
-        n_evaluations += part.turns;
-        n_failures += part.has_failed ? 1u : 0u;
-        const elvis_real leave_error = reach.is_met ? part.leave_error : chain_error;
-        const elvis_real errors = done_error + leave_error;
-        // A chain that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
-        const elvis_real rounding = elvis_real(2) * (done_error + chain_error), gap = chain.at - chain.done;
-        const bool is_joined = gap <= max(rounding, (is_first ? elvis_real(1) : elvis_real(CORE_WIDEST_BREAK)) * ray.tolerance);
-        const bool is_behind = gap < elvis_real(0);
-        n_overlaps += reach.is_met && gap < -rounding && reach.leave - chain.at > errors ? 1u : 0u;
-        const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
-        // What was settled before but for rounding does not count.
-        const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
-        for (uint turn = 0u; turn < (is_segment && core_capacity > 0u ? 1u : 0u); ++turn) {
-            const uint word = chain.element | (part.is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
-            core_segments[index * core_capacity + n_segments] =
-                core_segment(from, until, max(is_joined ? done_error : chain_error, leave_error), word);
+    for (uint leg = 0u; leg < CORE_MOST_LEGS && (goes || chain.status == CORE_RAY_IS_LOST); ++leg) {
+        while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
+            n_elements += 1u;
+            const core_reach reach = core_chain_reach(ray, chain, part);
+            flags |= reach.flags;
+            n_evaluations += part.turns;
+            n_failures += part.has_failed ? 1u : 0u;
+            const elvis_real leave_error = reach.is_met ? part.leave_error : chain_error;
+            const elvis_real errors = done_error + leave_error;
+            // A chain that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
+            const elvis_real rounding = elvis_real(2) * (done_error + chain_error), gap = chain.at - chain.done;
+            const bool is_joined = gap <= max(rounding, (is_first ? elvis_real(1) : elvis_real(CORE_WIDEST_BREAK)) * ray.tolerance);
+            const bool is_behind = gap < elvis_real(0);
+            n_overlaps += reach.is_met && gap < -rounding && reach.leave - chain.at > errors ? 1u : 0u;
+            const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
+            // What was settled before but for rounding does not count.
+            const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
+            for (uint turn = 0u; turn < (is_segment && core_capacity > 0u ? 1u : 0u); ++turn) {
+                const uint word = chain.element | (part.is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
+                core_segments[index * core_capacity + n_segments] =
+                    core_segment(from, until, max(is_joined ? done_error : chain_error, leave_error), word);
+            }
+            sum += is_segment ? until - from : elvis_real(0);
+            n_segments += is_segment ? 1u : 0u;
+            n_made += is_segment ? 1u : 0u;
+            n_estimated += is_segment && part.is_estimated ? 1u : 0u;
+            chain.done = is_segment ? until : chain.done;
+            done_error = is_segment ? leave_error : done_error;
+            chain_error = leave_error;
+            is_first = false;
+            const bool is_over = reach.is_met && reach.leave >= to;
+            core_chain_go_on(ray, chain, part, reach, from);
+            chain.status = is_over ? CORE_RAY_ENDS : chain.status;
+            goes = core_chain_goes(chain);
         }
-        sum += is_segment ? until - from : elvis_real(0);
-        n_segments += is_segment ? 1u : 0u;
-        n_made += is_segment ? 1u : 0u;
-        n_estimated += is_segment && part.is_estimated ? 1u : 0u;
-        chain.done = is_segment ? until : chain.done;
-        done_error = is_segment ? leave_error : done_error;
-        chain_error = leave_error;
-        is_first = false;
-        const bool is_over = reach.is_met && reach.leave >= to;
-        for (uint turn = 0u; turn < (is_over ? 0u : 1u); ++turn) {
-            n_breaks += core_chain_go_on(ray, chain, part, reach, from) ? 1u : 0u;
+        // Apart, because it makes the loop above slower (library/chain_walk.glsl).
+        for (uint turn = 0u; turn < (chain.status == CORE_RAY_IS_LOST ? 1u : 0u); ++turn) {
+            core_chain_find(ray, chain);
+            n_breaks += 1u;
         }
-        chain.status = is_over ? CORE_RAY_ENDS : chain.status;
         goes = core_chain_goes(chain);
     }
     const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = chain.status == CORE_RAY_SEEKS;

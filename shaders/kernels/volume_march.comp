@@ -198,6 +198,9 @@ void main() {
         for (uint turn = 0u; turn < (is_over ? 0u : 1u); ++turn) {
             core_chain_go_on(ray, chain, part, reach, from);
         }
+        for (uint turn = 0u; turn < (chain.status == CORE_RAY_IS_LOST ? 1u : 0u); ++turn) {
+            core_chain_find(ray, chain);
+        }
         chain.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? status_at_end : chain.status;
         goes = core_chain_goes(chain);
         // Lanes wait for each other.

@@ -14,6 +14,8 @@
 #define CORE_RAY_WAITS 3u
 // All starts of the classes that have been asked so far are looked through.
 #define CORE_RAY_HAS_SOUGHT 4u
+// Where the next element is to be looked for around the ray; only within a dispatch.
+#define CORE_RAY_IS_LOST 5u
 
 #define CORE_NO_ELEMENT 0xffffffffu
 #define CORE_NO_LINK 0xffffffffu

@@ -5,9 +5,13 @@
 //     while (goes) {
 //         core_reach reach = core_chain_reach(ray, chain, part): how far it is in the chain's next element
 //         the ray is in that element from reach.from to reach.leave, where what is settled already does not count
-//         core_chain_go_on(ray, chain, part, reach): the next element
+//         core_chain_go_on(ray, chain, part, reach, reach.from): the next element
+//         core_chain_find(ray, chain) if the ray is lost then
 //         goes = core_chain_goes(chain)
 //     }
+//
+// Rays are hardly ever lost, but a loop with core_chain_find() in it takes half as long again: a kernel with little else to do has it
+// outside, in a loop around that one.
 //
 // The kernel brings library/ray_part.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
 // volume, which links are of; and core_extent, the diagonal of the volume's bounds.
@@ -144,10 +148,12 @@ core_reach core_chain_reach(core_walk_ray ray, core_chain chain, inout core_part
         const bool is_possible = core_part_begin(ray, chain.element - core_first_element, chain.at, chain.at + ray.reach, true, part);
         ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
     }
+#if CORE_HAS_CURVED
     for (uint turn = 0u; turn < (part.curvature > CORE_FOLLOWED_CURVATURE ? 1u : 0u); ++turn) {
         const bool is_entered = core_part_enter(ray, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed, part);
         ending = is_entered ? CORE_PART_OPEN : ending;
     }
+#endif
     while (ending == CORE_PART_OPEN) {
         ending = core_part_turn(ray, true, part);
     }
@@ -166,26 +172,26 @@ core_reach core_chain_reach(core_walk_ray ray, core_chain chain, inout core_part
     return reach;
 }
 
-// The next element, where the ray has left this one. `from`: up to where it was settled when it came in. True where the face did not
-// tell, or rounding led past an edge.
-bool core_chain_go_on(core_walk_ray ray, inout core_chain chain, core_part part, core_reach reach, elvis_real from) {
+// The next element, where the ray has left this one; CORE_RAY_IS_LOST where the face does not tell, or rounding led past an edge. `from`:
+// up to where it was settled when it came in.
+void core_chain_go_on(core_walk_ray ray, inout core_chain chain, core_part part, core_reach reach, elvis_real from) {
     chain.at = reach.leave;
-    const uint local = chain.element - core_first_element;
-    uint next = elvis_fetch_core_links(local, uint(max(part.leave_face, 0)));
+    const uint next = elvis_fetch_core_links(chain.element - core_first_element, uint(max(part.leave_face, 0)));
     // Elements on both sides of a face that the ray grazes may hand it to and fro.
     const bool is_stuck = reach.leave - from <= elvis_real(4) * ray.tolerance;
     const bool is_lost = !reach.is_met || part.leave_face < 0 || (is_stuck && chain.n_lost >= CORE_MOST_GRAZES);
-    for (uint turn = 0u; turn < (is_lost ? 1u : 0u); ++turn) {
-        const elvis_real probe = chain.at + elvis_real(4) * exp2(float(min(chain.n_lost, 30u))) * ray.tolerance;
-        uint other;
-        const uint found = core_find_around(ray, local, probe, other);
-        next = found != CORE_NO_ELEMENT ? core_first_element + found : other;
-        chain.at = probe;
-    }
     chain.n_lost = is_lost || is_stuck ? chain.n_lost + 1u : 0u;
-    chain.element = next;
-    chain.status = next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
-    return is_lost;
+    chain.element = is_lost ? chain.element : next;
+    chain.status = is_lost ? CORE_RAY_IS_LOST : next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+}
+
+// For a ray that is lost: the element around it a little further on, farther every time.
+void core_chain_find(core_walk_ray ray, inout core_chain chain) {
+    chain.at += elvis_real(4) * exp2(float(min(chain.n_lost, 30u) - 1u)) * ray.tolerance;
+    uint other;
+    const uint found = core_find_around(ray, chain.element - core_first_element, chain.at, other);
+    chain.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+    chain.status = chain.element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
 }
 
 #endif

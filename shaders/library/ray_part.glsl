@@ -39,6 +39,10 @@
 // Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's neighbourhood are
 // taken for each other.
 #define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
+// Whether there may be such elements: code for them makes loops slower even where it is not reached.
+#ifndef CORE_HAS_CURVED
+#define CORE_HAS_CURVED 1
+#endif
 
 #define CORE_PART_OPEN 0u
 #define CORE_PART_FOUND 1u
