@@ -62,13 +62,15 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real s
                             elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;
     const elvis_real tiny = elvis_real(1e-30LF);
+    // Over the length of the shape, however short the interval: else every face would be one that the ray runs along in the end.
+    const elvis_real length = max(high - low, elvis_real(1) / max(core_max_norm(model.slope), tiny));
     core_ray_clip clip = core_ray_clip(low, high, low, high, low, high, CORE_NO_FACE, CORE_NO_FACE);
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
         const elvis_vec3 size = abs(constraint.xyz);
         const elvis_real noise = dot(size, model.noise);
         const elvis_real slope = dot(constraint.xyz, model.slope);
-        const bool is_along = abs(slope) * (high - low) <= noise;
+        const bool is_along = abs(slope) * length <= noise;
         const elvis_real value = dot(constraint.xyz, model.at) + constraint.w - (is_along ? elvis_real(3) * noise : elvis_real(0));
         const elvis_real slack = (size.x + size.y + size.z) * error + (is_along ? elvis_real(0) : noise);
         const bool is_leaving = slope >= elvis_real(0);
