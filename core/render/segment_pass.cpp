@@ -55,7 +55,7 @@ template <class Real> struct RayState {
     Real done_error = 0, chain_error = 0, sum = 0;
     std::uint32_t start_element = no_element, element = no_element;
     std::uint32_t status = ray_seeks, flags = 0;
-    std::uint32_t n_segments = 0, padding = 0;
+    std::uint32_t n_segments = 0, is_estimated = 0;
 };
 
 template <class Real> struct SegmentRecord {

@@ -62,6 +62,7 @@ void main() {
     bool is_mine;
     bool goes = core_chain_begin(chain, to, CORE_RAY_ENDS, is_mine);
     elvis_real done_error = state.done_error, chain_error = state.chain_error, sum = state.sum;
+    bool is_done_estimated = state.is_estimated != 0u;
     bool is_first = is_mine && chain.at == chain.start;
     uint n_segments = state.n_segments, flags = 0u;
     uint n_elements = 0u, n_made = 0u, n_evaluations = 0u, n_overlaps = 0u, n_failures = 0u, n_estimated = 0u, n_breaks = 0u;
@@ -88,16 +89,18 @@ void main() {
             const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
             // What was settled before but for rounding does not count.
             const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
+            const bool is_estimated = part.is_estimated || (is_joined && is_done_estimated);
             for (uint turn = 0u; turn < (is_segment && core_capacity > 0u ? 1u : 0u); ++turn) {
-                const uint word = chain.element | (part.is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
+                const uint word = chain.element | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
                 core_segments[index * core_capacity + n_segments] =
                     core_segment(from, until, max(is_joined ? done_error : chain_error, leave_error), word);
             }
             sum += is_segment ? until - from : elvis_real(0);
             n_segments += is_segment ? 1u : 0u;
             n_made += is_segment ? 1u : 0u;
-            n_estimated += is_segment && part.is_estimated ? 1u : 0u;
+            n_estimated += is_segment && is_estimated ? 1u : 0u;
             chain.done = is_segment ? until : chain.done;
+            is_done_estimated = is_segment ? part.is_estimated : is_done_estimated || (reach.is_met && part.is_estimated);
             done_error = is_segment ? leave_error : done_error;
             chain_error = leave_error;
             is_first = false;
@@ -128,6 +131,7 @@ void main() {
         state.status = is_cut_short ? CORE_RAY_ENDS : chain.status;
         state.flags |= flags;
         state.n_segments = n_segments;
+        state.is_estimated = is_done_estimated ? 1u : 0u;
         core_states[index] = state;
     }
     const uint all_moved = subgroupAdd(is_mine ? 1u : 0u), all_segments = subgroupAdd(n_made), all_evaluations = subgroupAdd(n_evaluations);
