@@ -55,7 +55,7 @@ template <class Real> struct RayState {
     Real done_error = 0, chain_error = 0, sum = 0;
     std::uint32_t start_element = no_element, element = no_element;
     std::uint32_t status = ray_seeks, flags = 0;
-    std::uint32_t n_segments = 0, padding = 0;
+    std::uint32_t n_segments = 0, is_estimated = 0;
 };
 
 template <class Real> struct SegmentRecord {
@@ -158,8 +158,8 @@ KernelRequest SegmentPass::request_of(const ClassKernels& kernels, const char* n
     }
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                       {"CORE_FOLLOWS", m_chains.has_strongly_curved(kernels.element_class) ? "1" : "0"},
                        {"CORE_LEAF_WORD", "index"},
+                       m_chains.curved_define(kernels.element_class),
                        {"CORE_MAKES_SEGMENTS", "1"},
                        {"CORE_RAYS_ARE_GIVEN", are_given ? "1" : "0"}};
     request.bindings = {{0, BindingType::uniform_buffer}};

@@ -36,7 +36,7 @@ struct Segment {
     double error = 0;
     /** In the volume's order. */
     std::uint64_t element = 0;
-    /** Its ends do not rest on a known curvature of the element. */
+    /** Its ends do not rest on a known curvature of the element, or of the one before, whose end is its beginning. */
     bool is_estimated = false;
 };
 

@@ -151,8 +151,8 @@ KernelRequest VolumePass::request_of(const ClassKernels& kernels, const char* na
     }
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                       {"CORE_FOLLOWS", m_chains.has_strongly_curved(kernels.element_class) ? "1" : "0"},
-                       {"CORE_LEAF_WORD", "index"}};
+                       {"CORE_LEAF_WORD", "index"},
+                       m_chains.curved_define(kernels.element_class)};
     request.bindings = {{0, BindingType::uniform_buffer}};
     return request;
 }

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::uint32_t place_of_curvature = 7;
 constexpr std::uint32_t words_a_node = 8;
+/** CORE_FOLLOWED_CURVATURE of shaders/library/ray_part.glsl. */
+constexpr float followed_curvature = 0.25f;
 /** Elements asked for at once. */
 constexpr std::uint64_t block = 1u << 16;
 
@@ -58,11 +60,6 @@ ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, 
         }
     }
     keep_only({});
-}
-
-bool ElementChains::has_strongly_curved(std::uint32_t element_class) const {
-    constexpr float followed_curvature = 0.25f;
-    return !std::ranges::all_of(m_data.curvatures(element_class), [](float curvature) { return curvature <= followed_curvature; });
 }
 
 bool ElementChains::is_kept(std::uint32_t element) const {
@@ -148,6 +145,12 @@ template <class CanStart> void ElementChains::choose_starts(const CanStart& can_
         std::memcpy(words.data(), nodes.data(), nodes.size() * sizeof(HierarchyNode));
         chains.nodes->write_uints(0, words);
     }
+}
+
+std::pair<std::string, std::string> ElementChains::curved_define(std::uint32_t element_class) const {
+    const bool is_curved =
+        std::ranges::any_of(m_data.curvatures(element_class), [](float curvature) { return curvature > followed_curvature; });
+    return {"CORE_HAS_CURVED", is_curved ? "1" : "0"};
 }
 
 std::vector<FetchBuffer> ElementChains::host_buffers(std::uint32_t element_class) const {

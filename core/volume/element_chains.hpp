@@ -12,6 +12,8 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -47,11 +49,8 @@ public:
      * Valid as long as this. Of classes with elements.
      */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
-    /**
-     * Whether the class has elements in which rays must be followed from where they enter (CORE_FOLLOWED_CURVATURE in
-     * shaders/library/ray_part.glsl). Kernels of classes without do not have the code for it, which would cost time even unused.
-     */
-    bool has_strongly_curved(std::uint32_t element_class) const;
+    /** CORE_HAS_CURVED for kernels on the class's elements: whether rays have to be followed in any of them (shaders/library/ray_part.glsl). */
+    std::pair<std::string, std::string> curved_define(std::uint32_t element_class) const;
     std::uint64_t n_starts(std::uint32_t element_class) const { return m_classes[element_class].n_starts; }
 
 private:

@@ -37,7 +37,7 @@ layout(push_constant) uniform core_parameters {
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
 #include "library/chain_start.glsl"
-#if CORE_FOLLOWS
+#if CORE_HAS_CURVED
 #include "library/curved_start.glsl"
 #endif
 
@@ -147,7 +147,7 @@ void main() {
                 break;
             }
         }
-#if CORE_FOLLOWS
+#if CORE_HAS_CURVED
         // Where bounds tell little.
         const bool is_curved = is_searching && part.curvature > CORE_FOLLOWED_CURVATURE;
         if (is_curved && is_first && part.anchor <= from) {

@@ -60,6 +60,7 @@ void main() {
     bool is_mine;
     bool goes = core_chain_begin(chain, to, CORE_RAY_ENDS, is_mine);
     elvis_real done_error = state.done_error, chain_error = state.chain_error, sum = state.sum;
+    bool is_done_estimated = state.is_estimated != 0u;
     bool is_first = is_mine && chain.at == chain.start;
     uint n_segments = state.n_segments, flags = 0u;
     uint n_elements = 0u, n_made = 0u, n_evaluations = 0u, n_overlaps = 0u, n_failures = 0u, n_estimated = 0u, n_breaks = 0u;
@@ -69,43 +70,55 @@ void main() {
     part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
     part.turns = 0u;
     const uint most = core_capacity > 0u ? core_capacity : 0xffffffffu;
+    // What few rays need stands outside of the loop over elements (library/chain_walk.glsl).
     while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
-        n_elements += 1u;
-        const core_reach reach = core_chain_reach(ray, chain, part);
-        flags |= reach.flags;
-        n_evaluations += part.turns;
-        n_failures += chain.needs_roughly ? 1u : 0u;
-        const elvis_real leave_error = reach.is_met ? part.leave_error : chain_error;
-        const elvis_real errors = done_error + leave_error;
-        // A chain that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
-        const elvis_real rounding = elvis_real(2) * (done_error + chain_error), gap = chain.at - chain.done;
-        const bool is_joined = gap <= max(rounding, (is_first ? elvis_real(1) : elvis_real(CORE_WIDEST_BREAK)) * ray.tolerance);
-        const bool is_behind = gap < elvis_real(0);
-        n_overlaps += reach.is_met && gap < -rounding && reach.leave - chain.at > errors ? 1u : 0u;
-        const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
-        // What was settled before but for rounding does not count.
-        const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
-        for (uint turn = 0u; turn < (is_segment && core_capacity > 0u ? 1u : 0u); ++turn) {
-            const uint word = chain.element | (part.is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
-            core_segments[index * core_capacity + n_segments] =
-                core_segment(from, until, max(is_joined ? done_error : chain_error, leave_error), word);
-        }
-        sum += is_segment ? until - from : elvis_real(0);
-        n_segments += is_segment ? 1u : 0u;
-        n_made += is_segment ? 1u : 0u;
-        n_estimated += is_segment && part.is_estimated ? 1u : 0u;
-        chain.done = is_segment ? until : chain.done;
-        done_error = is_segment ? leave_error : done_error;
-        chain_error = leave_error;
-        is_first = is_first && chain.needs_roughly;
-        const bool is_over = reach.is_met && reach.leave >= to;
-        if (!is_over) {
-            core_chain_go_on(ray, chain, part, reach, from);
+        while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
+            n_elements += 1u;
+            const core_reach reach = core_chain_reach(ray, chain, part);
+            flags |= reach.flags;
+            n_evaluations += part.turns;
+            n_failures += chain.needs_roughly ? 1u : 0u;
+            const elvis_real leave_error = reach.is_met ? part.leave_error : chain_error;
+            const elvis_real errors = done_error + leave_error;
+            // A chain that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
+            const elvis_real rounding = elvis_real(2) * (done_error + chain_error), gap = chain.at - chain.done;
+            const bool is_joined = gap <= max(rounding, (is_first ? elvis_real(1) : elvis_real(CORE_WIDEST_BREAK)) * ray.tolerance);
+            const bool is_behind = gap < elvis_real(0);
+            n_overlaps += reach.is_met && gap < -rounding && reach.leave - chain.at > errors ? 1u : 0u;
+            const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
+            // What was settled before but for rounding does not count.
+            const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
+            const bool is_estimated = part.is_estimated || (is_joined && is_done_estimated);
+            if (is_segment && core_capacity > 0u) {
+                const uint word = chain.element | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
+                core_segments[index * core_capacity + n_segments] =
+                    core_segment(from, until, max(is_joined ? done_error : chain_error, leave_error), word);
+            }
+            sum += is_segment ? until - from : elvis_real(0);
+            n_segments += is_segment ? 1u : 0u;
+            n_made += is_segment ? 1u : 0u;
+            n_estimated += is_segment && is_estimated ? 1u : 0u;
+            chain.done = is_segment ? until : chain.done;
+            is_done_estimated = is_segment ? part.is_estimated : is_done_estimated || (reach.is_met && part.is_estimated);
+            done_error = is_segment ? leave_error : done_error;
+            chain_error = leave_error;
+            is_first = is_first && chain.needs_roughly;
+            const bool is_over = reach.is_met && reach.leave >= to;
+            if (!is_over) {
+                core_chain_go_on(ray, chain, part, reach, from);
+            }
             n_breaks += chain.needs_element ? 1u : 0u;
+            chain.status = is_over ? CORE_RAY_ENDS : chain.status;
+            goes = core_chain_goes(chain);
+            if (!goes || subgroupAny(core_chain_needs_help(chain))) {
+                break;
+            }
         }
         core_chain_help(ray, chain, part, flags);
-        chain.status = is_over ? CORE_RAY_ENDS : chain.status;
         goes = core_chain_goes(chain);
+        if (!goes) {
+            break;
+        }
     }
     const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = chain.status == CORE_RAY_SEEKS;
     const bool is_full = n_segments >= most;
@@ -122,6 +135,7 @@ void main() {
         state.status = is_cut_short ? CORE_RAY_ENDS : chain.status;
         state.flags |= flags;
         state.n_segments = n_segments;
+        state.is_estimated = is_done_estimated ? 1u : 0u;
         core_states[index] = state;
     }
     const uint all_moved = subgroupAdd(is_mine ? 1u : 0u), all_segments = subgroupAdd(n_made), all_evaluations = subgroupAdd(n_evaluations);

@@ -14,8 +14,7 @@
 // inside, from which all lanes break when one needs it.
 //
 // The kernel brings library/ray_part.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
-// volume, which links are of; core_extent, the diagonal of the volume's bounds; and CORE_FOLLOWS, whether the class has elements above
-// CORE_FOLLOWED_CURVATURE.
+// volume, which links are of; core_extent, the diagonal of the volume's bounds.
 
 #ifndef CORE_CHAIN_WALK
 #define CORE_CHAIN_WALK
@@ -154,7 +153,7 @@ core_reach core_chain_reach(core_walk_ray ray, inout core_chain chain, inout cor
         const bool is_possible = core_part_begin(ray, chain.element - core_first_element, chain.at, chain.at + ray.reach, true, part);
         ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
     }
-#if CORE_FOLLOWS
+#if CORE_HAS_CURVED
     if (!chain.has_part && part.curvature > CORE_FOLLOWED_CURVATURE) {
         const bool is_entered = core_part_enter(ray, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed, part);
         ending = is_entered ? CORE_PART_OPEN : ending;

@@ -115,6 +115,8 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real s
                             elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;
     const elvis_real tiny = elvis_real(1e-30LF);
+    // Over the length of the shape, however short the interval: else every face would be one that the ray runs along in the end.
+    const elvis_real length = max(high - low, elvis_real(1) / max(core_max_norm(model.slope), tiny));
     core_ray_clip clip;
     clip.possible_from = clip.sure_from = clip.from = low;
     clip.possible_to = clip.sure_to = clip.to = high;
@@ -124,7 +126,7 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real s
         const elvis_vec3 size = abs(constraint.xyz);
         const elvis_real noise = core_side_noise(model, face);
         const elvis_real slope = dot(constraint.xyz, model.slope);
-        const bool is_along = face < CORE_N_FACES && abs(slope) * (high - low) <= noise;
+        const bool is_along = face < CORE_N_FACES && abs(slope) * length <= noise;
         const elvis_real value = dot(constraint.xyz, model.at) + constraint.w - (is_along ? elvis_real(3) * noise : elvis_real(0));
         const elvis_real slack = (size.x + size.y + size.z) * error + core_interval_bend(model, face) +
                                  (is_along ? elvis_real(0) : noise);

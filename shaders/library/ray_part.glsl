@@ -45,6 +45,10 @@
 #define CORE_MOST_BLUR elvis_real(64)
 // Cut elements have ends of two kinds, and are asked for more of both.
 #define CORE_TURNS_SHARE (1u + 2u * uint(ELVIS_HAS_INSIDE))
+// Whether there may be such elements: code for them makes loops slower even where it is not reached.
+#ifndef CORE_HAS_CURVED
+#define CORE_HAS_CURVED 1
+#endif
 
 #define CORE_PART_OPEN 0u
 #define CORE_PART_FOUND 1u

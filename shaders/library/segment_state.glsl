@@ -14,7 +14,9 @@ struct core_segment_state {
     uint start_element, element;
     uint status, flags;
     // In the ray's list.
-    uint n_segments, padding;
+    uint n_segments;
+    // Whether `done` rests on an estimate.
+    uint is_estimated;
 };
 
 #endif

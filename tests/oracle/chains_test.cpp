@@ -90,4 +90,28 @@ TEST_CASE("rays start in elements with an open face, and around the eye") {
     CHECK(chains.n_starts(0) == 26);
 }
 
+TEST_CASE("where elements are left out, rays start beside them") {
+    const TemporaryFile file("left_out.h5");
+    generate(R"({"generator": 1, "mesh": "box", "elements": 5, "order": 1, "field": "waves"})", file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    const Device device;
+    DeviceVolume data(device, volume, Precision::float32, nullptr);
+    data.select(0, 0, {0});
+    ElementChains chains(device, volume, data);
+    const ViewStart outside{{9, 0, 0}, {}};
+    chains.look_from(outside);
+    CHECK(chains.n_starts(0) == 125 - 27);
+    // The one in the middle: its six neighbours have an open face now.
+    std::vector<bool> kept(125, true);
+    kept[62] = false;
+    chains.keep_only({kept});
+    chains.look_from(outside);
+    CHECK(chains.n_starts(0) == 125 - 27 + 6);
+    chains.look_from_anywhere();
+    CHECK(chains.n_starts(0) == 124);
+    chains.keep_only({});
+    chains.look_from(outside);
+    CHECK(chains.n_starts(0) == 125 - 27);
+}
+
 } // namespace elvis::oracle

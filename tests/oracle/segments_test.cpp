@@ -26,8 +26,7 @@ void check(const std::string& path, Precision precision, std::size_t n_rays) {
     CHECK(r.n_missed == 0);
     CHECK(r.n_invented == 0);
     CHECK(r.counts.failures <= r.n_segments / 1000);
-    // In single precision a few ends in tetrahedra are off by half as much again.
-    CHECK(r.n_beyond <= (precision == Precision::float64 ? 0 : r.n_segments / 2000));
+    CHECK(r.n_beyond == 0);
     CHECK(r.n_almost_joined <= r.n_segments / 2000);
 }
 
@@ -60,12 +59,15 @@ TEST_CASE("ends of segments lie on the elements' boundaries, and nothing is miss
     const auto [mesh, shape] = GENERATE(table<std::string, std::string>({{"waves", "hexahedron"},
                                                                         {"ball", "hexahedron"},
                                                                         {"ball", "tetrahedron"},
-                                                                        {"torus", "prism"}}));
+                                                                        {"torus", "prism"},
+                                                                        // So curved that a point outside of an element may be taken for the ray's.
+                                                                        {"torus", "pyramid"},
+                                                                        {"torus", "tetrahedron"}}));
     const TemporaryFile file("mesh.h5");
     generate(R"({"generator": 1, "mesh": ")" + mesh + R"(", "shape": ")" + shape +
                  R"(", "elements": [4, 4, 12], "geometry_order": 2, "order": 1, "field": "waves"})",
              file.path());
-    check(file.path(), GENERATE(Precision::float32, Precision::float64), 100);
+    check(file.path(), GENERATE(Precision::float32, Precision::float64), 60);
 }
 
 TEST_CASE("classes of elements are merged along the ray", "[segments]") {
@@ -98,6 +100,48 @@ TEST_CASE("the element that is entered first owns the ray to its exit", "[segmen
     CHECK(list[1].enter == list[0].leave);
     CHECK(list[1].leave == Approx(2));
     CHECK(counts.overlaps == 2);
+}
+
+TEST_CASE("rays that start inside have segments from there, and end where they are to", "[segments]") {
+    const TemporaryFile file("inside.h5");
+    write_volume(file.path(), hexahedra(boxes({0, 0, 0}, {4, 1, 1}, {4, 1, 1})));
+    const RuntimeVolume volume = open_volume(file.path());
+    DeviceVolume data(device(), volume, Precision::float64, nullptr);
+    data.select(0, 0, {0.0});
+    SegmentPass pass(device(), volume, data);
+    SegmentRay ray = near_centre({1.25, 0.3, 0.4}, {2, 0.3, 0.4}, data.centre(), Precision::float64);
+    ray.to = ray.from + 1.5;
+    SegmentCounts counts;
+    const std::vector<Segment> list = pass.lists(std::span(&ray, 1), counts).front();
+    REQUIRE(list.size() == 2);
+    CHECK(list[0].element == 1);
+    CHECK(list[0].enter == ray.from);
+    CHECK(list[0].leave == list[1].enter);
+    CHECK(list[1].leave == ray.to);
+}
+
+TEST_CASE("the lengths of pixels' segments are the chord", "[segments]") {
+    const TemporaryFile file("lengths.h5");
+    write_volume(file.path(), hexahedra(boxes({0, 0, 0}, {4, 1, 1}, {4, 1, 1})));
+    const RuntimeVolume volume = open_volume(file.path());
+    DeviceVolume data(device(), volume, Precision::float64, nullptr);
+    data.select(0, 0, {0.0});
+    SegmentPass pass(device(), volume, data);
+    Camera camera;
+    camera.eye = {-10, 0.5, 0.5};
+    camera.look_at = {0, 0.5, 0.5};
+    camera.up = {0, 0, 1};
+    camera.field_of_view = 4;
+    CutPlane plane;
+    plane.plane = {1, 0, 0, -1};
+    const CutPlaneGeometry view = cut_plane_geometry(plane, camera, 9, 9, data.centre());
+    SegmentCounts counts;
+    const std::vector<double> lengths = pass.lengths(view, {camera.eye, {}}, 9, 9, counts);
+    REQUIRE(lengths.size() == 81);
+    // Along the axis of view the whole row, for every ray that meets no side.
+    CHECK(lengths[40] == Approx(4).epsilon(1e-12));
+    CHECK(lengths[41] == Approx(4).epsilon(1e-12));
+    CHECK(counts.given_up == 0);
 }
 
 TEST_CASE("a ray in a face that elements share has one segment", "[segments]") {
