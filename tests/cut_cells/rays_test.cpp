@@ -17,7 +17,7 @@ TEST_CASE("the parts of rays in a cut ball are its chords") {
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
     DeviceVolume data(device(), volume, precision, nullptr);
     data.select(0, 0, {0.0});
-    const SegmentPass pass(device(), volume, data);
+    SegmentPass pass(device(), volume, data);
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> uniform(-1, 1);
     std::vector<SegmentRay> rays;
@@ -169,7 +169,7 @@ TEST_CASE("parts of rays in a cut gyroid are where its level set is not positive
     const RuntimeVolume volume = open(gyroid);
     DeviceVolume data(device(), volume, Precision::float64, nullptr);
     data.select(0, 0, {0.0});
-    const SegmentPass pass(device(), volume, data);
+    SegmentPass pass(device(), volume, data);
     const LevelSet level(volume, 5);
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> uniform(-3, 3);
