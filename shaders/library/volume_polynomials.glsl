@@ -35,6 +35,8 @@
 #define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
 // Share of how far the field may be from a line that a cubic is taken to be off at least.
 #define CORE_CUBIC_DOUBT elvis_real(0.0625LF)
+// The same of a quintic where density or light have steps: a short part beyond one that is missed is much light, and no slope tells of it.
+#define CORE_QUINTIC_DOUBT elvis_real(CORE_HAS_STEPS == 1 ? 0.00390625LF : 0.0LF)
 #define CORE_MARGIN elvis_real(15)
 // Share of what a step may be off that a line may be.
 #define CORE_LINE_SHARE elvis_real(0.125LF)
@@ -145,7 +147,7 @@ core_fitted core_fit_step(core_integral integral) {
     const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
     const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
     const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
-    const elvis_real of_quintic = CORE_MARGIN * last * decay / (elvis_real(1) - decay);
+    const elvis_real of_quintic = max(CORE_MARGIN * last * decay / (elvis_real(1) - decay), CORE_QUINTIC_DOUBT * integral.bend);
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_DOUBT * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
