@@ -91,7 +91,7 @@ class Source:
         X.XSendEvent(self.display, request.requestor, 0, 0, ctypes.byref(event))
         X.XFlush(self.display)
 
-    def drop(self, paths, seconds=20):
+    def drop(self, paths, seconds=10):
         """Returns whether the window took it."""
         text = "".join(pathlib.Path(os.path.abspath(path)).as_uri() + "\r\n" for path in paths).encode()
         target, x, y = self.below_cursor()
@@ -113,6 +113,7 @@ class Source:
                 self.send(target, "XdndDrop", [self.window, 0, 0, 0, 0])
             elif event.type == CLIENT_MESSAGE and event.client.message_type == self.atom("XdndFinished"):
                 return bool(event.client.data[1] & 1)
+        print(f"no answer of window {target} at {x}, {y}", file=sys.stderr)
         return False
 
 
