@@ -112,8 +112,8 @@ class Source:
                     return False
                 self.send(target, "XdndDrop", [self.window, 0, 0, 0, 0])
             elif event.type == CLIENT_MESSAGE and event.client.message_type == self.atom("XdndFinished"):
-                return bool(event.client.data[1] & 1)
-        print(f"no answer of window {target} at {x}, {y}", file=sys.stderr)
+                # Bit 0 by the protocol; GLFW gives the number of bytes that it took.
+                return event.client.data[1] != 0
         return False
 
 

@@ -166,11 +166,7 @@ def drops(window):
     """A file comes by the protocol that file managers speak."""
     window.xdotool("mousemove", *window.place("view"))
     program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "dnd.py")
-    # On a busy machine a message of the protocol may come too late: people drop a file again then.
-    for _ in range(3):
-        done = subprocess.run([sys.executable, program, "ball.h5"], env=window.environment, capture_output=True, text=True)
-        if done.returncode == 0:
-            break
+    done = subprocess.run([sys.executable, program, "ball.h5"], env=window.environment, capture_output=True, text=True)
     require(done.returncode == 0, f"the window does not take a file: {done.stderr}")
     window.wait_for(lambda screen: screen["volume"].endswith("ball.h5"), "the volume that was dropped")
     window.settle()
