@@ -9,9 +9,6 @@ namespace elvis {
 
 namespace {
 
-/** As in volume_pass.cpp. */
-constexpr std::uint32_t tile_height = 16, tile_stride = 64;
-constexpr std::uint32_t group_size = 32;
 /** Whose lists are in memory at once. */
 constexpr std::size_t rays_a_batch = 1u << 15;
 /** Segments of a ray's list; a ray that has more goes on when they are taken. */
@@ -24,21 +21,7 @@ constexpr std::uint32_t ray_seeks = 0, ray_ends = 2, no_element = 0xffffffffu;
 constexpr double far = 3e38;
 
 constexpr std::size_t n_counts = 8;
-enum SeekCount : std::size_t { seeking, seek_evaluations };
 enum MarchCount : std::size_t { moved, segments, evaluations, overlaps, failures, estimated, breaks, full };
-
-struct TilesParameters {
-    std::uint32_t tiles_a_row, n_tiles;
-};
-
-struct SeekParameters {
-    std::uint32_t width, height;
-    std::uint32_t tiles_a_row;
-    std::uint32_t first_row;
-    std::uint32_t first_element;
-    std::uint32_t zero;
-    float extent;
-};
 
 struct MarchParameters {
     std::uint32_t width, height;
@@ -62,8 +45,6 @@ template <class Real> struct SegmentRecord {
     Real enter, leave, error;
     std::uint32_t element;
 };
-
-std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
 
 Vector3 rounded(const Vector3& v, Precision precision) {
     return precision == Precision::float64 ? v : Vector3{double(float(v[0])), double(float(v[1])), double(float(v[2]))};
@@ -108,86 +89,38 @@ SegmentRay near_centre(const Vector3& eye, const Vector3& towards, const std::ar
     return ray;
 }
 
-/** Rays on the device: those of a picture, or a row of them that are given. */
+/** Rays on the device, those of a picture or a row of them that are given, and their lists. */
 struct SegmentPass::Rays {
-    std::uint32_t width = 0, height = 1;
-    /** 0: no lists. */
+    ChainRays chain;
+    /** Of a ray's list; 0: no lists. */
     std::uint32_t capacity = 0;
-    const Buffer &states, &segments;
-    /** Null if the rays are those of pixels. */
-    const Buffer* given = nullptr;
-    /** By the classes in m_kernels; of pixels. */
-    std::vector<Buffer> tile_lists;
+    const Buffer& segments;
 };
 
 SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                          const std::optional<SkippedField>& skipped)
-    : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()),
-      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_skipped(skipped), m_chains(device, volume, data),
+    : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()), m_skipped(skipped),
+      m_chains(device, volume, data),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {
-    double square = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double side = data.bounds()[axis + 3] - data.bounds()[axis];
-        square += side * side;
-    }
-    m_extent = std::sqrt(square);
-    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
-        const ClassInfo& info = volume.classes()[index];
-        if (info.n_elements > 0) {
-            ClassKernels kernels;
-            kernels.element_class = index;
-            kernels.first_element = info.first_element;
-            kernels.n_elements = info.n_elements;
-            m_kernels.push_back(std::move(kernels));
-        }
-    }
-}
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
-KernelRequest SegmentPass::request_of(const ClassKernels& kernels, const char* name, bool are_given) const {
-    KernelRequest request;
-    request.name = std::string(name) + " of segments in element class " + std::to_string(kernels.element_class);
-    request.kernel = std::string("kernels/") + name + ".comp";
-    request.precision = m_precision;
-    request.instances = {m_data.instance(kernels.element_class)};
-    request.buffers = m_chains.host_buffers(kernels.element_class);
-    for (const FetchBuffer& buffer : m_data.host_buffers(kernels.element_class)) {
-        if (buffer.name != "core_nodes") {
-            request.buffers.push_back(buffer);
+SegmentPass::Kernels& SegmentPass::kernels_for(bool are_given) {
+    std::optional<Kernels>& kernels = m_kernels[are_given];
+    if (!kernels) {
+        kernels.emplace(ChainSearch(m_device, m_data, m_chains, m_volume,
+                                    {{"CORE_MAKES_SEGMENTS", "1"}, {"CORE_RAYS_ARE_GIVEN", are_given ? "1" : "0"}}, are_given));
+        kernels->search.compile();
+        for (const ChainSearch::Range& range : kernels->search.ranges()) {
+            KernelRequest march = kernels->search.request(range, "segments");
+            march.instances = {m_data.instance(range.element_class)};
+            for (std::uint32_t binding = 1; binding <= (are_given ? 4u : 3u); ++binding) {
+                march.bindings.push_back({binding, BindingType::storage_buffer});
+            }
+            march.push_constant_bytes = sizeof(MarchParameters);
+            kernels->march.push_back(std::make_unique<ComposedKernel>(m_device, march));
         }
     }
-    request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
-                       {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                       {"CORE_LEAF_WORD", "index"},
-                       m_chains.curved_define(kernels.element_class),
-                       {"CORE_MAKES_SEGMENTS", "1"},
-                       {"CORE_RAYS_ARE_GIVEN", are_given ? "1" : "0"}};
-    request.bindings = {{0, BindingType::uniform_buffer}};
-    return request;
-}
-
-void SegmentPass::compile(bool are_given) {
-    for (ClassKernels& kernels : m_kernels) {
-        if (kernels.march[are_given]) {
-            continue;
-        }
-        KernelRequest seek = request_of(kernels, "chain_seek", are_given), march = request_of(kernels, "segments", are_given);
-        for (std::uint32_t binding = 1; binding <= (are_given ? 4u : 3u); ++binding) {
-            seek.bindings.push_back({binding, BindingType::storage_buffer});
-            march.bindings.push_back({binding, BindingType::storage_buffer});
-        }
-        seek.push_constant_bytes = sizeof(SeekParameters);
-        march.push_constant_bytes = sizeof(MarchParameters);
-        kernels.seek[are_given] = std::make_unique<ComposedKernel>(m_device, seek);
-        kernels.march[are_given] = std::make_unique<ComposedKernel>(m_device, march);
-        if (!are_given) {
-            KernelRequest tiles = request_of(kernels, "ray_tiles", false);
-            tiles.bindings.push_back({1, BindingType::storage_buffer});
-            tiles.bindings.push_back({2, BindingType::storage_buffer});
-            tiles.push_constant_bytes = sizeof(TilesParameters);
-            kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
-        }
-    }
+    return *kernels;
 }
 
 std::vector<std::vector<bool>> SegmentPass::elements_with(const std::array<double, 2>& wanted) const {
@@ -210,62 +143,30 @@ std::vector<std::vector<bool>> SegmentPass::elements_with(const std::array<doubl
     return kept;
 }
 
-void SegmentPass::list_starts(Rays& rays, SegmentCounts& counts) const {
-    const std::uint32_t tiles_a_row = divided_up(rays.width, m_tile_width);
-    const std::uint32_t n_tiles = tiles_a_row * divided_up(rays.height, tile_height);
-    for (const ClassKernels& kernels : m_kernels) {
-        const Buffer& lists = rays.tile_lists.emplace_back(m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
-        if (m_chains.n_starts(kernels.element_class) == 0) {
-            lists.fill(0);
-            continue;
-        }
-        const TilesParameters parameters{tiles_a_row, n_tiles};
-        const std::array<const Buffer*, 3> bindings = {&m_frame, &lists, &m_counts};
-        kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(n_tiles, group_size));
-        ++counts.dispatches;
-    }
-}
-
 /** Until all rays are at their end; calls `take` where lists are full, and at the end. */
-template <class Take> void SegmentPass::run(const Rays& rays, SegmentCounts& counts, const Take& take) const {
-    const bool are_given = rays.given != nullptr;
-    const std::uint32_t tiles_a_row = divided_up(rays.width, m_tile_width);
+template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, SegmentCounts& counts, const Take& take) const {
+    const std::uint32_t tiles_a_row = kernels.search.tiles_a_row(rays.chain.width);
+    const std::array<RayBox, 1> whole = {RayBox{0, tiles_a_row, 0, rays.chain.height}};
     bool is_open = true;
     for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
         const DeviceTimer timer(m_device);
         is_open = false;
         bool is_full = false;
-        for (std::size_t index = 0; index < m_kernels.size(); ++index) {
-            const ClassKernels& kernels = m_kernels[index];
-            if (m_chains.n_starts(kernels.element_class) == 0) {
-                continue;
-            }
-            m_counts.fill(0);
-            const SeekParameters parameters{rays.width, rays.height, tiles_a_row, 0, static_cast<std::uint32_t>(kernels.first_element), 0,
-                                            static_cast<float>(m_extent)};
-            // No lists of starts are read where rays are given: anything.
-            const Buffer& lists = are_given ? m_counts : rays.tile_lists[index];
-            std::vector<const Buffer*> bindings = {&m_frame, &rays.states, &lists, &m_counts};
-            if (are_given) {
-                bindings.push_back(rays.given);
-            }
-            kernels.seek[are_given]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row, rays.height);
-            ++counts.dispatches;
-            const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
-            counts.seek_evaluations += found[seek_evaluations];
-            is_open = is_open || found[seeking] > 0;
+        for (std::size_t index = 0; index < kernels.march.size(); ++index) {
+            const ChainSearch::Found found = kernels.search.seek(index, rays.chain, whole);
+            counts.seek_evaluations += found.evaluations;
+            is_open = is_open || found.is_seeking;
         }
-        for (const ClassKernels& kernels : m_kernels) {
+        for (std::size_t index = 0; index < kernels.march.size(); ++index) {
+            const ChainSearch::Range& range = kernels.search.ranges()[index];
             m_counts.fill(0);
-            const MarchParameters parameters{rays.width, rays.height, 0, static_cast<std::uint32_t>(kernels.first_element),
-                                             static_cast<std::uint32_t>(kernels.n_elements), rays.capacity, 0,
-                                             static_cast<float>(m_extent)};
-            std::vector<const Buffer*> bindings = {&m_frame, &rays.states, &rays.segments, &m_counts};
-            if (are_given) {
-                bindings.push_back(rays.given);
+            const MarchParameters parameters{rays.chain.width, rays.chain.height, 0, range.first_element, range.n_elements,
+                                             rays.capacity, 0, kernels.search.extent()};
+            std::vector<const Buffer*> bindings = {&m_frame, &rays.chain.states, &rays.segments, &m_counts};
+            if (rays.chain.given != nullptr) {
+                bindings.push_back(rays.chain.given);
             }
-            kernels.march[are_given]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row, rays.height);
-            ++counts.dispatches;
+            kernels.march[index]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row, rays.chain.height);
             const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
             counts.segments += found[segments];
             counts.evaluations += found[evaluations];
@@ -284,7 +185,7 @@ template <class Take> void SegmentPass::run(const Rays& rays, SegmentCounts& cou
 }
 
 template <class Real>
-void SegmentPass::list_batch(std::span<const SegmentRay> rays, std::vector<Segment>* lists, SegmentCounts& counts) const {
+void SegmentPass::list_batch(std::span<const SegmentRay> rays, std::vector<Segment>* lists, SegmentCounts& counts) {
     const std::size_t count = rays.size();
     const Buffer given(m_device, 8 * sizeof(Real) * count), states(m_device, sizeof(RayState<Real>) * count);
     const Buffer segments(m_device, sizeof(SegmentRecord<Real>) * count * list_capacity);
@@ -295,9 +196,9 @@ void SegmentPass::list_batch(std::span<const SegmentRay> rays, std::vector<Segme
     }
     write_reals(given, m_precision, numbers);
     states.write_items(std::span<const RayState<Real>>(std::vector<RayState<Real>>(count)));
-    const Rays batch{static_cast<std::uint32_t>(count), 1, list_capacity, states, segments, &given, {}};
+    const Rays batch{{static_cast<std::uint32_t>(count), 1, m_frame, states, &given}, list_capacity, segments};
     bool has_open = false;
-    run(batch, counts, [&] {
+    run(kernels_for(true), batch, counts, [&] {
         auto ends = states.template read_items<RayState<Real>>(count);
         const auto records = segments.template read_items<SegmentRecord<Real>>(count * list_capacity);
         has_open = false;
@@ -317,7 +218,7 @@ void SegmentPass::list_batch(std::span<const SegmentRay> rays, std::vector<Segme
 
 std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
                                                       const std::array<double, 2>& wanted) {
-    compile(true);
+    const double extent = kernels_for(true).search.extent();
     if (m_skipped) {
         m_chains.keep_only(elements_with(wanted));
     }
@@ -330,8 +231,8 @@ std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay>
         bool is_in = true;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             start.eye[axis] = centre[axis] + ray.origin[axis] + ray.from * ray.direction[axis];
-            is_in = is_in && start.eye[axis] >= m_data.bounds()[axis] - 1e-5 * m_extent &&
-                    start.eye[axis] <= m_data.bounds()[axis + 3] + 1e-5 * m_extent;
+            is_in = is_in && start.eye[axis] >= m_data.bounds()[axis] - 1e-5 * extent &&
+                    start.eye[axis] <= m_data.bounds()[axis + 3] + 1e-5 * extent;
         }
         is_outside = is_outside && !is_in;
     }
@@ -351,7 +252,7 @@ std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay>
 
 std::vector<double> SegmentPass::lengths(const CutPlaneGeometry& view, const ViewStart& start, std::uint32_t width, std::uint32_t height,
                                          SegmentCounts& counts) {
-    compile(false);
+    Kernels& kernels = kernels_for(false);
     m_chains.look_from(start);
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     const std::size_t count = std::size_t{width} * height;
@@ -360,11 +261,11 @@ std::vector<double> SegmentPass::lengths(const CutPlaneGeometry& view, const Vie
         const Buffer states(m_device, sizeof(RayState<Real>) * count);
         states.write_items(std::span<const RayState<Real>>(std::vector<RayState<Real>>(count)));
         // No lists: anything.
-        Rays rays{width, height, 0, states, m_counts, nullptr, {}};
-        list_starts(rays, counts);
+        const Rays rays{{width, height, m_frame, states, nullptr}, 0, m_counts};
+        kernels.search.list_starts(rays.chain);
         counts.milliseconds += timer.milliseconds();
         std::vector<double> sums;
-        run(rays, counts, [&] {
+        run(kernels, rays, counts, [&] {
             for (const RayState<Real>& state : states.template read_items<RayState<Real>>(count)) {
                 sums.push_back(static_cast<double>(state.sum));
                 counts.given_up += state.status != ray_ends ? 1 : 0;

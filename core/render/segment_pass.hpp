@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/render/chain_search.hpp>
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
 #include <core/volume/device_volume.hpp>
@@ -50,7 +51,6 @@ struct SegmentCounts {
     std::uint64_t breaks = 0;
     /** Rays that were given up. */
     std::uint64_t given_up = 0;
-    std::uint64_t dispatches = 0;
     double milliseconds = 0;
 };
 
@@ -79,30 +79,28 @@ public:
                                 SegmentCounts& counts);
 
 private:
-    struct ClassKernels {
-        std::uint32_t element_class = 0;
-        std::uint64_t first_element = 0, n_elements = 0;
-        /** For rays that are given, and those of pixels. Compiled when first needed. */
-        std::array<std::unique_ptr<ComposedKernel>, 2> seek, march;
-        std::unique_ptr<ComposedKernel> tiles;
+    struct Kernels {
+        explicit Kernels(ChainSearch starts) : search(std::move(starts)) {}
+
+        ChainSearch search;
+        /** By the search's ranges of elements. */
+        std::vector<std::unique_ptr<ComposedKernel>> march;
     };
     struct Rays;
-    KernelRequest request_of(const ClassKernels& kernels, const char* name, bool are_given) const;
-    void compile(bool are_given);
-    void list_starts(Rays& rays, SegmentCounts& counts) const;
-    template <class Take> void run(const Rays& rays, SegmentCounts& counts, const Take& take) const;
-    template <class Real> void list_batch(std::span<const SegmentRay> rays, std::vector<Segment>* lists, SegmentCounts& counts) const;
+    /** Compiled when first needed. */
+    Kernels& kernels_for(bool are_given);
+    template <class Take> void run(Kernels& kernels, const Rays& rays, SegmentCounts& counts, const Take& take) const;
+    template <class Real> void list_batch(std::span<const SegmentRay> rays, std::vector<Segment>* lists, SegmentCounts& counts);
     std::vector<std::vector<bool>> elements_with(const std::array<double, 2>& wanted) const;
 
     const Device& m_device;
     const RuntimeVolume& m_volume;
     const DeviceVolume& m_data;
     Precision m_precision;
-    std::uint32_t m_tile_width;
-    double m_extent = 0;
     std::optional<SkippedField> m_skipped;
     ElementChains m_chains;
-    std::vector<ClassKernels> m_kernels;
+    /** Of rays of pixels, and of rays that are given. */
+    std::array<std::optional<Kernels>, 2> m_kernels;
     Buffer m_frame, m_counts;
 };
 

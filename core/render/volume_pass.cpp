@@ -10,10 +10,6 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t tile_height = 16;
-/** Words of a tile's list: shaders/library/ray_tiles.glsl. */
-constexpr std::uint32_t tile_stride = 64;
-constexpr std::uint32_t group_size = 32;
 /** Of the polynomials of one step. */
 constexpr int step_degree = 5;
 /** A ray has no more chains, and chains no more parts in different classes: far more than there are elements along a ray. */
@@ -22,22 +18,8 @@ constexpr std::uint32_t most_rounds = 4096;
 constexpr double unbounded = 3e38;
 /** Of m_counts. */
 constexpr std::size_t n_counts = 8;
-enum SeekCount : std::size_t { seeking, seek_evaluations };
 enum MarchCount : std::size_t { moved, evaluations, mappings, segments, empty_segments, steps, breakpoints, failures };
 enum FinishCount : std::size_t { volume_pixels };
-
-struct TilesParameters {
-    std::uint32_t tiles_a_row, n_tiles;
-};
-
-struct SeekParameters {
-    std::uint32_t width, height;
-    std::uint32_t tiles_a_row;
-    std::uint32_t first_row;
-    std::uint32_t first_element;
-    std::uint32_t zero;
-    float extent;
-};
 
 struct MarchParameters {
     std::uint32_t width, height;
@@ -59,8 +41,6 @@ struct PixelParameters {
 
 /** Bytes of one core_volume_state. */
 std::size_t state_bytes(Precision precision) { return 9 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
-
-std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
 
 /** Makes the buffer anew if it is of another size. */
 const Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::uint64_t bytes) {
@@ -101,13 +81,13 @@ struct VolumePass::Picture {
     const Layer& layer;
     /** Of opaque surfaces, and of the next transparent one; null if there is none. */
     const Buffer *depths, *stops;
-    std::uint32_t tiles_a_row, n_tiles;
+    ChainRays rays;
     bool only_live;
 };
 
 VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_device(device), m_data(data), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
-      m_chains(device, volume, data), m_models(device, volume, data),
+    : m_device(device), m_data(data), m_precision(data.precision()), m_chains(device, volume, data),
+      m_search(device, data, m_chains, volume, {}, false), m_models(device, volume, data),
       m_begin(device, pixel_kernel("volume_begin", data.precision(), {BindingType::storage_buffer}, sizeof(PixelParameters))),
       m_veil(device, pixel_kernel("volume_veil", data.precision(),
                                   {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
@@ -117,45 +97,9 @@ VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const 
                                     {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
                                      BindingType::storage_buffer},
                                     sizeof(PixelParameters))),
-      m_live(device, data.precision(), m_tile_width, tile_height),
+      m_live(device, data.precision(), m_search.tile_width(), ChainSearch::tile_height),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {
-    double square = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double side = data.bounds()[axis + 3] - data.bounds()[axis];
-        square += side * side;
-    }
-    m_extent = std::sqrt(square);
-    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
-        const ClassInfo& info = volume.classes()[index];
-        if (info.n_elements > 0) {
-            ClassKernels kernels;
-            kernels.element_class = index;
-            kernels.first_element = info.first_element;
-            kernels.n_elements = info.n_elements;
-            m_kernels.push_back(std::move(kernels));
-        }
-    }
-}
-
-KernelRequest VolumePass::request_of(const ClassKernels& kernels, const char* name) const {
-    KernelRequest request;
-    request.name = std::string(name) + " of element class " + std::to_string(kernels.element_class);
-    request.kernel = std::string("kernels/") + name + ".comp";
-    request.precision = m_precision;
-    request.buffers = m_chains.host_buffers(kernels.element_class);
-    for (const FetchBuffer& buffer : m_data.host_buffers(kernels.element_class)) {
-        if (buffer.name != "core_nodes") {
-            request.buffers.push_back(buffer);
-        }
-    }
-    request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
-                       {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                       {"CORE_LEAF_WORD", "index"},
-                       m_chains.curved_define(kernels.element_class)};
-    request.bindings = {{0, BindingType::uniform_buffer}};
-    return request;
-}
+      m_counts(device, n_counts * sizeof(std::uint32_t)), m_march(m_search.ranges().size()) {}
 
 void VolumePass::choose(const VolumeRendering& wanted, double offset, const ShownComponent& component) {
     const TransferTable table = cut_at_breakpoints(wanted.transfer);
@@ -186,33 +130,19 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
     m_wanted = wanted;
     m_component = component;
     m_models.provide({component.first(), component.end()});
-    for (ClassKernels& kernels : m_kernels) {
-        if (!kernels.seek) {
-            KernelRequest tiles = request_of(kernels, "ray_tiles");
-            tiles.defines.emplace_back("CORE_TESTS_STARTS", "1");
-            tiles.bindings.push_back({1, BindingType::storage_buffer});
-            tiles.bindings.push_back({2, BindingType::storage_buffer});
-            tiles.push_constant_bytes = sizeof(TilesParameters);
-            tiles.instances = {m_data.instance(kernels.element_class)};
-            kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
-            KernelRequest seek = request_of(kernels, "chain_seek");
-            seek.instances = {m_data.instance(kernels.element_class)};
-            for (std::uint32_t binding = 1; binding <= 3; ++binding) {
-                seek.bindings.push_back({binding, BindingType::storage_buffer});
-            }
-            seek.push_constant_bytes = sizeof(SeekParameters);
-            kernels.seek = std::make_unique<ComposedKernel>(m_device, seek);
-        }
-        march_kernel(kernels);
+    m_search.compile();
+    for (std::size_t index = 0; index < m_march.size(); ++index) {
+        march_kernel(index);
     }
 }
 
-const ComposedKernel& VolumePass::march_kernel(ClassKernels& kernels) {
-    std::unique_ptr<ComposedKernel>& kernel = kernels.march[2 * static_cast<std::size_t>(m_wanted.integrator) + (m_has_steps ? 1 : 0)];
+const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
+    std::unique_ptr<ComposedKernel>& kernel = m_march[index][2 * static_cast<std::size_t>(m_wanted.integrator) + (m_has_steps ? 1 : 0)];
     if (!kernel) {
-        KernelRequest request = request_of(kernels, "volume_march");
-        request.buffers.push_back(m_models.host_buffer(kernels.element_class));
-        m_data.add_field(request, kernels.element_class, true);
+        const ChainSearch::Range& range = m_search.ranges()[index];
+        KernelRequest request = m_search.request(range, "volume_march");
+        request.buffers.push_back(m_models.host_buffer(range.element_class));
+        m_data.add_field(request, range.element_class, true);
         request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
         request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
         request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
@@ -225,39 +155,13 @@ const ComposedKernel& VolumePass::march_kernel(ClassKernels& kernels) {
     return *kernel;
 }
 
-void VolumePass::list_starts(ClassKernels& kernels, const Picture& picture) {
-    const Buffer& lists = provide(kernels.tile_lists, m_device, std::uint64_t{picture.n_tiles} * tile_stride * sizeof(std::uint32_t));
-    if (m_chains.n_starts(kernels.element_class) == 0) {
-        lists.fill(0);
-        return;
-    }
-    const TilesParameters parameters{picture.tiles_a_row, picture.n_tiles};
-    const std::array<const Buffer*, 3> bindings = {&m_frame, &lists, &m_counts};
-    kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(picture.n_tiles, group_size));
-}
-
-bool VolumePass::seek(const ClassKernels& kernels, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts) {
-    m_counts.fill(0);
-    SeekParameters parameters{picture.layer.width, picture.layer.height, picture.tiles_a_row, 0,
-                              static_cast<std::uint32_t>(kernels.first_element), 0, static_cast<float>(m_extent)};
-    const std::array<const Buffer*, 4> bindings = {&m_frame, &*m_states, &*kernels.tile_lists, &m_counts};
-    for (const RayBox& box : boxes) {
-        parameters.first_row = box.first_row;
-        kernels.seek->dispatch_from(box.first, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
-                                    box.end_row - box.first_row);
-    }
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
-    counts.mapping_evaluations += found[seek_evaluations];
-    return found[seeking] > 0;
-}
-
-bool VolumePass::march(ClassKernels& kernels, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts) {
+bool VolumePass::march(std::size_t index, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts) {
     m_counts.fill(0);
     MarchParameters parameters{picture.layer.width,
                                picture.layer.height,
                                0,
-                               static_cast<std::uint32_t>(kernels.first_element),
-                               static_cast<std::uint32_t>(kernels.n_elements),
+                               m_search.ranges()[index].first_element,
+                               m_search.ranges()[index].n_elements,
                                m_component.first(),
                                m_component.end(),
                                m_n_breakpoints,
@@ -265,7 +169,7 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, std::span<
                                picture.stops ? 1u : 0u,
                                m_wanted.skips_by_range ? 1u : 0u,
                                0,
-                               static_cast<float>(m_extent),
+                               m_search.extent(),
                                static_cast<float>(m_wanted.tolerance),
                                static_cast<float>(m_steepest),
                                static_cast<float>(m_wanted.step)};
@@ -273,7 +177,7 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, std::span<
     const Buffer& depths = picture.depths ? *picture.depths : picture.layer.normals;
     const Buffer& stops = picture.stops ? *picture.stops : picture.layer.normals;
     const std::array<const Buffer*, 7> bindings = {&m_frame, &*m_states, &depths, &*m_breakpoints, &*m_pieces, &m_counts, &stops};
-    const ComposedKernel& kernel = march_kernel(kernels);
+    const ComposedKernel& kernel = march_kernel(index);
     for (const RayBox& box : boxes) {
         parameters.first_row = box.first_row;
         kernel.dispatch_from(box.first, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
@@ -292,13 +196,13 @@ bool VolumePass::march(ClassKernels& kernels, const Picture& picture, std::span<
 
 void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
     const std::uint32_t width = picture.layer.width, height = picture.layer.height;
-    const std::array<RayBox, 1> whole = {RayBox{0, picture.tiles_a_row, 0, height}};
+    const std::array<RayBox, 1> whole = {RayBox{0, m_search.tiles_a_row(width), 0, height}};
     const auto spare = [&](const std::vector<RayBox>& live) {
         std::uint64_t tiles = whole[0].area();
         for (const RayBox& box : live) {
             tiles -= box.area();
         }
-        counts.spared_pixels += tiles * m_tile_width;
+        counts.spared_pixels += tiles * m_search.tile_width();
     };
     std::vector<RayBox> live(whole.begin(), whole.end());
     bool is_open = true;
@@ -307,18 +211,20 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
         if (picture.only_live) {
             live = m_live.seeking(*m_states, width, height);
         }
-        for (const ClassKernels& kernels : m_kernels) {
+        for (std::size_t index = 0; index < m_march.size(); ++index) {
             spare(live);
-            is_seeking = seek(kernels, picture, live, counts) || is_seeking;
+            const ChainSearch::Found found = m_search.seek(index, picture.rays, live);
+            counts.mapping_evaluations += found.evaluations;
+            is_seeking = is_seeking || found.is_seeking;
         }
         is_open = is_seeking;
-        for (ClassKernels& kernels : m_kernels) {
+        for (std::size_t index = 0; index < m_march.size(); ++index) {
             if (picture.only_live) {
-                live = m_live.going(*m_states, width, height, static_cast<std::uint32_t>(kernels.first_element),
-                                    static_cast<std::uint32_t>(kernels.n_elements));
+                const ChainSearch::Range& range = m_search.ranges()[index];
+                live = m_live.going(*m_states, width, height, range.first_element, range.n_elements);
             }
             spare(live);
-            is_open = march(kernels, picture, live, counts) || is_open;
+            is_open = march(index, picture, live, counts) || is_open;
         }
     }
 }
@@ -329,20 +235,12 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
     const Buffer& states = provide(m_states, m_device, layer.n_pixels() * state_bytes(m_precision));
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     m_chains.look_from(start);
-    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    Picture picture{layer,
-                    merged.depths(),
-                    nullptr,
-                    tiles_a_row,
-                    tiles_a_row * divided_up(layer.height, tile_height),
-                    only_live};
+    Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live};
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance)};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
     dispatch_pixels(m_begin, {&states}, bytes, n_pixels);
-    for (ClassKernels& kernels : m_kernels) {
-        list_starts(kernels, picture);
-    }
+    m_search.list_starts(picture.rays);
     for (std::size_t i = 0; i < merged.n_veils(); ++i) {
         picture.stops = &merged.veil(i).depths;
         march_all(picture, counts);

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/render/chain_search.hpp>
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
 #include <core/render/layer.hpp>
@@ -38,33 +39,23 @@ public:
     void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live, FrameCounts& counts);
 
 private:
-    struct ClassKernels {
-        std::uint32_t element_class = 0;
-        std::uint64_t first_element = 0, n_elements = 0;
-        std::unique_ptr<ComposedKernel> tiles, seek;
-        /** By integrator, and whether the transfer function has steps. */
-        std::array<std::unique_ptr<ComposedKernel>, 10> march;
-        std::optional<Buffer> tile_lists;
-    };
     struct Picture;
-    KernelRequest request_of(const ClassKernels& kernels, const char* name) const;
-    const ComposedKernel& march_kernel(ClassKernels& kernels);
-    void list_starts(ClassKernels& kernels, const Picture& picture);
-    bool seek(const ClassKernels& kernels, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts);
-    bool march(ClassKernels& kernels, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts);
+    /** `index`: among the search's ranges of elements. */
+    const ComposedKernel& march_kernel(std::size_t index);
+    bool march(std::size_t index, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts);
     void march_all(const Picture& picture, FrameCounts& counts);
 
     const Device& m_device;
     const DeviceVolume& m_data;
     Precision m_precision;
-    std::uint32_t m_tile_width;
-    double m_extent = 0;
     ElementChains m_chains;
+    ChainSearch m_search;
     LevelModels m_models;
-    std::vector<ClassKernels> m_kernels;
     ComposedKernel m_begin, m_veil, m_finish;
     LiveRays m_live;
     Buffer m_frame, m_counts;
+    /** By the search's ranges; by integrator, and whether the transfer function has steps. */
+    std::vector<std::array<std::unique_ptr<ComposedKernel>, 10>> m_march;
     VolumeRendering m_wanted;
     ShownComponent m_component;
     std::uint32_t m_n_breakpoints = 0;

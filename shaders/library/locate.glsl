@@ -12,8 +12,7 @@
 // (library/linearization.glsl).
 //
 // One loop serves all candidates of a pixel, one Newton step a turn: lanes that dismiss a candidate after one step go on to their
-// next one while others still iterate. Code that few turns need stands in loops of one turn, because branches are not skipped by
-// drivers that compute all lanes.
+// next one while others still iterate.
 
 #include "library/newton.glsl"
 #include "library/hierarchy.glsl"

@@ -1,0 +1,87 @@
+/**
+ * @file chain_search.hpp
+ * Finds where rays begin chains of elements (shaders/kernels/ray_tiles.comp, chain_seek.comp), for all that goes along rays.
+ */
+#pragma once
+
+#include <core/render/live_rays.hpp>
+#include <core/volume/device_volume.hpp>
+#include <core/volume/element_chains.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elvis {
+
+/** Where rays and their states are on the device. */
+struct ChainRays {
+    std::uint32_t width = 0, height = 0;
+    /** Rows of a CutPlaneGeometry. */
+    const Buffer& frame;
+    /** One record a ray, which begins as core_chain does (shaders/library/chain_state.glsl). */
+    const Buffer& states;
+    /** The rays themselves; null if they are those of the pixels. */
+    const Buffer* given = nullptr;
+};
+
+class ChainSearch {
+public:
+    static constexpr std::uint32_t tile_height = 16;
+
+    /** The elements of a class that has some. */
+    struct Range {
+        std::uint32_t element_class = 0;
+        std::uint32_t first_element = 0, n_elements = 0;
+    };
+
+    /** All must outlive it. `defines`: of all kernels that request() makes; `are_given`: ChainRays::given is never null, or always. */
+    ChainSearch(const Device& device, const DeviceVolume& data, const ElementChains& chains, const RuntimeVolume& volume,
+                std::vector<std::pair<std::string, std::string>> defines, bool are_given);
+
+    const std::vector<Range>& ranges() const { return m_ranges; }
+    std::uint32_t tile_width() const { return m_tile_width; }
+    std::uint32_t tiles_a_row(std::uint32_t width) const { return (width + m_tile_width - 1) / m_tile_width; }
+    /** The diagonal of the volume's bounds. */
+    float extent() const { return m_extent; }
+
+    /** Of a kernel that goes along the rays in the class's elements; without the class's snippet. Binding 0 is the frame. */
+    KernelRequest request(const Range& range, const char* kernel) const;
+
+    /** Compiles its kernels. */
+    void compile();
+    /** Of rays of pixels: which elements each tile's rays may start in. Before seek(), as often as the chains' view changes. */
+    void list_starts(const ChainRays& rays);
+
+    struct Found {
+        /** Whether any ray looked for a start here. */
+        bool is_seeking = false;
+        std::uint32_t evaluations = 0;
+    };
+    /** The nearest start in elements of ranges()[index] of each ray that looks for one, in these boxes. */
+    Found seek(std::size_t index, const ChainRays& rays, std::span<const RayBox> boxes);
+
+private:
+    struct Kernels {
+        std::unique_ptr<ComposedKernel> tiles, seek;
+        std::optional<Buffer> lists;
+    };
+
+    const Device& m_device;
+    const DeviceVolume& m_data;
+    const ElementChains& m_chains;
+    std::vector<std::pair<std::string, std::string>> m_defines;
+    bool m_are_given;
+    std::uint32_t m_tile_width;
+    float m_extent = 0;
+    std::vector<Range> m_ranges;
+    /** By m_ranges. */
+    std::vector<Kernels> m_kernels;
+    Buffer m_counts;
+};
+
+} // namespace elvis
