@@ -17,7 +17,7 @@ void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const uint safe = min(pixel, core_n_pixels - 1u);
     const elvis_real depth = core_layer_depths[safe];
-    for (uint turn = 0u; turn < (pixel < core_n_pixels && depth < core_depths[safe] ? 1u : 0u); ++turn) {
+    if (pixel < core_n_pixels && depth < core_depths[safe]) {
         // Colours are not multiplied by opacity, so that an opaque background stays what it is.
         const elvis_vec4 over = core_layer_colors[pixel], under = core_colors[pixel];
         const elvis_real rest = under.w * (elvis_real(1) - over.w), alpha = over.w + rest;

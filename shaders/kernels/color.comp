@@ -106,7 +106,7 @@ void main() {
 #if CORE_HAS_LINES
     bool is_contour = false, is_contour_undecided = false, is_mesh_line = false, is_mesh_undecided = false;
 #endif
-    for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
+    if (is_drawn) {
         value = core_samples[pixel].value;
         is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
 #if CORE_HAS_LINES
@@ -121,12 +121,12 @@ void main() {
                        (is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) == 0u);
 #endif
     }
-    for (uint turn = 0u; turn < (is_drawn && core_n_clips > 0u ? 1u : 0u); ++turn) {
+    if (is_drawn && core_n_clips > 0u) {
         is_clipped = core_is_clipped(pixel, core_samples[pixel].depth);
     }
     const bool is_nan = !core_is_finite(value) && !is_outside;
 #if CORE_HAS_LINES
-    for (uint turn = 0u; turn < (is_contour && !is_nan && (core_contour_style & CORE_STYLE_COLOR) == 0u ? 1u : 0u); ++turn) {
+    if (is_contour && !is_nan && (core_contour_style & CORE_STYLE_COLOR) == 0u) {
         value = core_nearest_isovalue(value);
     }
 #endif
@@ -153,7 +153,7 @@ void main() {
     elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
     color = is_seen && is_outside ? elvis_vec4(core_special(8u).yzw, elvis_real(1)) : color;
 #if CORE_IS_LIT
-    for (uint turn = 0u; turn < (is_seen ? 1u : 0u); ++turn) {
+    if (is_seen) {
         elvis_vec3 direction;
         const elvis_vec3 position = core_position(pixel, core_samples[pixel].depth, direction);
         const elvis_vec3 own_normal =
@@ -164,7 +164,7 @@ void main() {
 #endif
 
     const bool is_far = !is_outside && (value < limits.y || value > limits.z);
-    for (uint turn = 0u; turn < (is_seen && (has_no_place || is_far) ? 1u : 0u); ++turn) {
+    if (is_seen && (has_no_place || is_far)) {
         core_special_values[3u * core_surface + (has_no_place ? 2u : (is_below ? 0u : 1u))] = 1u;
     }
 
@@ -188,7 +188,7 @@ void main() {
     const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
     const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
     const uint flags = core_common_flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
-    for (uint turn = 0u; turn < (is_drawn && flags != 0u ? 1u : 0u); ++turn) {
+    if (is_drawn && flags != 0u) {
         core_marks[pixel].flags |= flags;
     }
 }

@@ -83,12 +83,12 @@ void main() {
             const core_node node = core_fetch_node(index);
             const bool is_touched = core_overlaps(node, lower, upper);
             element = is_touched && node.is_leaf ? node.child : CORE_NO_ELEMENT;
-            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && !node.is_leaf) {
                 stack[stack_size] = node.child + 1u;
                 stack[stack_size + 1u] = node.child;
                 stack_size += 2u;
             }
-            for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
+            if (element != CORE_NO_ELEMENT) {
                 const core_linearization linearization = core_fetch_linearization(element);
                 const elvis_vec3 middle = elvis_real(0.25LF) * (square.corner0 + square.corner1 + square.corner2 + square.corner3);
                 const elvis_vec3 target = core_reference.xyz - elvis_origin(element) + middle;
@@ -110,6 +110,9 @@ void main() {
                 z = start.z;
                 core_project(x, y, z);
                 level = across = down = moves = 0u;
+            }
+            if (element != CORE_NO_ELEMENT || (stack_size == 0u && entry >= n_entries)) {
+                break;
             }
         }
 
@@ -175,7 +178,7 @@ void main() {
         across = is_divided ? 2u * across : across;
         down = is_divided ? 2u * down : down;
         const bool is_done = is_active && !moves_on && !is_divided;
-        for (uint turn = 0u; turn < (is_done ? 1u : 0u); ++turn) {
+        if (is_done) {
             while (level > 0u && (across & 1u) != 0u && (down & 1u) != 0u) {
                 level -= 1u;
                 across >>= 1;
@@ -187,7 +190,7 @@ void main() {
             element = is_last ? CORE_NO_ELEMENT : element;
         }
         // Where its middle is expected; on this element for the cell as a whole if the plane ends there.
-        for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
+        if (element != CORE_NO_ELEMENT) {
             const elvis_real next_size = elvis_real(1) / elvis_real(1u << level);
             const elvis_real next_column = elvis_real(pixel_column) - elvis_real(0.5LF) + (elvis_real(across) + elvis_real(0.5LF)) * next_size;
             const elvis_real next_row = elvis_real(pixel_row) - elvis_real(0.5LF) + (elvis_real(down) + elvis_real(0.5LF)) * next_size;
@@ -205,6 +208,9 @@ void main() {
             y += share * (next_y - y);
             z += share * (next_z - z);
         }
+        if (!goes_on || (element == CORE_NO_ELEMENT && stack_size == 0u && entry >= n_entries)) {
+            break;
+        }
     }
     const bool is_cut_short = (goes_on && work >= CORE_WORK_LIMIT) || core_has_driver_given_up(core_width >> 31);
 
@@ -213,7 +219,7 @@ void main() {
     const uint flags = (has_contour ? CORE_FLAG_CONTOUR : 0u) | (is_contour_undecided ? CORE_FLAG_CONTOUR_UNDECIDED : 0u) |
                        (has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) | (is_mesh_undecided ? CORE_FLAG_MESH_UNDECIDED : 0u) |
                        (is_estimated ? CORE_FLAG_ESTIMATED : 0u);
-    for (uint turn = 0u; turn < (is_pixel && flags != 0u ? 1u : 0u); ++turn) {
+    if (is_pixel && flags != 0u) {
         core_marks[pixel].flags |= flags;
     }
     const uint all_evaluations = subgroupAdd(n_evaluations);

@@ -90,8 +90,6 @@ void main() {
     while (row < end_row) {
         const core_cut_point point = core_cut_pixel(ray, elvis_real(row));
         const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
-        // For pixels outside, too: in a loop of one turn it would take three times as long, because compilers move all that does
-        // not change with the turn in front of the loop and run out of registers.
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_vec3 xi = elvis_vec3(found.x, found.y, found.z);
 #if CORE_LINES
@@ -102,7 +100,7 @@ void main() {
         const elvis_real value = core_shown_value(has_found ? found.element : 0u, xi);
 #endif
         const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
-        for (uint turn = 0u; turn < (is_news ? 1u : 0u); ++turn) {
+        if (is_news) {
             const uint pixel = row * core_size.x + column;
             const uint n_done = core_merge(pixel, point, found, value);
             n_evaluations += n_done;
@@ -117,6 +115,9 @@ void main() {
         n_steps += found.n_steps;
         n_failures += found.n_failures;
         row += 1u;
+        if (row >= end_row) {
+            break;
+        }
     }
 
     // Then no pixel of the column is to be trusted.
@@ -125,7 +126,7 @@ void main() {
         core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
 
-    for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {
+    if (end_row > first_row) {
         const uint all_evaluations = subgroupAdd(n_evaluations);
         const uint all_steps = subgroupAdd(n_steps);
         const uint all_failures = subgroupAdd(n_failures);

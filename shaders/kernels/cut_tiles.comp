@@ -67,6 +67,9 @@ void main() {
             stack[stack_size + 1u] = node.child;
             stack_size += 2u;
         }
+        if (stack_size == 0u) {
+            break;
+        }
     }
     if (is_wanted) {
         core_tiles[tile * CORE_TILE_STRIDE] = n_entries;

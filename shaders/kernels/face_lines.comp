@@ -107,12 +107,12 @@ void main() {
             const core_node node = core_fetch_node(stack[stack_size]);
             const bool is_touched = core_overlaps(node, lower, upper);
             const uint candidate = is_touched && node.is_leaf ? node.child : CORE_NO_WORD;
-            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && !node.is_leaf) {
                 stack[stack_size] = node.child + 1u;
                 stack[stack_size + 1u] = node.child;
                 stack_size += 2u;
             }
-            for (uint turn = 0u; turn < (candidate != CORE_NO_WORD ? 1u : 0u); ++turn) {
+            if (candidate != CORE_NO_WORD) {
                 float u, v;
                 const bool reaches = core_patch_reaches(candidate, middle, half_size, u, v);
                 const uint face = elvis_fetch4_core_patches(candidate, 4u).z;
@@ -131,6 +131,9 @@ void main() {
                 core_project(x, y, z);
                 level = across = down = moves = 0u;
                 is_shown = false;
+            }
+            if (element != CORE_NO_ELEMENT || stack_size == 0u) {
+                break;
             }
         }
 
@@ -204,11 +207,11 @@ void main() {
         across = is_divided ? 2u * across : across;
         down = is_divided ? 2u * down : down;
         const bool is_done = is_active && !moves_on && !is_divided;
-        for (uint turn = 0u; turn < (is_done ? 1u : 0u); ++turn) {
+        if (is_done) {
             const bool has_next = core_next_cell(level, across, down);
             element = has_next ? element : CORE_NO_ELEMENT;
         }
-        for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
+        if (element != CORE_NO_ELEMENT) {
             const elvis_real next_size = core_cell_size(level);
             elvis_real t;
             const elvis_vec3 next = core_tangent_point(own.tangent, core_cell_middle(column, across, next_size),
@@ -225,6 +228,9 @@ void main() {
             y += share * (next_y - y);
             z += share * (next_z - z);
         }
+        if (!goes_on || (element == CORE_NO_ELEMENT && stack_size == 0u)) {
+            break;
+        }
     }
     const bool is_cut_short =
         (goes_on && (element != CORE_NO_ELEMENT || stack_size > 0u)) || core_has_driver_given_up(core_size.x >> 31);
@@ -235,11 +241,11 @@ void main() {
     const bool is_mesh_undecided = wants_mesh && (is_mesh_open || is_cut_short || !is_complete);
     const uint flags = (has_contour ? CORE_FLAG_CONTOUR : 0u) | (has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) |
                        (rests_on_estimates ? CORE_FLAG_ESTIMATED : 0u);
-    for (uint turn = 0u; turn < (is_pixel && flags != 0u ? 1u : 0u); ++turn) {
+    if (is_pixel && flags != 0u) {
         core_marks[pixel].flags |= flags;
     }
     const uint open = (is_contour_undecided ? CORE_LIST_CONTOUR : 0u) | (is_mesh_undecided ? CORE_LIST_MESH_LINE : 0u);
-    for (uint turn = 0u; turn < (is_pixel && open != 0u ? 1u : 0u); ++turn) {
+    if (is_pixel && open != 0u) {
         core_open[atomicAdd(core_counts[core_open_count], 1u)] = pixel | open;
     }
     const uint all_evaluations = subgroupAdd(n_evaluations);

@@ -172,7 +172,7 @@ void main() {
             const float size = max(max(max(abs(node.lower.x), abs(node.lower.y)), abs(node.lower.z)),
                                    max(max(abs(node.upper.x), abs(node.upper.y)), abs(node.upper.z)));
             const bool is_touched = !core_box_outside_pyramid(pyramid, node, 16.0 * CORE_FLOAT_ROUNDOFF * (float(far) + size));
-            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && !node.is_leaf) {
                 stack[stack_size] = node.child + 1u;
                 stack[stack_size + 1u] = node.child;
                 stack_size += 2u;
@@ -180,6 +180,9 @@ void main() {
             patch_index = is_touched && node.is_leaf ? node.child : patch_index;
             n_squares = is_touched && node.is_leaf ? 1u : 0u;
             squares[0] = 0u;
+            if (n_squares > 0u || stack_size == 0u) {
+                break;
+            }
         }
         const bool is_active = n_squares > 0u;
         n_squares -= is_active ? 1u : 0u;
@@ -267,11 +270,14 @@ void main() {
         // Only what is seen could still decide what is open.
         asks_contour = asks_contour && !finds_contour && (may_find || !is_contour_open);
         asks_mesh = asks_mesh && !finds_mesh && (may_find || !is_mesh_open);
-        for (uint turn = 0u; turn < (splits ? 1u : 0u); ++turn) {
+        if (splits) {
             for (uint k = 0u; k < 4u; ++k) {
                 squares[n_squares] = (level + 1u) | ((2u * across + (k & 1u)) << 4) | ((2u * down + (k >> 1)) << 18);
                 n_squares += 1u;
             }
+        }
+        if (!(asks_contour || asks_mesh) || (n_squares == 0u && stack_size == 0u)) {
+            break;
         }
     }
     const bool is_cut_short = n_squares > 0u || stack_size > 0u || core_has_driver_given_up(core_size.x >> 31);
@@ -279,14 +285,14 @@ void main() {
     const bool is_mesh_undecided = !has_mesh_line && (is_mesh_open || (asks_mesh && is_cut_short));
     const bool is_last = core_open_count == 0u;
     const uint open = (is_contour_undecided ? CORE_LIST_CONTOUR : 0u) | (is_mesh_undecided ? CORE_LIST_MESH_LINE : 0u);
-    for (uint turn = 0u; turn < (is_pixel && !is_last && open != 0u ? 1u : 0u); ++turn) {
+    if (is_pixel && !is_last && open != 0u) {
         core_open[atomicAdd(core_counts[core_open_count], 1u)] = pixel | open;
     }
     const uint flags = (has_contour ? CORE_FLAG_CONTOUR : 0u) | (has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) |
                        (is_last && is_contour_undecided ? CORE_FLAG_CONTOUR_UNDECIDED : 0u) |
                        (is_last && is_mesh_undecided ? CORE_FLAG_MESH_UNDECIDED : 0u) |
                        (rests_on_estimates ? CORE_FLAG_ESTIMATED : 0u);
-    for (uint turn = 0u; turn < (is_pixel && flags != 0u ? 1u : 0u); ++turn) {
+    if (is_pixel && flags != 0u) {
         core_marks[pixel].flags |= flags;
     }
     const uint all_evaluations = subgroupAdd(n_evaluations);

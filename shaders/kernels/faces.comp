@@ -103,7 +103,7 @@ void main() {
                 bend = meeting.bend;
                 steps = 0u;
 #if CORE_DESCENDS
-                for (uint turn = 0u; turn < (!is_behind && is_inner ? 1u : 0u); ++turn) {
+                if (!is_behind && is_inner) {
                     const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
                     const core_node one = core_fetch_node(node.child), other = core_fetch_node(node.child + 1u);
                     const float one_t = core_box_entry(one, ray), other_t = core_box_entry(other, ray);
@@ -122,6 +122,9 @@ void main() {
                 // Nothing more is done here.
                 entry = is_careful ? n_entries : entry;
                 stack_size = is_careful ? 0u : stack_size;
+                if (patch_index != CORE_NO_FACE || (stack_size == 0u && entry >= n_entries)) {
+                    break;
+                }
             }
 
             const bool is_active = patch_index != CORE_NO_FACE;
@@ -162,30 +165,35 @@ void main() {
             const elvis_real reach = elvis_real(CORE_PATCH_REACH) * half_size;
             u = clamp(new_u, elvis_real(square.a) - reach, elvis_real(square.a) + reach);
             v = clamp(new_v, elvis_real(square.b) - reach, elvis_real(square.b) + reach);
+            if (patch_index == CORE_NO_FACE && stack_size == 0u && entry >= n_entries) {
+                break;
+            }
         }
         is_careful = is_careful || patch_index != CORE_NO_FACE || stack_size > 0u || entry < n_entries;
         tracked = is_careful ? CORE_NO_FACE : nearest.patch_index;
         tracked_u = nearest.next_u;
         tracked_v = nearest.next_v;
         const core_location found = core_location_of(nearest, n_steps);
-        // For pixels outside, too: see kernels/cut_plane.comp.
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
-        for (uint turn = 0u; turn < (has_found && !is_careful ? 1u : 0u); ++turn) {
+        if (has_found && !is_careful) {
             n_evaluations += core_show(pixel, ray, nearest, found, value);
         }
-        for (uint turn = 0u; turn < (is_careful ? 1u : 0u); ++turn) {
+        if (is_careful) {
             core_list[atomicAdd(core_counts[3], 1u)] = pixel;
         }
         n_all_steps += n_steps;
         row += 1u;
+        if (row >= end_row) {
+            break;
+        }
     }
     // Then no pixel of the column is to be trusted.
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
     for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
         core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
-    for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {
+    if (end_row > first_row) {
         const uint all_evaluations = subgroupAdd(n_evaluations);
         const uint all_steps = subgroupAdd(n_all_steps);
         if (subgroupElect()) {

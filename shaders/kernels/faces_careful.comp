@@ -64,7 +64,7 @@ void main() {
             entry = is_behind ? n_entries : entry + (is_popped ? 0u : 1u);
             stack_size -= is_popped ? 1u : 0u;
             const bool is_inner = (word & CORE_TILE_INNER) != 0u;
-            for (uint turn = 0u; turn < (!is_behind && !is_inner ? 1u : 0u); ++turn) {
+            if (!is_behind && !is_inner) {
                 const core_patch_meeting meeting = core_meet_patch(word, ray.box_origin, vec3(ray.direction), ray.far,
                         float(ray.least_t),
                                                                    float(nearest.t + nearest.slack));
@@ -75,13 +75,16 @@ void main() {
                 squares[0] = 0u;
                 n_squares = meeting.is_met ? 1u : 0u;
             }
-            for (uint turn = 0u; turn < (!is_behind && is_inner ? 1u : 0u); ++turn) {
+            if (!is_behind && is_inner) {
                 const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
                 for (uint k = 0u; k < 2u; ++k) {
                     const core_node part = core_fetch_node(node.child + k);
                     stack[stack_size] = part.is_leaf ? part.child : (node.child + k) | CORE_TILE_INNER;
                     stack_size += core_box_entry(part, ray) <= float(nearest.t + nearest.slack) ? 1u : 0u;
                 }
+            }
+            if (n_squares > 0u || is_polishing || (stack_size == 0u && entry >= n_entries)) {
+                break;
             }
         }
 
@@ -168,7 +171,7 @@ void main() {
                            excess >= elvis_real(-2) * s.error, s, elvis_vec3(0));
         const bool ends = has_converged || has_missed || has_stalled;
         is_polishing = is_polishing && !ends;
-        for (uint turn = 0u; turn < (splits ? 1u : 0u); ++turn) {
+        if (splits) {
             for (uint k = 0u; k < 4u; ++k) {
                 squares[n_squares] = (level + 1u) | ((2u * i + (k & 1u)) << 4) | ((2u * j + (k >> 1)) << 17);
                 n_squares += 1u;
@@ -178,6 +181,9 @@ void main() {
         const elvis_real reach = elvis_real(CORE_PATCH_REACH) * half_size;
         u = clamp(new_u, middle_u - reach, middle_u + reach);
         v = clamp(new_v, middle_v - reach, middle_v + reach);
+        if (n_squares == 0u && !is_polishing && stack_size == 0u && entry >= n_entries) {
+            break;
+        }
     }
 
     core_location found = core_location_of(nearest, n_steps);
@@ -186,10 +192,10 @@ void main() {
     const bool has_found = found.element != CORE_NO_ELEMENT;
     const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
     uint n_evaluations = 0u;
-    for (uint turn = 0u; turn < (is_pixel && (has_found || found.is_cut_short) ? 1u : 0u); ++turn) {
+    if (is_pixel && (has_found || found.is_cut_short)) {
         n_evaluations = core_show(pixel, ray, nearest, found, value);
     }
-    for (uint turn = 0u; turn < (is_pixel && touched_t <= nearest.t + nearest.slack ? 1u : 0u); ++turn) {
+    if (is_pixel && touched_t <= nearest.t + nearest.slack) {
         core_marks[pixel].flags |= CORE_FLAG_UNDECIDED;
     }
     const uint all_evaluations = subgroupAdd(n_evaluations);

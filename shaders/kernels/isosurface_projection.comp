@@ -164,7 +164,7 @@ void main() {
     uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
     bool best_is_certain = true;
     const bool was_hit = is_pixel && core_marks[pixel].owner != 0u;
-    for (uint turn = 0u; turn < (was_hit ? 1u : 0u); ++turn) {
+    if (was_hit) {
         best_t = core_samples[pixel].depth / stretch - along.reference_distance;
         best_number = core_samples[pixel].number;
         best_slack = elvis_real(16) * CORE_ROUNDOFF * core_samples[pixel].depth;
@@ -182,14 +182,14 @@ void main() {
             span.x = max(span.x, float(ray.least_t));
             span.y = min(span.y, float(best_t + best_slack));
             const bool is_touched = span.x <= span.y;
-            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && !node.is_leaf) {
                 const vec2 one = core_box_span(core_fetch_node(node.child), ray), other = core_box_span(core_fetch_node(node.child + 1u), ray);
                 const uint nearer = one.x <= other.x ? 0u : 1u;
                 stack[stack_size] = node.child + (1u - nearer);
                 stack[stack_size + 1u] = node.child + nearer;
                 stack_size += 2u;
             }
-            for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && node.is_leaf) {
                 element = node.child;
                 const core_linearization linearization = core_fetch_linearization(element);
                 const vec3 target = vec3(core_reference.xyz - elvis_origin(element) + ray.origin);
@@ -214,9 +214,12 @@ void main() {
                                       core_part_begin(walk_ray, element, elvis_real(span.x), min(span_end, elvis_real(span.x) + walk_ray.reach), false, part);
                 phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
             }
+            if (phase != CORE_PHASE_SEEK || stack_size == 0u) {
+                break;
+            }
         }
 
-        for (uint turn = 0u; turn < (phase == CORE_PHASE_CLIP ? 1u : 0u); ++turn) {
+        if (phase == CORE_PHASE_CLIP) {
             const uint ending = core_part_turn(walk_ray, true, part);
             n_evaluations += 1u;
             const bool is_found = ending == CORE_PART_FOUND && part.enter < part.leave;
@@ -241,7 +244,7 @@ void main() {
             core_follow_to(follower, from);
         }
 
-        for (uint turn = 0u; turn < (phase == CORE_PHASE_SOLVE ? 1u : 0u); ++turn) {
+        if (phase == CORE_PHASE_SOLVE) {
             candidate = core_next_candidate(fit, bernstein, fit.error, walk);
             const bool is_none = candidate.kind == CORE_CROSSING_NONE;
             // Where the polynomial is this near, the field may cross more than once; the slope tells.
@@ -263,8 +266,8 @@ void main() {
             core_follow_to(follower, from + candidate.t * (to - from));
             const bool is_ignored = CORE_PLAIN == 1 && candidate.kind == CORE_CROSSING_TOUCH;
             phase = is_none ? CORE_PHASE_PIECE_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
-            for (uint second = 0u; second < (refines && (halves || !is_full) ? 1u : 0u); ++second) {
-                for (uint third = 0u; third < (halves ? 1u : 0u); ++third) {
+            if (refines && (halves || !is_full)) {
+                if (halves) {
                     core_halve(piece);
                     to = elvis_real(0.5LF) * (from + to);
                 }
@@ -276,7 +279,7 @@ void main() {
         core_ray_sample found;
         found.status = CORE_SAMPLE_RUNNING;
         const bool evaluates = phase == CORE_PHASE_SAMPLE || phase == CORE_PHASE_POLISH;
-        for (uint turn = 0u; turn < (evaluates ? 1u : 0u); ++turn) {
+        if (evaluates) {
             found = core_sample_step(walk_ray, element, curvature, follower);
             n_evaluations += 1u;
             const bool is_lost = !found.is_finite || found.status == CORE_SAMPLE_FAILED;
@@ -287,7 +290,7 @@ void main() {
         }
 
         bool is_judged = false;
-        for (uint turn = 0u; turn < (phase == CORE_PHASE_SAMPLE && found.status == CORE_SAMPLE_FOUND ? 1u : 0u); ++turn) {
+        if (phase == CORE_PHASE_SAMPLE && found.status == CORE_SAMPLE_FOUND) {
             core_add_sample(piece, found);
             is_judged = piece.values.status != CORE_SEGMENT_WANTS;
             for (int i = 0; i < CORE_SEGMENT_LEVELS; ++i) {
@@ -295,7 +298,7 @@ void main() {
             }
             core_follow_to(follower, from + core_segment_parameter(piece.values) * (to - from));
         }
-        for (uint turn = 0u; turn < (is_judged ? 1u : 0u); ++turn) {
+        if (is_judged) {
             fit = core_segment_fit(piece.values);
             bernstein = core_to_bernstein(fit.chebyshev);
             floor_error = CORE_SEGMENT_LEBESGUE * piece.values.sample_error + core_bernstein_rounding(fit.chebyshev);
@@ -321,14 +324,14 @@ void main() {
 #endif
             walk = core_walk_begin();
             phase = is_verified ? CORE_PHASE_PIECE_DONE : is_solved ? CORE_PHASE_SOLVE : phase;
-            for (uint second = 0u; second < (halves ? 1u : 0u); ++second) {
+            if (halves) {
                 core_halve(piece);
                 to = elvis_real(0.5LF) * (from + to);
                 core_follow_to(follower, from + core_segment_parameter(piece.values) * (to - from));
             }
         }
 
-        for (uint turn = 0u; turn < (phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND ? 1u : 0u); ++turn) {
+        if (phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND) {
             polish_turns += 1u;
             const elvis_real t = follower.at, off = found.value - isovalue;
             const bool is_above = off > found.error, is_below = off < -found.error;
@@ -398,9 +401,9 @@ void main() {
             core_follow_to(follower, is_within ? next : elvis_real(0.5LF) * (bracket_from + bracket_to));
         }
 
-        for (uint turn = 0u; turn < (phase == CORE_PHASE_PIECE_DONE ? 1u : 0u); ++turn) {
+        if (phase == CORE_PHASE_PIECE_DONE) {
             const bool is_last = core_is_last_piece(piece);
-            for (uint second = 0u; second < (is_last ? 0u : 1u); ++second) {
+            if (!is_last) {
                 core_next_piece(piece);
                 from = to;
                 to = part_from + (elvis_real(piece.index + 1u) / elvis_real(1u << piece.level)) * (part_to - part_from);
@@ -408,16 +411,19 @@ void main() {
             }
             phase = is_last ? CORE_PHASE_PART_DONE : from > best_t + best_slack ? CORE_PHASE_SEEK : CORE_PHASE_SAMPLE;
         }
-        for (uint turn = 0u; turn < (phase == CORE_PHASE_PART_DONE ? 1u : 0u); ++turn) {
+        if (phase == CORE_PHASE_PART_DONE) {
             n_parts += 1u;
             const elvis_real resume = part.resume + walk_ray.tolerance;
             const bool goes_on = part.is_inside && resume < span_end && resume < best_t + best_slack;
             undecided_t = goes_on && n_parts >= CORE_MOST_PARTS ? min(undecided_t, resume) : undecided_t;
             bool is_begun = false;
-            for (uint second = 0u; second < (goes_on && n_parts < CORE_MOST_PARTS ? 1u : 0u); ++second) {
+            if (goes_on && n_parts < CORE_MOST_PARTS) {
                 is_begun = core_part_begin(walk_ray, element, resume, span_end, false, part);
             }
             phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
+        }
+        if (phase == CORE_PHASE_SEEK && stack_size == 0u) {
+            break;
         }
     }
 
@@ -427,10 +433,10 @@ void main() {
     flags |= undecided_t <= best_t + best_slack && undecided_t < CORE_FAR ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
     flags |= is_hit ? CORE_FLAG_ISOSURFACE : 0u;
     flags |= is_hit && !best_is_certain ? CORE_FLAG_UNDECIDED : 0u;
-    for (uint turn = 0u; turn < (is_pixel && flags != 0u ? 1u : 0u); ++turn) {
+    if (is_pixel && flags != 0u) {
         core_marks[pixel].flags |= flags;
     }
-    for (uint turn = 0u; turn < (is_hit ? 1u : 0u); ++turn) {
+    if (is_hit) {
         core_store_crossing(pixel, core_surface, best_isovalue, (best_t + along.reference_distance) * stretch, best_number,
                             elvis_vec3(normal_x, normal_y, normal_z), ray.direction,
                             core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS), best_bend);

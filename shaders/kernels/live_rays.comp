@@ -30,7 +30,7 @@ void main() {
         const bool goes = (status == CORE_RAY_GOES || has_sought) && is_own;
         const bool seeks = status == CORE_RAY_SEEKS || has_sought;
         is_live = is_live || (core_seeks != 0u ? seeks : goes && !ends);
-        for (uint turn = 0u; turn < (ends ? 1u : 0u); ++turn) {
+        if (ends) {
             core_states[pixel].status = CORE_RAY_ENDS;
         }
     }

@@ -41,7 +41,7 @@ void main() {
     const bool is_drawn = is_inside && layer.owner != 0u;
     elvis_real depth = CORE_FAR;
     elvis_vec4 color = elvis_vec4(0);
-    for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
+    if (is_drawn) {
         depth = core_layer_samples[pixel].depth;
         color = core_layer_colors[pixel];
     }
@@ -52,7 +52,7 @@ void main() {
     const core_mark old = core_marks[safe];
     const bool is_empty = is_first || old.owner == 0u;
     elvis_real old_depth = CORE_FAR;
-    for (uint turn = 0u; turn < (is_empty || !is_inside ? 0u : 1u); ++turn) {
+    if (!(is_empty || !is_inside)) {
         old_depth = core_samples[pixel].depth;
     }
     const bool is_nearest = is_seen && depth < old_depth;
@@ -63,28 +63,28 @@ void main() {
     const uint may_hide = CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED;
     const uint lost_flags = !is_drawn ? layer.flags : is_seen ? 0u : layer.flags & may_hide;
     const uint kept_flags = is_nearest ? (old_flags & 0xffff0000u) | own_flags : old_flags;
-    for (uint turn = 0u; turn < (is_inside ? 1u : 0u); ++turn) {
+    if (is_inside) {
         const uint low_bits = layer.owner & ((1u << CORE_OWNER_BITS) - 1u);
         core_marks[pixel].owner = is_nearest ? (core_surface << CORE_OWNER_BITS) | low_bits : (is_empty ? 0u : old.owner);
         core_marks[pixel].flags = kept_flags | (lost_flags << 16);
     }
-    for (uint turn = 0u; turn < (is_nearest ? 1u : 0u); ++turn) {
+    if (is_nearest) {
         core_samples[pixel] = core_layer_samples[pixel];
     }
-    for (uint turn = 0u; turn < (is_nearest && core_has_normals != 0u ? 1u : 0u); ++turn) {
+    if (is_nearest && core_has_normals != 0u) {
         core_normals[3u * pixel] = core_layer_normals[3u * pixel];
         core_normals[3u * pixel + 1u] = core_layer_normals[3u * pixel + 1u];
         core_normals[3u * pixel + 2u] = core_layer_normals[3u * pixel + 2u];
     }
     const elvis_real opaque_depth = is_first ? CORE_FAR : core_depths[safe];
     const bool is_in_front = is_opaque && depth < opaque_depth;
-    for (uint turn = 0u; turn < (is_inside && (is_first || is_in_front) ? 1u : 0u); ++turn) {
+    if (is_inside && (is_first || is_in_front)) {
         const elvis_vec4 background = elvis_vec4(core_red, core_green, core_blue, core_alpha);
         core_colors[pixel] = is_in_front ? color : background;
         core_depths[pixel] = is_in_front ? depth : CORE_FAR;
     }
     const bool is_wanted = is_drawn && !is_opaque && depth < opaque_depth;
-    for (uint turn = 0u; turn < (is_inside ? 1u : 0u); ++turn) {
+    if (is_inside) {
         core_beyond[pixel] = is_wanted ? depth : CORE_FAR;
     }
     const uint n_wanted = subgroupAdd(is_wanted ? 1u : 0u);

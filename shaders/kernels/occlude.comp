@@ -29,17 +29,17 @@ void main() {
     const elvis_real depth = core_depths[safe];
     const uint owner = core_layer_marks[safe].owner;
     const bool is_put = core_step == 0u && is_inside && depth < CORE_FAR;
-    for (uint turn = 0u; turn < (is_put ? 1u : 0u); ++turn) {
+    if (is_put) {
         core_layer_samples[pixel].depth = depth;
         core_layer_samples[pixel].number = CORE_NO_NUMBER;
         core_layer_marks[pixel].owner = CORE_OCCLUDER;
     }
     const bool is_left = core_step == 1u && is_inside && (owner | ((1u << CORE_OWNER_BITS) - 1u)) == 0xffffffffu;
-    for (uint turn = 0u; turn < (is_left ? 1u : 0u); ++turn) {
+    if (is_left) {
         core_layer_marks[pixel].owner = 0u;
     }
     const bool is_drawn = core_step == 2u && is_inside && owner != 0u;
-    for (uint turn = 0u; turn < (is_drawn ? 1u : 0u); ++turn) {
+    if (is_drawn) {
         const bool is_hidden = core_layer_samples[pixel].depth >= depth;
         core_layer_marks[pixel].owner = is_hidden ? 0u : owner;
         core_layer_marks[pixel].flags = is_hidden ? 0u : core_layer_marks[pixel].flags;

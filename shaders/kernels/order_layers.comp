@@ -17,7 +17,7 @@ void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const uint safe = min(pixel, core_n_pixels - 1u);
     const elvis_real near_depth = core_near_depths[safe], far_depth = core_far_depths[safe];
-    for (uint turn = 0u; turn < (pixel < core_n_pixels && far_depth < near_depth ? 1u : 0u); ++turn) {
+    if (pixel < core_n_pixels && far_depth < near_depth) {
         const elvis_vec4 near_color = core_near_colors[pixel];
         core_near_colors[pixel] = core_far_colors[pixel];
         core_far_colors[pixel] = near_color;

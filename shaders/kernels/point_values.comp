@@ -28,7 +28,7 @@ void main() {
     const bool is_shown = is_pixel && core_marks[safe_pixel].owner != 0u && core_class_of(place) == CORE_CLASS;
     const elvis_real value =
         core_shown_value(is_shown ? place.element : 0u, is_shown ? elvis_vec3(place.x, place.y, place.z) : CORE_CENTROID);
-    for (uint turn = 0u; turn < (is_shown ? 1u : 0u); ++turn) {
+    if (is_shown) {
         core_samples[pixel].value = value;
         core_marks[pixel].flags |= CORE_VALUE_FLAGS;
     }

@@ -123,7 +123,7 @@ void main() {
     const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = chain.status == CORE_RAY_SEEKS;
     const bool is_full = n_segments >= most;
     flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
-    for (uint turn = 0u; turn < (is_mine ? 1u : 0u); ++turn) {
+    if (is_mine) {
         state.done = chain.done;
         state.chain = seeks ? CORE_FAR : chain.at;
         state.start = chain.start;

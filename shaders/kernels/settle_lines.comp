@@ -58,6 +58,9 @@ uint core_next_row(uint column, uint row, uint end_row) {
         const bool is_mine = is_outside ? core_takes_outside != 0u : core_class_of(core_places[pixel]) == core_class;
         is_idle = core_marks[pixel].owner == 0u || !is_mine;
         row += is_idle ? 1u : 0u;
+        if (!is_idle || row >= end_row) {
+            break;
+        }
     }
     return row;
 }
@@ -131,15 +134,18 @@ void main() {
         n_evaluations += 1u;
         const uint flags = (has_contour ? CORE_FLAG_CONTOUR : 0u) | (has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) |
                            (rests_on_estimates && !is_outside ? CORE_FLAG_ESTIMATED : 0u);
-        for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
+        if (flags != 0u) {
             core_marks[pixel].flags |= flags;
         }
         const uint open = (is_contour_open ? CORE_LIST_CONTOUR : 0u) | (is_mesh_open ? CORE_LIST_MESH_LINE : 0u);
-        for (uint turn = 0u; turn < (open != 0u ? 1u : 0u); ++turn) {
+        if (open != 0u) {
             core_places[pixel].class_and_face |= entering | (is_filled ? CORE_PLACE_FILLED : 0u);
             core_list[atomicAdd(core_counts[1], 1u)] = pixel | open;
         }
         row = core_next_row(column, row + 1u, end_row);
+        if (row >= end_row) {
+            break;
+        }
     }
 
     // Then no pixel of the column is to be trusted.
@@ -147,7 +153,7 @@ void main() {
     for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
         core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
-    for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {
+    if (end_row > first_row) {
         const uint all_evaluations = subgroupAdd(n_evaluations);
         if (subgroupElect()) {
             atomicAdd(core_counts[0], all_evaluations);

@@ -49,10 +49,13 @@ uint core_next_row(uint column, uint row, uint end_row) {
         const uint pixel = row * core_size.x + column;
         const bool is_found = core_marks[pixel].owner >> CORE_OWNER_BITS == core_surface;
         is_done = core_round > 0u ? core_hits[pixel].t >= CORE_FAR || is_found : core_beyond[pixel] >= CORE_FAR;
-        for (uint turn = 0u; turn < (is_done ? 1u : 0u); ++turn) {
+        if (is_done) {
             core_hits[pixel].t = CORE_FAR;
         }
         row += is_done ? 1u : 0u;
+        if (!is_done || row >= end_row) {
+            break;
+        }
     }
     return row;
 }
@@ -76,10 +79,10 @@ void main() {
         const elvis_real stretch = length(ray.direction);
 
         elvis_real after = -CORE_FAR;
-        for (uint turn = 0u; turn < (core_round > 0u ? 1u : 0u); ++turn) {
+        if (core_round > 0u) {
             after = core_hits[pixel].t + elvis_real(2) * core_hits[pixel].error;
         }
-        for (uint turn = 0u; turn < (core_round == 0u ? core_has_beyond : 0u); ++turn) {
+        if (core_round == 0u && core_has_beyond != 0u) {
             // To depth and back: rounding of depth itself.
             const elvis_real beyond = core_beyond[pixel];
             after = (beyond + elvis_real(4) * CORE_ROUNDOFF * abs(beyond)) / stretch - along.reference_distance;
@@ -111,10 +114,10 @@ void main() {
         const uint flags = (is_wanted && (hit.is_undecided || is_vague) ? CORE_FLAG_UNDECIDED : 0u) |
                            (is_wanted && hit.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) |
                            (is_wanted && hit.is_estimated ? CORE_FLAG_ESTIMATED : 0u);
-        for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
+        if (flags != 0u) {
             core_marks[pixel].flags |= flags;
         }
-        for (uint turn = 0u; turn < (is_hit ? 1u : 0u); ++turn) {
+        if (is_hit) {
             core_hits[pixel].error = hit.error;
             const elvis_vec3 normal = elvis_vec3(hit.normal_x, hit.normal_y, hit.normal_z);
             const elvis_real size = (dot(normal, ray.direction) > elvis_real(0) ? elvis_real(-1) : elvis_real(1)) / length(normal);
@@ -135,6 +138,9 @@ void main() {
         high_z = is_hit ? max(high_z, place.z + width) : high_z;
         n_found += is_hit ? 1u : 0u;
         row = core_next_row(column, row + 1u, end_row);
+        if (row >= end_row) {
+            break;
+        }
     }
 
     // Then no pixel of the column is to be trusted.
@@ -152,7 +158,7 @@ void main() {
     core_lane_boxes[5u * CORE_TILE_WIDTH + lane] = -high_z;
     barrier();
     // Six lanes, one for each side of the box; upper ends are negated.
-    for (uint turn = 0u; turn < (lane < 6u ? 1u : 0u); ++turn) {
+    if (lane < 6u) {
         float least = infinite;
         for (uint i = 0u; i < CORE_TILE_WIDTH; ++i) {
             least = min(least, core_lane_boxes[lane * CORE_TILE_WIDTH + i]);
@@ -161,7 +167,7 @@ void main() {
         const uint part = (core_first_tile_row * parts + gl_WorkGroupID.y) * tiles_a_row + gl_WorkGroupID.x;
         core_boxes[6u * part + lane] = least;
     }
-    for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {
+    if (end_row > first_row) {
         const uint all_found = subgroupAdd(n_found);
         if (subgroupElect()) {
             atomicAdd(core_counts[0], all_found);

@@ -146,12 +146,12 @@ void main() {
             const core_node node = core_fetch_node(stack[stack_size]);
             const bool is_touched = core_overlaps(node, lower, upper);
             element = is_touched && node.is_leaf ? node.child : CORE_NO_ELEMENT;
-            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && !node.is_leaf) {
                 stack[stack_size] = node.child + 1u;
                 stack[stack_size + 1u] = node.child;
                 stack_size += 2u;
             }
-            for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
+            if (element != CORE_NO_ELEMENT) {
                 const core_linearization linearization = core_fetch_linearization(element);
                 const elvis_vec3 middle =
                     CORE_BY_SEGMENTS != 0 ? elvis_real(0.5LF) * (square.corner0 + square.corner1) : tangent.point;
@@ -175,6 +175,9 @@ void main() {
                 z = start.z;
                 core_project(x, y, z);
                 level = across = down = moves = 0u;
+            }
+            if (element != CORE_NO_ELEMENT || stack_size == 0u) {
+                break;
             }
         }
 
@@ -264,10 +267,10 @@ void main() {
         across = is_divided ? 2u * across : across;
         down = is_divided ? 2u * down : down;
         const bool is_done = is_active && !moves_on && !is_divided;
-        for (uint turn = 0u; turn < (is_done ? 1u : 0u); ++turn) {
+        if (is_done) {
             element = core_next_cell(level, across, down) ? element : CORE_NO_ELEMENT;
         }
-        for (uint turn = 0u; turn < (element != CORE_NO_ELEMENT ? 1u : 0u); ++turn) {
+        if (element != CORE_NO_ELEMENT) {
             const elvis_real next_size = core_cell_size(level);
 #if CORE_BY_SEGMENTS
             const core_segment ahead =
@@ -291,6 +294,9 @@ void main() {
             y += share * (next_y - y);
             z += share * (next_z - z);
         }
+        if (!goes_on || (element == CORE_NO_ELEMENT && stack_size == 0u)) {
+            break;
+        }
     }
     const bool is_cut_short =
         (goes_on && (element != CORE_NO_ELEMENT || stack_size > 0u)) || core_has_driver_given_up(core_size.x >> 31);
@@ -303,10 +309,10 @@ void main() {
                        (is_last && is_mesh_undecided ? CORE_FLAG_MESH_UNDECIDED : 0u) |
                        (is_estimated || rests_on_estimates ? CORE_FLAG_ESTIMATED : 0u);
     const uint open = (is_contour_undecided ? CORE_LIST_CONTOUR : 0u) | (is_mesh_undecided ? CORE_LIST_MESH_LINE : 0u);
-    for (uint turn = 0u; turn < (is_pixel && !is_last && open != 0u ? 1u : 0u); ++turn) {
+    if (is_pixel && !is_last && open != 0u) {
         core_open[atomicAdd(core_counts[core_open_count], 1u)] = pixel | open;
     }
-    for (uint turn = 0u; turn < (is_pixel && flags != 0u ? 1u : 0u); ++turn) {
+    if (is_pixel && flags != 0u) {
         core_marks[pixel].flags |= flags;
     }
     const uint all_evaluations = subgroupAdd(n_evaluations);

@@ -41,7 +41,7 @@ void main() {
     const elvis_real t = core_hits[safe].t;
 #endif
     const bool is_outside = pixel < core_n_pixels && t < CORE_FAR && core_marks[safe].owner >> CORE_OWNER_BITS != core_surface;
-    for (uint turn = 0u; turn < (is_outside ? 1u : 0u); ++turn) {
+    if (is_outside) {
         const elvis_vec3 direction = (column.direction + (row - column.row0) * column.direction_row).xyz;
         core_samples[pixel].value = core_nan();
         core_samples[pixel].depth = (t + column.reference_distance) * length(direction);

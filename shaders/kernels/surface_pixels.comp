@@ -58,6 +58,9 @@ uint core_next_row(uint column, uint row, uint end_row) {
     while (is_idle && row < end_row) {
         is_idle = core_hits[row * core_size.x + column].t >= CORE_FAR;
         row += is_idle ? 1u : 0u;
+        if (!is_idle || row >= end_row) {
+            break;
+        }
     }
     return row;
 }
@@ -86,15 +89,14 @@ void main() {
                       min(core_hits[pixel].error * length(direction.xyz), elvis_real(core_most_error));
         core_normal_here = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
         const core_location found = core_locate(point, n_entries, track);
-        // For pixels outside, too: see kernels/cut_plane.comp.
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
         const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
-        for (uint turn = 0u; turn < (is_news ? 1u : 0u); ++turn) {
+        if (is_news) {
             const bool was_open = core_marks[pixel].owner >> CORE_OWNER_BITS != core_surface;
             const uint n_done = core_merge(pixel, point, found, value);
             n_evaluations += n_done;
-            for (uint again = 0u; again < (n_done > 0u ? core_wants_places : 0u); ++again) {
+            if (n_done > 0u && core_wants_places != 0u) {
                 core_places[pixel] =
                     core_place(found.x, found.y, found.z, found.element, CORE_CLASS << CORE_PLACE_FACE_BITS);
             }
@@ -103,6 +105,9 @@ void main() {
         n_steps += found.n_steps;
         n_failures += found.n_failures;
         row = core_next_row(column, row + 1u, end_row);
+        if (row >= end_row) {
+            break;
+        }
     }
 
     // Then no pixel of the column is to be trusted.
@@ -111,7 +116,7 @@ void main() {
         core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
     }
 
-    for (uint turn = 0u; turn < (end_row > first_row ? 1u : 0u); ++turn) {
+    if (end_row > first_row) {
         const uint all_evaluations = subgroupAdd(n_evaluations);
         const uint all_steps = subgroupAdd(n_steps);
         const uint all_failures = subgroupAdd(n_failures);

@@ -81,10 +81,10 @@ void main() {
     const core_ray pixel_ray = core_pixel_ray(along, elvis_real(row));
     const core_walk_ray ray = core_walk_ray_of(pixel_ray, elvis_real(core_extent));
     elvis_real end = CORE_FAR, stop = CORE_FAR;
-    for (uint turn = 0u; turn < core_has_depths; ++turn) {
+    if (core_has_depths != 0u) {
         end = core_depths[pixel] / ray.speed - along.reference_distance;
     }
-    for (uint turn = 0u; turn < core_has_stops; ++turn) {
+    if (core_has_stops != 0u) {
         stop = core_stops[pixel] / ray.speed - along.reference_distance;
     }
     const elvis_real to = min(end, stop);

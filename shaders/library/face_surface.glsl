@@ -61,7 +61,7 @@ uint core_show(uint pixel, core_ray ray, core_nearest nearest, core_location fou
     point.error = ray.error;
     const uint n_evaluations = core_merge(pixel, point, found, value);
     // At the crossing itself: where Newton's method took its last step from, the normal may be off by that step.
-    for (uint turn = 0u; turn < (n_evaluations > 0u ? core_wants_normals : 0u); ++turn) {
+    if (n_evaluations > 0u && core_wants_normals != 0u) {
         const uvec4 place = elvis_fetch4_core_faces(nearest.face, 0u);
         const core_face_point there = core_face_at(nearest.face, place.x, int(place.y), nearest.u, nearest.v);
         const elvis_vec3 normal = cross(there.along_u, there.along_v);
@@ -70,12 +70,12 @@ uint core_show(uint pixel, core_ray ray, core_nearest nearest, core_location fou
         core_normals[3u * pixel + 1u] = unit.y;
         core_normals[3u * pixel + 2u] = unit.z;
     }
-    for (uint turn = 0u; turn < (n_evaluations > 0u ? core_wants_places : 0u); ++turn) {
+    if (n_evaluations > 0u && core_wants_places != 0u) {
         const uint face = elvis_fetch4_core_faces(nearest.face, 0u).y;
         core_places[pixel] =
             core_place(found.x, found.y, found.z, found.element, (CORE_CLASS << CORE_PLACE_FACE_BITS) | (face + 1u));
     }
-    for (uint turn = 0u; turn < (n_evaluations > 0u ? 1u : 0u); ++turn) {
+    if (n_evaluations > 0u) {
 #ifndef CORE_FACE_ORDER
         // The patches' bounds are those of polynomials near the faces.
         core_marks[pixel].flags |= CORE_FLAG_ESTIMATED;

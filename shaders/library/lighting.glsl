@@ -36,7 +36,7 @@ elvis_vec3 core_lit(elvis_vec3 color, elvis_vec3 normal, elvis_vec3 position, el
         const elvis_real diffuse = dot(n, to_light);
         const bool is_lit = diffuse > zero;
         elvis_real highlight = zero;
-        for (uint turn = 0u; turn < (is_lit && strength > zero ? 1u : 0u); ++turn) {
+        if (is_lit && strength > zero) {
             // Both lie on the normal's side: the sum does not vanish.
             const elvis_real cosine = dot(n, normalize(to_light + to_viewer));
             highlight = strength * elvis_pow(clamp(cosine, zero, elvis_real(1)), exponent);

@@ -28,7 +28,7 @@
 // far above what any sensible search takes and leaves room for a tile's other pixels.
 #define CORE_WORK_LIMIT 2000u
 
-// Where the column's last pixel was found, to carry on from.
+// Where the column's last pixel was found, to carry on from. Its vectors change by selection only (shaders/README.md, loops).
 struct core_track {
     // Local element, or CORE_NO_ELEMENT.
     uint element;
@@ -94,14 +94,15 @@ void core_add_own_side(uint element, elvis_vec3 xi, core_inverse inverse, elvis_
 
 struct core_target {
     // In the snippet's coordinates, and its rounding error.
-    elvis_vec3 x;
+    elvis_real x, y, z;
     elvis_real error;
 };
 
 core_target core_target_in(uint element, core_cut_point point) {
     // elvis_origin is zero where the snippet's coordinates are the world's.
     const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
-    return core_target(shift + point.position, point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z)));
+    const elvis_vec3 x = shift + point.position;
+    return core_target(x.x, x.y, x.z, point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z)));
 }
 
 // From the linearized mapping, or from the centroid where there is none.
@@ -147,7 +148,7 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
     uint element = n_entries > 0u ? track.element : CORE_NO_ELEMENT;
     bool is_tracked = element != CORE_NO_ELEMENT;
     core_target target = core_target_in(is_tracked ? element : 0u, point);
-    const elvis_vec3 motion = target.x - track.target;
+    const elvis_vec3 motion = elvis_vec3(target.x, target.y, target.z) - track.target;
     const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
     core_newton state = core_newton_begin(track.x + step.x, track.y + step.y, track.z + step.z,
                                           max(max(abs(step.x), abs(step.y)), abs(step.z)), track.curvature);
@@ -162,25 +163,26 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             entry += is_popped ? 0u : 1u;
             const core_node node = core_fetch_node(index);
             const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
-            for (uint turn = 0u; turn < (is_touched && node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && node.is_leaf) {
                 target = core_target_in(node.child, point);
-                state = core_newton_start(node.child, target.x);
+                state = core_newton_start(node.child, elvis_vec3(target.x, target.y, target.z));
                 element = core_is_outside(state) ? CORE_NO_ELEMENT : node.child;
             }
             // Entries are leaves as a rule.
-            for (uint turn = 0u; turn < (is_touched && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_touched && !node.is_leaf) {
                 stack[stack_size] = node.child + 1u;
                 stack[stack_size + 1u] = node.child;
                 stack_size += 2u;
             }
+            if (element != CORE_NO_ELEMENT || (stack_size == 0u && entry >= n_entries)) {
+                break;
+            }
         }
 
-        // Not in a loop of one turn, which would take three times as long (kernels/cut_plane.comp): a turn without an element is
-        // rare.
         const bool is_active = element != CORE_NO_ELEMENT;
         const uint safe_element = is_active ? element : 0u;
         core_inverse inverse;
-        const uint ending = core_newton_step(safe_element, target.x, target.error, state, inverse);
+        const uint ending = core_newton_step(safe_element, elvis_vec3(target.x, target.y, target.z), target.error, state, inverse);
         const uint status = is_active ? ending : CORE_NEWTON_OUTSIDE;
         found.n_steps += is_active ? 1u : 0u;
         // A failure from the last pixel's solution is none: the search tries the element again from its own start.
@@ -192,7 +194,7 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
         bool is_on_face = is_inside && excess >= -most;
         bool is_on_crossing_face = false;
         uint key = 0u;
-        for (uint face_turn = 0u; face_turn < (is_on_face ? 1u : 0u); ++face_turn) {
+        if (is_on_face) {
             const core_side side = core_side_of(elvis_vec3(state.x, state.y, state.z), inverse, point.direction);
             is_inside = side.is_inside;
             is_on_face = side.is_on_face;
@@ -200,7 +202,7 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
             key = side.key;
         }
 #if ELVIS_HAS_INSIDE
-        for (uint own_turn = 0u; own_turn < (is_inside ? 1u : 0u); ++own_turn) {
+        if (is_inside) {
             core_side side = core_side(is_inside, is_on_face, is_on_crossing_face, key);
             core_add_own_side(safe_element, elvis_vec3(state.x, state.y, state.z), inverse, point.direction, side);
             is_inside = side.is_inside;
@@ -228,7 +230,7 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
         track.x = is_alone ? state.x : track.x;
         track.y = is_alone ? state.y : track.y;
         track.z = is_alone ? state.z : track.z;
-        track.target = is_alone ? target.x : track.target;
+        track.target = is_alone ? elvis_vec3(target.x, target.y, target.z) : track.target;
         track.curvature = is_alone ? state.curvature : track.curvature;
         track.row0 = is_alone ? inverse.row0 : track.row0;
         track.row1 = is_alone ? inverse.row1 : track.row1;
@@ -237,6 +239,9 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
         element = is_done ? CORE_NO_ELEMENT : element;
         entry = is_alone ? n_entries : entry;
         stack_size = is_alone ? 0u : stack_size;
+        if (element == CORE_NO_ELEMENT && stack_size == 0u && entry >= n_entries) {
+            break;
+        }
     }
     found.is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
     return found;

@@ -4,7 +4,7 @@
 // Moves the ray's start to behind the last crossing. Returns whether one more is wanted.
 bool core_look_beyond(uint pixel, inout core_ray ray) {
     bool is_wanted = true;
-    for (uint turn = 0u; turn < core_has_beyond; ++turn) {
+    if (core_has_beyond != 0u) {
         const elvis_real depth = core_beyond[pixel];
         const elvis_real per_length = elvis_real(1) / sqrt(dot(ray.direction, ray.direction));
         const elvis_real t = depth * per_length + ray.least_t;

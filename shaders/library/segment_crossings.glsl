@@ -145,7 +145,7 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
         }
     }
     const elvis_real size = crossing.kind == CORE_CROSSING_NONE ? elvis_real(0) : elvis_real(1) / elvis_real(1u << level);
-    for (uint turn = 0u; turn < (is_polished ? 1u : 0u); ++turn) {
+    if (is_polished) {
         crossing.t = core_polish(core_cell_of(bernstein, level, part), core_level_value(crossing.index));
     }
     crossing.t = (elvis_real(part) + crossing.t) * size;

@@ -134,7 +134,7 @@ void core_segment_add(inout core_segment segment, elvis_real value, elvis_real s
         is_decision = is_decision || segment.n_samples == core_segment_counts[level];
     }
     bool is_good = false;
-    for (uint turn = 0u; turn < (is_decision ? 1u : 0u); ++turn) {
+    if (is_decision) {
         is_good = core_segment_fit(segment).error <= tolerance;
     }
     const bool is_full = segment.n_samples == uint(CORE_SEGMENT_SAMPLES);

@@ -46,10 +46,10 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
     core_marks[pixel].owner = owner;
     const uint flags = (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) |
                        (is_shown ? CORE_VALUE_FLAGS : 0u);
-    for (uint turn = 0u; turn < (flags != 0u ? 1u : 0u); ++turn) {
+    if (flags != 0u) {
         core_marks[pixel].flags |= flags;
     }
-    for (uint turn = 0u; turn < (is_shown ? 1u : 0u); ++turn) {
+    if (is_shown) {
         core_samples[pixel].value = value;
         core_samples[pixel].depth = depth;
         core_samples[pixel].number = found.number;

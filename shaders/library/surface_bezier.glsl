@@ -101,7 +101,7 @@ core_hit core_next_hit(core_ray ray) {
             const float farthest = float(best.t + best.error);
             const bool is_met = core_box_entry(node, box_ray, farthest) < 3e38;
             item = is_met && node.is_leaf ? node.child : CORE_NO_NODE;
-            for (uint turn = 0u; turn < (is_met && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_met && !node.is_leaf) {
                 const float first = core_box_entry(core_fetch_node(node.child), box_ray, farthest);
                 const float second = core_box_entry(core_fetch_node(node.child + 1u), box_ray, farthest);
                 stack[stack_size] = node.child + (second < first ? 0u : 1u);
@@ -109,6 +109,9 @@ core_hit core_next_hit(core_ray ray) {
                 stack_size += 2u;
             }
             level = part_u = part_v = 0u;
+            if (item != CORE_NO_NODE || stack_size == 0u) {
+                break;
+            }
         }
         const bool is_active = item != CORE_NO_NODE;
         const uint safe = is_active ? item : 0u;
@@ -221,6 +224,9 @@ core_hit core_next_hit(core_ray ray) {
             level -= is_going_up ? 1u : 0u;
         }
         item = is_going_up ? CORE_NO_NODE : item;
+        if (item == CORE_NO_NODE && stack_size == 0u) {
+            break;
+        }
     }
     best.is_undecided = core_is_undecided(votes, best) || touch_t <= best.t + best.error && touch_t < CORE_FAR;
     best.is_cut_short = item != CORE_NO_NODE || stack_size > 0u;

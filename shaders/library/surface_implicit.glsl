@@ -72,7 +72,7 @@ core_hit core_next_hit(core_ray ray) {
         }
 
         // How far rounding may have moved it: the range that the function has at one point as far as can be known, over the slope.
-        for (uint turn = 0u; turn < (has_zero ? 1u : 0u); ++turn) {
+        if (has_zero) {
             const elvis_vec3 x = core_implicit_point(ray, t);
             elvis_real value;
             elvis_vec3 gradient;
@@ -116,6 +116,9 @@ core_hit core_next_hit(core_ray ray) {
             level -= 1u;
         }
         is_active = is_active && (level > 0u || index == 0u);
+        if (!is_active) {
+            break;
+        }
     }
     best.is_undecided = best.is_undecided || touch_from < CORE_FAR;
     best.is_cut_short = is_active;

@@ -18,7 +18,7 @@ elvis_real core_edge_function(elvis_real a, elvis_real b, elvis_real c, elvis_re
     precise const elvis_real q = c * d;
     precise elvis_real result = p - q;
     // Rounding keeps order: only equal products hide a sign.
-    for (uint turn = 0u; turn < (result == elvis_real(0) ? 1u : 0u); ++turn) {
+    if (result == elvis_real(0)) {
         elvis_real p0, p_error, q0, q_error;
         core_two_product(a, b, p0, p_error);
         core_two_product(c, d, q0, q_error);
@@ -53,12 +53,15 @@ core_hit core_next_hit(core_ray ray) {
             const float farthest = float(best.t + best.error);
             const bool is_met = core_box_entry(node, box_ray, farthest) < 3e38;
             item = is_met && node.is_leaf ? node.child : CORE_NO_NODE;
-            for (uint turn = 0u; turn < (is_met && !node.is_leaf ? 1u : 0u); ++turn) {
+            if (is_met && !node.is_leaf) {
                 const float first = core_box_entry(core_fetch_node(node.child), box_ray, farthest);
                 const float second = core_box_entry(core_fetch_node(node.child + 1u), box_ray, farthest);
                 stack[stack_size] = node.child + (second < first ? 0u : 1u);
                 stack[stack_size + 1u] = node.child + (second < first ? 1u : 0u);
                 stack_size += 2u;
+            }
+            if (item != CORE_NO_NODE || stack_size == 0u) {
+                break;
             }
         }
         const bool is_active = item != CORE_NO_NODE;
@@ -104,6 +107,9 @@ core_hit core_next_hit(core_ray ray) {
         best.normal_z = is_better ? normal.z : best.normal_z;
         best.is_hit = best.is_hit || is_better;
         item = CORE_NO_NODE;
+        if (item == CORE_NO_NODE && stack_size == 0u) {
+            break;
+        }
     }
     best.is_undecided = core_is_undecided(votes, best);
     best.is_cut_short = item != CORE_NO_NODE || stack_size > 0u;

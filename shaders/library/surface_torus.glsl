@@ -116,7 +116,7 @@ core_hit core_next_hit(core_ray ray) {
 
     // Ends of the monotone parts, in scalars.
     elvis_real end1 = first, end2 = first, end3 = first;
-    for (uint turn = 0u; turn < (is_near ? 1u : 0u); ++turn) {
+    if (is_near) {
         end1 = core_torus_extremum(local, first, turn0);
         end2 = core_torus_extremum(local, turn0, turn1);
         end3 = core_torus_extremum(local, turn1, last);

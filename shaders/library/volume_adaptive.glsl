@@ -153,7 +153,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         const elvis_real allowed = budget * max(step / max(rest, step), CORE_LEAST_SHARE);
         const bool is_bounded = integral.level < CORE_MOST_LEVELS && integral.n_samples < CORE_MOST_SAMPLES;
         const bool is_good = step_error <= max(allowed, rounding), is_taken = is_good || !is_bounded;
-        for (uint taken = 0u; taken < (is_taken ? 1u : 0u); ++taken) {
+        if (is_taken) {
             light.error += step_error + rounding;
             core_add_light(light, two.xyz, two.w);
         }
