@@ -19,19 +19,21 @@ constexpr std::uint32_t record_size = 8;
 constexpr std::size_t child_word = 3;
 constexpr std::size_t lower = 5, upper = 6, estimated = 7;
 /** Words of a cell on the device, and of what the kernel says of it: range and box, too. */
-constexpr std::uint32_t cell_size = 20, cell_words = 28;
-constexpr std::size_t cell_slope = 12, cell_error = 16, cell_scale = 17, cell_element = 18, cell_code = 19, cell_range = 20,
-                      cell_box = 22;
+constexpr std::uint32_t cell_size = 24, cell_words = 32;
+constexpr std::size_t cell_slope = 12, cell_error = 16, cell_scale = 17, cell_element = 18, cell_code = 19,
+                      cell_curvature = 20, cell_range = 24, cell_box = 26;
 /** shaders/library/level_cell.glsl */
 constexpr std::uint32_t cell_place_bits = 6, cell_is_estimated = 0x80000000u;
-constexpr std::uint32_t most_levels = 2;
-/** Cells that are looked at, and for which there is room where there are fewer elements. */
-constexpr std::uint64_t most_cells = 1u << 17;
+constexpr std::uint32_t most_levels = 3;
+/** Cells for which there is room where there are fewer elements, and octants of one level that are looked at for them. */
+constexpr std::uint64_t most_cells = 1u << 17, most_looked_at = 1u << 18;
 /**
  * Elements are divided where their error is more than this part of how much the field varies in them, octants where it is more
  * than that: many small cells cost more to look through than they spare evaluations.
  */
-constexpr double wanted_error = 0.05, wanted_octant_error = 1;
+constexpr double wanted_error = 0.05, wanted_octant_error = 0.5;
+/** Elements that are bent so much that there is no linear model are divided, unless octants are, too. */
+constexpr double most_curvature = 32;
 
 struct CellParameters {
     std::uint32_t n_cells;
@@ -104,7 +106,8 @@ struct LevelSet::Cells {
         }
         const bool is_octant = (word(cell, cell_code) & 7u) != 0;
         const double wanted = is_octant ? wanted_octant_error : wanted_error;
-        return number(cell, cell_scale) > 0 && number(cell, cell_error) > wanted * slope;
+        const bool is_linear = number(cell, cell_scale) > 0;
+        return is_linear ? number(cell, cell_error) > wanted * slope : number(cell, cell_curvature) < most_curvature;
     }
     void add(const Cells& other, std::size_t cell) {
         const auto begin = other.words.begin() + static_cast<std::ptrdiff_t>(cell * cell_words);
@@ -274,17 +277,21 @@ void LevelSet::make_cells(ClassLevels& levels, elvis_shape shape) {
                 undivided.add(cells, i);
             }
         }
-        if (wanted.empty() || done.size() + undivided.size() + wanted.size() / 2 > most_cells) {
+        if (wanted.empty() || wanted.size() / 2 > most_looked_at) {
+            break;
+        }
+        const Cells octants = evaluate(levels, wanted);
+        Cells divided;
+        for (std::size_t i = 0; i < octants.size(); ++i) {
+            if (!may_skip(levels, octants.word(i, cell_element)) || holds_any(octants.range(i), m_choice.isovalues)) {
+                divided.add(octants, i);
+            }
+        }
+        if (done.size() + undivided.size() + divided.size() > most_cells) {
             break;
         }
         done.append(undivided);
-        const Cells octants = evaluate(levels, wanted);
-        cells.words.clear();
-        for (std::size_t i = 0; i < octants.size(); ++i) {
-            if (!may_skip(levels, octants.word(i, cell_element)) || holds_any(octants.range(i), m_choice.isovalues)) {
-                cells.add(octants, i);
-            }
-        }
+        cells = std::move(divided);
     }
     done.append(cells);
     write_cells(levels, place, done);

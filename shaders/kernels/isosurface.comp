@@ -119,6 +119,8 @@ void main() {
         // Bound of the field's second derivatives, from the last piece that was long enough for it, and of the surface's curvature at
         // the best crossing.
         elvis_real bend = CORE_FAR, best_bend = CORE_FAR;
+        // Of the mapping in the cell at hand.
+        elvis_real curvature = elvis_real(0);
         uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
         bool best_is_certain = true;
         const bool was_hit = core_marks[pixel].owner != 0u;
@@ -173,6 +175,7 @@ void main() {
                     element = is_inside && part.x <= part.y ? cell.element : CORE_NO_ELEMENT;
                     const bool is_dismissed = is_inside && part.x > part.y;
                     flags |= is_dismissed && (cell.code & CORE_CELL_ESTIMATED) != 0u ? CORE_FLAG_ESTIMATED : 0u;
+                    curvature = elvis_real(cell.curvature);
                     used = moves = 0u;
                     wide = elvis_real(0);
                     const elvis_real half_side = elvis_real(core_cell_half_side(cell.code));
@@ -197,7 +200,6 @@ void main() {
             const elvis_real speed = core_max_norm(core_to_xi(frame, ray.direction));
             const elvis_real shortest = CORE_FLOOR * CORE_NARROW / speed;
             const elvis_real half_width = elvis_real(0.5LF) * (b - a);
-            const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
             const bool is_short = half_width < shortest;
             const elvis_real reach = max(max(half_width, shortest), wide);
             core_piece piece = core_piece_in_element(xi, frame, ((shift - position) + ray.origin) + step, ray.direction, reach, curvature);

@@ -6,6 +6,8 @@ layout(local_size_x = 32) in;
 #include "library/finite.glsl"
 #include "library/element_frame.glsl"
 #include "library/level_cell.glsl"
+#include "library/face_frame.glsl"
+#include "library/measured_curvature.glsl"
 
 // Two words a cell: element and code.
 layout(set = 0, binding = 0, std430) readonly buffer core_input { uint core_wanted[]; };
@@ -21,7 +23,9 @@ layout(push_constant) uniform core_parameters {
 #include "library/shape_region.glsl"
 #include "library/shown_model.glsl"
 
-#define CORE_WORDS 28u
+#define CORE_WORDS 32u
+// Of elements that are nearly linear it is not measured for each cell.
+#define CORE_SMALL_CURVATURE elvis_real(0.05LF)
 // A linearization that leaves out more than this much of the reference shape is of no use.
 #define CORE_MOST_BENDING elvis_real(2)
 
@@ -62,7 +66,11 @@ void main() {
     const elvis_vec3 sizes = abs(middle_position) + abs(elvis_origin(element)) + abs(position);
     const elvis_real rounding = elvis_real(CORE_CELL_ROUNDING) * norm * core_max_norm(sizes) +
                                 half_side * (elvis_real(2) * defect + elvis_real(1e-4LF)) + core_max_norm(frame.xi_error);
-    const elvis_real bending = elvis_fetch_core_curvatures(element, 0u) * radius * radius + rounding;
+    const elvis_real of_element = elvis_fetch_core_curvatures(element, 0u);
+    const bool is_measured = (code & 7u) != 0u && of_element > CORE_SMALL_CURVATURE;
+    const elvis_real measured = core_measured_curvature(element, xi, jacobian, middle, half_side, 1u);
+    const elvis_real curvature = is_measured ? measured : of_element;
+    const elvis_real bending = curvature * radius * radius + rounding;
     const elvis_real size = half_side + bending;
     const bool is_linear = frame.is_sound && core_is_finite(size + core_max_norm(middle_position)) && bending < CORE_MOST_BENDING;
 
@@ -106,14 +114,15 @@ void main() {
         core_words[at + 4u * uint(k) + 2u] = floatBitsToUint(rows[k].z);
         core_words[at + 4u * uint(k) + 3u] = floatBitsToUint(rounded_middle[k]);
         core_words[at + 12u + uint(k)] = floatBitsToUint(slope[k]);
-        core_words[at + 22u + uint(k)] = floatBitsToUint(rounded_middle[k] - float(half_box[k]));
-        core_words[at + 25u + uint(k)] = floatBitsToUint(rounded_middle[k] + float(half_box[k]));
+        core_words[at + 26u + uint(k)] = floatBitsToUint(rounded_middle[k] - float(half_box[k]));
+        core_words[at + 29u + uint(k)] = floatBitsToUint(rounded_middle[k] + float(half_box[k]));
     }
     core_words[at + 15u] = floatBitsToUint(is_known ? float(at_middle) : 0.0);
     core_words[at + 16u] = floatBitsToUint(error);
     core_words[at + 17u] = floatBitsToUint(is_linear ? float(size) : 0.0);
     core_words[at + 18u] = element;
     core_words[at + 19u] = code;
-    core_words[at + 20u] = floatBitsToUint(is_known ? float(at_middle - reach) : -CORE_LEVEL_UNKNOWN);
-    core_words[at + 21u] = floatBitsToUint(is_known ? float(at_middle + reach) : CORE_LEVEL_UNKNOWN);
+    core_words[at + 20u] = floatBitsToUint(float(curvature));
+    core_words[at + 24u] = floatBitsToUint(is_known ? float(at_middle - reach) : -CORE_LEVEL_UNKNOWN);
+    core_words[at + 25u] = floatBitsToUint(is_known ? float(at_middle + reach) : CORE_LEVEL_UNKNOWN);
 }

@@ -138,9 +138,6 @@ void main() {
         if (stack_size == 0u) {
             break;
         }
-        if (stack_size == 0u) {
-            break;
-        }
     }
     const uint first = tile * CORE_TILE_STRIDE;
     if (is_wanted) {

@@ -10,7 +10,7 @@
 //
 //     f = value + slope . y + d,   |d| <= error.
 //
-// Where there is no linearization, y is of the element's box, size is zero, and the error CORE_LEVEL_UNKNOWN.
+// The curvature is that of library/prediction.glsl in the cell. Where there is no linearization, y is of the element's box, size is zero, and the error CORE_LEVEL_UNKNOWN.
 
 #define CORE_LEVEL_UNKNOWN 3e38
 // Of single precision, in x and in all that is computed of y.
@@ -24,6 +24,7 @@ struct core_level_cell {
     float size;
     uint element;
     uint code;
+    float curvature;
 };
 
 // Level, then the octant's place along each side, then a bit for cells whose models are estimates.
@@ -54,6 +55,7 @@ core_level_cell core_fetch_level_cell(uint index) {
     cell.size = uintBitsToFloat(e.y);
     cell.element = e.z;
     cell.code = e.w;
+    cell.curvature = uintBitsToFloat(elvis_fetch4_core_cells(index, 5u).x);
     return cell;
 }
 
