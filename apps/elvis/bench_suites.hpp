@@ -60,6 +60,7 @@ nlohmann::ordered_json run_segments(const Bench& bench);
 nlohmann::ordered_json run_surface(const Bench& bench, BenchView view);
 nlohmann::ordered_json run_surfaces(const Bench& bench);
 nlohmann::ordered_json run_projection(const Bench& bench);
+nlohmann::ordered_json run_interface(const Bench& bench);
 nlohmann::ordered_json run_volume(const Bench& bench);
 nlohmann::ordered_json run_combined(const Bench& bench);
 nlohmann::ordered_json run_volume_convergence(const Bench& bench);

@@ -1,5 +1,6 @@
 #include "bench_suites.hpp"
 
+#include <core/bench/interface.hpp>
 #include <core/bench/projection.hpp>
 #include <core/bench/surfaces.hpp>
 
@@ -130,6 +131,35 @@ nlohmann::ordered_json run_projection(const Bench& bench) {
         write_projection(arguments.output, rows);
     }
     return list;
+}
+
+nlohmann::ordered_json run_interface(const Bench& bench) {
+    const BenchArguments& arguments = bench.arguments;
+    InterfaceOptions options;
+    options.volume = arguments.volume;
+    options.size = arguments.names_sizes ? arguments.sizes.front() : options.size;
+    const InterfaceResult result = bench_interface(bench.device, bench.registry, bench.folder, options);
+    const double of_least = result.plugin.least / result.by_hand.least;
+    const auto time = [](const InterfaceResult::Time& of) { return nlohmann::ordered_json{{"least", of.least}, {"median", of.median}}; };
+    say(bench.arguments,
+        "%llu elements, %s, %u^2, %llu pixels: plugin %.2f ms (median %.2f), by hand %.2f ms (median %.2f); plugin over by hand %.3f, of "
+        "the least %.3f\n"
+        "%llu pixels show other elements, values differ by %.1e of their range; Newton steps %llu and %llu\n",
+        static_cast<unsigned long long>(result.n_elements), result.field.c_str(), result.size,
+        static_cast<unsigned long long>(result.hit_pixels), result.plugin.least, result.plugin.median, result.by_hand.least,
+        result.by_hand.median, result.ratio, of_least, static_cast<unsigned long long>(result.other_pixels), result.largest_difference,
+        static_cast<unsigned long long>(result.plugin_newton_steps), static_cast<unsigned long long>(result.by_hand_newton_steps));
+    return {{"n_elements", result.n_elements},
+            {"field", result.field},
+            {"size", result.size},
+            {"hit_pixels", result.hit_pixels},
+            {"plugin_milliseconds", time(result.plugin)},
+            {"by_hand_milliseconds", time(result.by_hand)},
+            {"ratio", result.ratio},
+            {"ratio_of_least", of_least},
+            {"other_pixels", result.other_pixels},
+            {"largest_difference", result.largest_difference},
+            {"newton_steps", {{"plugin", result.plugin_newton_steps}, {"by_hand", result.by_hand_newton_steps}}}};
 }
 
 } // namespace elvis::commands

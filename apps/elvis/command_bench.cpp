@@ -36,6 +36,7 @@ const std::vector<Suite>& drawing_suites() {
         {"combined", "combined", run_combined, false},
         {"volume-convergence", "volume_convergence", run_volume_convergence, false},
         {"surfaces", "surfaces", run_surfaces, false},
+        {"interface", "interface", run_interface, false},
     };
     return suites;
 }
@@ -112,7 +113,7 @@ void add_bench(CLI::App& app) {
     command
         ->add_option("suite", arguments->suite,
                      "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces, projection, "
-                     "combined, volume-convergence or accuracy")
+                     "combined, volume-convergence, interface or accuracy")
         ->check(CLI::IsMember(std::move(suites)))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
@@ -124,7 +125,7 @@ void add_bench(CLI::App& app) {
     command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->add_option("--volume", arguments->volume, "A native volume for the suites projection, in place of the waves, and volume-convergence");
+    command->add_option("--volume", arguments->volume, "A native volume for the suites projection and interface, in place of the waves, and volume-convergence");
     command->add_option("--isovalue", arguments->isovalue, "Of the suite projection; by default the middle of the field's range");
     command->add_option("--integrators", arguments->integrators, "Of the suite volume: riemann, trapezoid, categories, adaptive-trapezoid, exact")
         ->delimiter(',');

@@ -54,16 +54,17 @@ std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (numbe
 
 } // namespace
 
-CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines)
+CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines,
+                           const KernelEdit& edit)
     : m_device(device), m_data(data), m_precision(data.precision()), m_with_lines(with_lines),
       // Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes.
       m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
-    compile(volume, data);
+    compile(volume, data, edit);
 }
 
-void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data) {
+void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data, const KernelEdit& edit) {
     const std::vector<std::pair<std::string, std::string>> tile_size = {
         {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"}, {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
     const auto bindings = [](std::uint32_t count) {
@@ -89,6 +90,9 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
 
         data.add_field(request, index, m_with_lines);
+        if (edit) {
+            edit(request, index);
+        }
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "kernels/cut_plane.comp";

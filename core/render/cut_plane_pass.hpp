@@ -11,17 +11,22 @@
 #include <core/render/outside_pass.hpp>
 #include <core/volume/device_volume.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace elvis {
 
+/** Changes a kernel that evaluates elements of a class, before it is compiled: for measurements. */
+using KernelEdit = std::function<void(KernelRequest& request, std::uint32_t element_class)>;
+
 /** The kernels of one volume and field, for each element class. Compiled when constructed. */
 class CutPlanePass {
 public:
     /** With lines, `data` must have derivative bounds. */
-    CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines);
+    CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines,
+                 const KernelEdit& edit = {});
 
     /**
      * Draws one plane as surface number `surface`, at least 1; adds to the counts. `lines`: only of a pass made with them.
@@ -40,7 +45,7 @@ private:
         std::optional<Buffer> tile_nodes;
     };
 
-    void compile(const RuntimeVolume& volume, const DeviceVolume& data);
+    void compile(const RuntimeVolume& volume, const DeviceVolume& data, const KernelEdit& edit);
     void draw_pixels(ClassKernels& kernels, std::uint32_t surface, const ShownComponent& component, std::uint32_t n_isovalues,
                      const LayerTarget& target);
     void draw_lines(const ClassKernels& kernels, const ShownComponent& component, const LineRequest& lines,
