@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -90,6 +91,29 @@ inline std::map<std::uint64_t, Scales> scales_of(const std::vector<SamplePoint>&
         scale.value = std::max(scale.value, std::abs(samples[i].value));
     }
     return scales;
+}
+
+/** Derivatives by xi_j of numbers that the snippets give, found by differences: a row of numbers a point. */
+inline std::vector<std::vector<double>> differences_of(const DeviceSampler& sampler, const std::vector<SamplePoint>& points,
+                                                       std::size_t j,
+                                                       const std::function<std::vector<double>(const Sample&)>& numbers) {
+    std::vector<Point> xi;
+    for (const SamplePoint& point : points) {
+        xi.push_back(point.xi);
+    }
+    return differences(xi, j, [&](const std::vector<Point>& at) {
+        std::vector<SamplePoint> moved;
+        for (std::size_t n = 0; n < at.size(); ++n) {
+            // As many places for each point.
+            const SamplePoint& point = points[n * points.size() / at.size()];
+            moved.push_back({point.element, at[n], point.component});
+        }
+        std::vector<std::vector<double>> rows;
+        for (const Sample& sample : sampler.sample(moved)) {
+            rows.push_back(numbers(sample));
+        }
+        return rows;
+    });
 }
 
 /** Capabilities that some class's snippet has. */

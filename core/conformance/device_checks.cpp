@@ -113,22 +113,10 @@ void check_jacobian(Context& context) {
     context.progress("snippet at points");
     const auto samples = sampler.sample(points);
     const auto scales = scales_of(points, samples);
-    std::vector<Point> xi;
-    for (const SamplePoint& point : points) {
-        xi.push_back(point.xi);
-    }
     double worst = 0;
     for (std::size_t j = 0; j < volume.dimension(); ++j) {
-        const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
-            std::vector<SamplePoint> moved;
-            for (std::size_t n = 0; n < at.size(); ++n) {
-                moved.push_back({points[n / 6].element, at[n], 0});
-            }
-            std::vector<std::vector<double>> positions;
-            for (const Sample& sample : sampler.sample(moved)) {
-                positions.emplace_back(sample.position.begin(), sample.position.end());
-            }
-            return positions;
+        const auto expected = differences_of(sampler, points, j, [](const Sample& sample) {
+            return std::vector(sample.position.begin(), sample.position.end());
         });
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Scales& scale = scales.at(points[i].element);
@@ -173,22 +161,9 @@ void check_gradient(Context& context) {
         context.progress("gradients of " + name);
         const auto samples = sampler.sample(points);
         const auto scales = scales_of(points, samples);
-        std::vector<Point> xi;
-        for (const SamplePoint& point : points) {
-            xi.push_back(point.xi);
-        }
         for (std::size_t j = 0; j < volume.dimension(); ++j) {
-            const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
-                std::vector<SamplePoint> moved;
-                for (std::size_t n = 0; n < at.size(); ++n) {
-                    moved.push_back({points[n / 6].element, at[n], points[n / 6].component});
-                }
-                std::vector<std::vector<double>> values;
-                for (const Sample& sample : sampler.sample(moved)) {
-                    values.push_back({sample.value});
-                }
-                return values;
-            });
+            const auto expected =
+                differences_of(sampler, points, j, [](const Sample& sample) { return std::vector{sample.value}; });
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const Scales& scale = scales.at(points[i].element);
                 const double error = std::abs(samples[i].gradient[j] - expected[i][0]);
@@ -225,23 +200,12 @@ void check_hessians(Context& context) {
         context.progress("second derivatives of " + volume.fields()[field].name);
         const auto samples = sampler.sample(points, options);
         const auto scales = scales_of(points, samples);
-        std::vector<Point> xi;
-        for (const SamplePoint& point : points) {
-            xi.push_back(point.xi);
-        }
         for (std::size_t j = 0; j < volume.dimension(); ++j) {
             // Rows: gradient (3), Jacobian (9), and what they are beside.
-            const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
-                std::vector<SamplePoint> moved;
-                for (std::size_t n = 0; n < at.size(); ++n) {
-                    moved.push_back({points[n / 6].element, at[n], points[n / 6].component});
-                }
-                std::vector<std::vector<double>> numbers;
-                for (const Sample& sample : sampler.sample(moved)) {
-                    std::vector<double>& row = numbers.emplace_back(sample.gradient.begin(), sample.gradient.end());
-                    row.insert(row.end(), sample.jacobian.begin(), sample.jacobian.end());
-                }
-                return numbers;
+            const auto expected = differences_of(sampler, points, j, [](const Sample& sample) {
+                std::vector<double> row(sample.gradient.begin(), sample.gradient.end());
+                row.insert(row.end(), sample.jacobian.begin(), sample.jacobian.end());
+                return row;
             });
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const Scales& scale = scales.at(points[i].element);

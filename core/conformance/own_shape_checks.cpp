@@ -70,22 +70,8 @@ void check_bounds(const RuntimeVolume& volume, const std::vector<SamplePoint>& a
 void check_gradient(const RuntimeVolume& volume, const DeviceSampler& sampler, const std::vector<SamplePoint>& points,
                     Complaints& complaints) {
     const auto samples = sampler.sample(points);
-    std::vector<Point> xi;
-    for (const SamplePoint& point : points) {
-        xi.push_back(point.xi);
-    }
     for (std::size_t j = 0; j < volume.dimension(); ++j) {
-        const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
-            std::vector<SamplePoint> moved;
-            for (std::size_t n = 0; n < at.size(); ++n) {
-                moved.push_back({points[n / 6].element, at[n], 0});
-            }
-            std::vector<std::vector<double>> values;
-            for (const Sample& sample : sampler.sample(moved)) {
-                values.push_back({sample.inside});
-            }
-            return values;
-        });
+        const auto expected = differences_of(sampler, points, j, [](const Sample& s) { return std::vector{s.inside}; });
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double size = std::abs(samples[i].inside) + samples[i].inside_bounds[0];
             if (!(std::abs(samples[i].inside_gradient[j] - expected[i][0]) <= 1e-7 * size)) {
