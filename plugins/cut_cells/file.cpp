@@ -2,7 +2,6 @@
 
 #include <text/lines.hpp>
 
-#include <iomanip>
 #include <set>
 
 namespace elvis::cut_cells {
@@ -18,12 +17,7 @@ constexpr std::size_t max_cells = 1000;
 /** Reads statement after statement. */
 class Reader {
 public:
-    explicit Reader(const std::string& path) : m_path(path), m_lines(path) {
-        if (!m_lines.next() || m_lines.word("the header") != header || m_lines.number<int>("version") != 1) {
-            m_lines.fail(std::string("the file must begin with '") + header + " 1'");
-        }
-        m_lines.end();
-    }
+    explicit Reader(const std::string& path) : m_path(path), m_lines(path) { m_lines.header(header); }
 
     File read() {
         while (m_lines.next()) {
@@ -70,14 +64,9 @@ private:
             m_lines.fail("fields come before the first cell");
         }
         Field field;
-        field.name = m_lines.word("the field's name");
+        field.name = m_lines.new_name("field", m_file.fields);
         if (field.name == "level_set") {
             m_lines.fail("the field 'level_set' is there of itself");
-        }
-        for (const Field& other : m_file.fields) {
-            if (other.name == field.name) {
-                m_lines.fail("there is a field '" + field.name + "' above");
-            }
         }
         field.n_components = static_cast<std::uint32_t>(m_lines.count("the number of components", 1, 16));
         field.order = m_lines.count("the order", 0, max_order);
@@ -104,21 +93,17 @@ private:
     }
 
     void read_modes() {
-        const std::string name = m_lines.word("the field's name");
-        const auto found =
-            std::find_if(m_file.fields.begin(), m_file.fields.end(), [&](const Field& field) { return field.name == name; });
-        if (found == m_file.fields.end()) {
-            m_lines.fail("there is no field '" + name + "' above");
-        }
+        const std::size_t index = m_lines.known_name("field", m_file.fields);
+        const Field& field = m_file.fields[index];
         if (m_file.cells.empty()) {
             m_lines.fail("modes before any cell");
         }
         const std::size_t cell = m_lines.count("the cell", 0, m_file.cells.size() - 1);
-        std::vector<double>& modes = m_file.cells[cell].modes[static_cast<std::size_t>(found - m_file.fields.begin())];
+        std::vector<double>& modes = m_file.cells[cell].modes[index];
         if (!modes.empty()) {
-            m_lines.fail("the modes of field '" + name + "' in cell " + std::to_string(cell) + " stand above");
+            m_lines.fail("the modes of field '" + field.name + "' in cell " + std::to_string(cell) + " stand above");
         }
-        modes = read_numbers(found->n_components * n_modes(found->order));
+        modes = read_numbers(field.n_components * n_modes(field.order));
     }
 
     std::vector<double> read_numbers(std::size_t count) {
@@ -152,10 +137,7 @@ private:
 
 } // namespace
 
-bool has_our_header(const char* path) {
-    std::string word;
-    return static_cast<bool>(std::ifstream(path) >> std::setw(32) >> word) && word == header;
-}
+bool has_our_header(const char* path) { return text::begins_with(path, header); }
 
 File read_file(const std::string& path) { return Reader(path).read(); }
 

@@ -3,8 +3,6 @@
 #include <text/lines.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iomanip>
 
 namespace elvis::dubiner {
 
@@ -17,12 +15,7 @@ constexpr const char* header = "dubiner-dg";
 /** Reads statement after statement. */
 class Reader {
 public:
-    explicit Reader(const std::string& path) : m_path(path), m_lines(path) {
-        if (!m_lines.next() || m_lines.word("the header") != header || m_lines.number<int>("version") != 1) {
-            m_lines.fail(std::string("the file must begin with '") + header + " 1'");
-        }
-        m_lines.end();
-    }
+    explicit Reader(const std::string& path) : m_path(path), m_lines(path) { m_lines.header(header); }
 
     File read() {
         while (m_lines.next()) {
@@ -52,12 +45,7 @@ private:
             m_lines.fail("fields come before the first time");
         }
         Field field;
-        field.name = m_lines.word("the field's name");
-        for (const Field& other : m_file.fields) {
-            if (other.name == field.name) {
-                m_lines.fail("there is a field '" + field.name + "' above");
-            }
-        }
+        field.name = m_lines.new_name("field", m_file.fields);
         field.n_components = static_cast<std::uint32_t>(m_lines.count("the number of components", 1, 16));
         field.unit = m_lines.at_end() ? "" : m_lines.word("the unit");
         m_file.fields.push_back(field);
@@ -116,19 +104,18 @@ private:
         if (m_file.times.empty()) {
             m_lines.fail("modes before any time");
         }
-        const std::string name = m_lines.word("the field's name");
-        const auto found =
-            std::find_if(m_file.fields.begin(), m_file.fields.end(), [&](const Field& field) { return field.name == name; });
-        if (found == m_file.fields.end()) {
-            m_lines.fail("there is no field '" + name + "' above");
+        const std::size_t index = m_lines.known_name("field", m_file.fields);
+        const Field& field = m_file.fields[index];
+        if (m_file.elements.empty()) {
+            m_lines.fail("modes before any element");
         }
-        const std::size_t element = m_lines.count("the element", 0, std::max<std::size_t>(m_file.elements.size(), 1) - 1);
-        auto& of_field = m_file.coefficients.back()[static_cast<std::size_t>(found - m_file.fields.begin())];
-        std::vector<double>& coefficients = of_field.at(element);
+        const std::size_t element = m_lines.count("the element", 0, m_file.elements.size() - 1);
+        auto& of_field = m_file.coefficients.back()[index];
+        std::vector<double>& coefficients = of_field[element];
         if (!coefficients.empty()) {
-            m_lines.fail("the modes of field '" + name + "' in element " + std::to_string(element) + " stand above");
+            m_lines.fail("the modes of field '" + field.name + "' in element " + std::to_string(element) + " stand above");
         }
-        coefficients.resize(found->n_components * n_modes(m_file.elements[element].order));
+        coefficients.resize(field.n_components * n_modes(m_file.elements[element].order));
         for (double& coefficient : coefficients) {
             coefficient = m_lines.number<double>("coefficient");
         }
@@ -158,10 +145,7 @@ private:
 
 } // namespace
 
-bool has_our_header(const char* path) {
-    std::string word;
-    return static_cast<bool>(std::ifstream(path) >> std::setw(32) >> word) && word == header;
-}
+bool has_our_header(const char* path) { return text::begins_with(path, header); }
 
 File read_file(const std::string& path) {
     File file = Reader(path).read();

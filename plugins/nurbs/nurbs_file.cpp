@@ -1,6 +1,6 @@
 #include "nurbs_file.hpp"
 
-#include <elvis/plugin.hpp>
+#include <text/lines.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 
 namespace elvis::nurbs {
 
@@ -147,10 +146,7 @@ std::size_t File::width() const {
     return n;
 }
 
-bool has_our_header(const char* path) {
-    std::string word;
-    return static_cast<bool>(std::ifstream(path) >> std::setw(32) >> word) && word == header;
-}
+bool has_our_header(const char* path) { return text::begins_with(path, header); }
 
 File read_file(const std::string& path) {
     Words words(path);

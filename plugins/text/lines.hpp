@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <iomanip>
 #include <string>
 #include <type_traits>
 
@@ -23,6 +24,17 @@ public:
         if (!m_file) {
             throw api::Error(ELVIS_ERROR_FILE, path, "cannot be read");
         }
+    }
+
+    /** The first line: the format's name and 1, its version. */
+    void header(const std::string& name) {
+        if (!next()) {
+            fail("the file ends where the header is expected");
+        }
+        if (word("the header") != name || number<int>("version") != 1) {
+            fail(std::string("the file must begin with '") + name + " 1'");
+        }
+        end();
     }
 
     bool next() {
@@ -76,6 +88,25 @@ public:
         return static_cast<std::size_t>(value);
     }
 
+    /** A name that none of the items has yet. */
+    template <class Items> std::string new_name(const std::string& kind, const Items& items) {
+        const std::string name = word("the " + kind + "'s name");
+        if (find_name(name, items) != items.end()) {
+            fail(std::string("there is a ") + kind + " '" + name + "' above");
+        }
+        return name;
+    }
+
+    /** The name of one of the items: its position among them. */
+    template <class Items> std::size_t known_name(const std::string& kind, const Items& items) {
+        const std::string name = word("the " + kind + "'s name");
+        const auto found = find_name(name, items);
+        if (found == items.end()) {
+            fail(std::string("there is no ") + kind + " '" + name + "' above");
+        }
+        return static_cast<std::size_t>(found - items.begin());
+    }
+
     void end() {
         if (!at_end()) {
             fail(std::string("'") + word("") + "' is too much");
@@ -87,11 +118,21 @@ public:
     }
 
 private:
+    template <class Items> static auto find_name(const std::string& name, const Items& items) {
+        return std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.name == name; });
+    }
+
     std::string m_path;
     std::ifstream m_file;
     std::string m_line;
     std::size_t m_at = 0;
     int m_number = 0;
 };
+
+/** Whether a file begins with this word: for `probe`. */
+inline bool begins_with(const char* path, const std::string& header) {
+    std::string word;
+    return static_cast<bool>(std::ifstream(path) >> std::setw(32) >> word) && word == header;
+}
 
 } // namespace elvis::text

@@ -88,6 +88,7 @@ TEST_CASE("a bad file of Dubiner modes is refused with its line") {
     CHECK_THAT(error_for(element + "time 0\n" + element), Contains("line 4: elements come before"));
     CHECK_THAT(error_for(element + "time 0\nfield u 1\n"), Contains("line 4: fields come before"));
     CHECK_THAT(error_for("modes u 0 1\n"), Contains("line 2: modes before any time"));
+    CHECK_THAT(error_for("field u 1\ntime 0\nmodes u 0 1\n"), Contains("line 4: modes before any element"));
     CHECK_THAT(error_for("field u 1\n" + element + "time 0\nmodes v 0 1\n"), Contains("line 5: there is no field 'v'"));
     CHECK_THAT(error_for("field u 1\n" + element + "time 0\nmodes u 1 1\n"), Contains("line 5: the element must be"));
     CHECK_THAT(error_for("field u 1\n" + element + "time 0\nmodes u 0 1 2 3\n"), Contains("line 5: coefficient is missing"));

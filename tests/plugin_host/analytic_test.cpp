@@ -87,13 +87,13 @@ TEST_CASE("the analytic plugin is sure of its own files only") {
 TEST_CASE("a bad analytic file is refused with its line") {
     CHECK_THAT(error_for("field u\n"), Contains("line 2: the number of components"));
     CHECK_THAT(error_for("field u 0\n"), Contains("line 2") && Contains("1 to 16"));
-    CHECK_THAT(error_for("field u 1\nterm 0 sine 1 2 3\n"), Contains("line 3: a parameter"));
-    CHECK_THAT(error_for("field u 1\nterm 1 sine 1 2 3 4 5\n"), Contains("line 3") && Contains("no component 1"));
+    CHECK_THAT(error_for("field u 1\nterm 0 sine 1 2 3\n"), Contains("line 3: parameter of the term is missing"));
+    CHECK_THAT(error_for("field u 1\nterm 1 sine 1 2 3 4 5\n"), Contains("line 3: the component must be from 0 to 0, and is 1"));
     CHECK_THAT(error_for("field u 1\nterm 0 tan 1\n"), Contains("line 3: unknown term 'tan'"));
     CHECK_THAT(error_for("field u 1\nterm 0 gaussian 1 0 0 0 0\n"), Contains("line 3: the width"));
     CHECK_THAT(error_for("term 0 sine 1 2 3 4 5\n"), Contains("line 2: a term before any field"));
-    CHECK_THAT(error_for("vertex 0 0\n"), Contains("line 2: a coordinate"));
-    CHECK_THAT(error_for("vertex 0 0 1e999\n"), Contains("line 2: a coordinate"));
+    CHECK_THAT(error_for("vertex 0 0\n"), Contains("line 2: coordinate is missing"));
+    CHECK_THAT(error_for("vertex 0 0 1e999\n"), Contains("line 2: '1e999' is no coordinate"));
     CHECK_THAT(error_for("vertex 0 0 0 0\n"), Contains("line 2: '0' is too much"));
     CHECK_THAT(error_for("hexahedron 0 0 0 0 0 0 0 0\n"), Contains("line 2: there is no vertex 0"));
     CHECK_THAT(error_for("\n# comment\ntetrahedron\n"), Contains("line 4: unknown keyword 'tetrahedron'"));
