@@ -1,8 +1,11 @@
 #include <core/bench/combined.hpp>
 
+#include <core/bench/repeated_frame.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace elvis {
 
@@ -58,12 +61,10 @@ std::vector<Part> parts_of(const std::array<double, 6>& bounds, const FieldRange
 CombinedRow measure(Renderer& renderer, const FrameRequest& request, const std::string& name, Frame& frame) {
     CombinedRow row;
     row.name = name;
-    renderer.render(request);
-    for (int i = 0; i < n_runs; ++i) {
-        frame = renderer.render(request);
-        row.milliseconds = i == 0 ? frame.device_milliseconds : std::min(row.milliseconds, frame.device_milliseconds);
-        row.wall_milliseconds = i == 0 ? frame.render_milliseconds : std::min(row.wall_milliseconds, frame.render_milliseconds);
-    }
+    RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+    row.milliseconds = repeated.milliseconds;
+    row.wall_milliseconds = repeated.wall_milliseconds;
+    frame = std::move(repeated.frame);
     row.counts = frame.counts;
     return row;
 }

@@ -1,4 +1,5 @@
 #include <core/bench/bench.hpp>
+#include <core/bench/repeated_frame.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,72 +13,26 @@ constexpr int n_runs = 9;
 /** The unit of the prototype's times, in nanoseconds. */
 constexpr double prototype_unit = 550;
 
-struct PrototypeTime {
+struct PrototypeTimes {
     std::uint32_t elements_a_side, order, size;
-    double milliseconds;
+    /** Of the cut plane, the boundary, the large isosurface and the blobs. */
+    std::array<double, 4> milliseconds;
 };
 /** Measured before this program was written, on two cores. */
-constexpr std::array<PrototypeTime, 12> prototype_cut_plane{{{16, 3, 512, 14},
-                                                             {16, 3, 1024, 50},
-                                                             {16, 6, 512, 22},
-                                                             {16, 6, 1024, 79},
-                                                             {16, 8, 512, 36},
-                                                             {16, 8, 1024, 139},
-                                                             {32, 3, 512, 17},
-                                                             {32, 3, 1024, 60},
-                                                             {32, 6, 512, 24},
-                                                             {32, 6, 1024, 105},
-                                                             {32, 8, 512, 41},
-                                                             {32, 8, 1024, 154}}};
-constexpr std::array<PrototypeTime, 12> prototype_boundary{{{16, 3, 512, 28},
-                                                            {16, 3, 1024, 95},
-                                                            {16, 6, 512, 37},
-                                                            {16, 6, 1024, 123},
-                                                            {16, 8, 512, 45},
-                                                            {16, 8, 1024, 181},
-                                                            {32, 3, 512, 34},
-                                                            {32, 3, 1024, 123},
-                                                            {32, 6, 512, 44},
-                                                            {32, 6, 1024, 167},
-                                                            {32, 8, 512, 61},
-                                                            {32, 8, 1024, 193}}};
-constexpr std::array<PrototypeTime, 12> prototype_isosurface_large{{{16, 3, 512, 193},
-                                                                    {16, 3, 1024, 611},
-                                                                    {16, 6, 512, 477},
-                                                                    {16, 6, 1024, 1610},
-                                                                    {16, 8, 512, 958},
-                                                                    {16, 8, 1024, 3593},
-                                                                    {32, 3, 512, 229},
-                                                                    {32, 3, 1024, 766},
-                                                                    {32, 6, 512, 548},
-                                                                    {32, 6, 1024, 1896},
-                                                                    {32, 8, 512, 1106},
-                                                                    {32, 8, 1024, 3690}}};
-constexpr std::array<PrototypeTime, 12> prototype_isosurface_blobs{{{16, 3, 512, 141},
-                                                                    {16, 3, 1024, 431},
-                                                                    {16, 6, 512, 334},
-                                                                    {16, 6, 1024, 1165},
-                                                                    {16, 8, 512, 658},
-                                                                    {16, 8, 1024, 2589},
-                                                                    {32, 3, 512, 163},
-                                                                    {32, 3, 1024, 551},
-                                                                    {32, 6, 512, 390},
-                                                                    {32, 6, 1024, 1211},
-                                                                    {32, 8, 512, 713},
-                                                                    {32, 8, 1024, 2482}}};
-
-const std::array<PrototypeTime, 12>& prototype_times(BenchView view) {
-    switch (view) {
-    case BenchView::cut_plane:
-        return prototype_cut_plane;
-    case BenchView::boundary:
-        return prototype_boundary;
-    case BenchView::isosurface_large:
-        return prototype_isosurface_large;
-    default:
-        return prototype_isosurface_blobs;
-    }
-}
+constexpr std::array<PrototypeTimes, 12> prototypes{{
+    {16, 3, 512, {14, 28, 193, 141}},
+    {16, 3, 1024, {50, 95, 611, 431}},
+    {16, 6, 512, {22, 37, 477, 334}},
+    {16, 6, 1024, {79, 123, 1610, 1165}},
+    {16, 8, 512, {36, 45, 958, 658}},
+    {16, 8, 1024, {139, 181, 3593, 2589}},
+    {32, 3, 512, {17, 34, 229, 163}},
+    {32, 3, 1024, {60, 123, 766, 551}},
+    {32, 6, 512, {24, 44, 548, 390}},
+    {32, 6, 1024, {105, 167, 1896, 1211}},
+    {32, 8, 512, {41, 61, 1106, 713}},
+    {32, 8, 1024, {154, 193, 3690, 2482}},
+}};
 
 FrameRequest picture(BenchView view, std::uint32_t size) {
     switch (view) {
@@ -93,9 +48,11 @@ FrameRequest picture(BenchView view, std::uint32_t size) {
 }
 
 double prototype_milliseconds(BenchView view, std::uint32_t elements_a_side, std::uint32_t order, std::uint32_t size) {
-    for (const PrototypeTime& time : prototype_times(view)) {
-        if (time.elements_a_side == elements_a_side && time.order == order && time.size == size) {
-            return time.milliseconds;
+    // Without skipping, the blobs are compared with the same figure.
+    const std::size_t column = std::min(static_cast<std::size_t>(view), std::size_t{3});
+    for (const PrototypeTimes& times : prototypes) {
+        if (times.elements_a_side == elements_a_side && times.order == order && times.size == size) {
+            return times.milliseconds[column];
         }
     }
     return 0;
@@ -117,14 +74,10 @@ void bench_surface(const Device& device, const PluginRegistry& registry, const B
                 result.elements_a_side = n;
                 result.order = order;
                 result.size = size;
-                Frame frame = renderer.render(request);
-                for (int i = 0; i < n_runs; ++i) {
-                    frame = renderer.render(request);
-                    result.milliseconds =
-                        i == 0 ? frame.device_milliseconds : std::min(result.milliseconds, frame.device_milliseconds);
-                    result.wall_milliseconds =
-                        i == 0 ? frame.render_milliseconds : std::min(result.wall_milliseconds, frame.render_milliseconds);
-                }
+                const RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+                const Frame& frame = repeated.frame;
+                result.milliseconds = repeated.milliseconds;
+                result.wall_milliseconds = repeated.wall_milliseconds;
                 const double prototype = prototype_milliseconds(view, n, order, size);
                 result.ratio_to_prototype =
                     prototype > 0 ? result.milliseconds / unit_nanoseconds / (prototype / prototype_unit) : 0;

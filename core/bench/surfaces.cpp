@@ -2,6 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/bench/plot.hpp>
+#include <core/bench/repeated_frame.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -131,13 +132,10 @@ private:
         row.order = order;
         row.size = request.width;
         row.subdivisions = request.surfaces[0].subdivisions;
-        Frame frame = renderer.render(request);
-        for (int run = 0; run < n_runs; ++run) {
-            frame = renderer.render(request);
-            row.milliseconds = run == 0 ? frame.device_milliseconds : std::min(row.milliseconds, frame.device_milliseconds);
-            row.wall_milliseconds =
-                run == 0 ? frame.render_milliseconds : std::min(row.wall_milliseconds, frame.render_milliseconds);
-        }
+        const RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+        const Frame& frame = repeated.frame;
+        row.milliseconds = repeated.milliseconds;
+        row.wall_milliseconds = repeated.wall_milliseconds;
         row.units = 1e6 * row.milliseconds / m_unit;
         row.hit_pixels = frame.counts.hit_pixels;
         row.contour_pixels = frame.counts.contour_pixels;

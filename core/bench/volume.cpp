@@ -1,5 +1,7 @@
 #include <core/bench/volume.hpp>
 
+#include <core/bench/repeated_frame.hpp>
+
 #include <core/base/error.hpp>
 #include <core/render/renderer.hpp>
 
@@ -139,14 +141,10 @@ void bench_volume(const Device& device, const PluginRegistry& registry, const Be
                         result.elements_a_side = n;
                         result.order = order;
                         result.size = size;
-                        Frame frame = renderer.render(request);
-                        for (int i = 0; i < n_runs; ++i) {
-                            frame = renderer.render(request);
-                            result.milliseconds =
-                                i == 0 ? frame.device_milliseconds : std::min(result.milliseconds, frame.device_milliseconds);
-                            result.wall_milliseconds = i == 0 ? frame.render_milliseconds
-                                                              : std::min(result.wall_milliseconds, frame.render_milliseconds);
-                        }
+                        const RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+                        const Frame& frame = repeated.frame;
+                        result.milliseconds = repeated.milliseconds;
+                        result.wall_milliseconds = repeated.wall_milliseconds;
                         const double prototype = prototype_milliseconds(n, order, size);
                         result.ratio_to_prototype =
                             prototype > 0 ? result.milliseconds / unit_nanoseconds / (prototype / prototype_unit) : 0;

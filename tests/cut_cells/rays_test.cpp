@@ -12,6 +12,28 @@
 using namespace elvis;
 using namespace elvis::cut_cells;
 
+namespace {
+
+/** White light of a density that is the same everywhere. */
+VolumeRendering constant_density(const RuntimeVolume& volume, const char* field, double density) {
+    VolumeRendering rendering;
+    rendering.field.field = field_of(volume, field);
+    rendering.transfer.density = {{0, density}};
+    rendering.transfer.color = {{0, {1, 1, 1}}};
+    return rendering;
+}
+
+/** How much of a ray lies in elements. */
+double length_of(const std::vector<Segment>& segments) {
+    double length = 0;
+    for (const Segment& segment : segments) {
+        length += segment.leave - segment.enter;
+    }
+    return length;
+}
+
+} // namespace
+
 TEST_CASE("the parts of rays in a cut ball are its chords") {
     const RuntimeVolume volume = open(ball);
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
@@ -42,10 +64,7 @@ TEST_CASE("the parts of rays in a cut ball are its chords") {
     const auto lists = pass.lists(rays, counts);
     double worst = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        double sum = 0;
-        for (const Segment& segment : lists[i]) {
-            sum += segment.leave - segment.enter;
-        }
+        const double sum = length_of(lists[i]);
         // Beside the silhouette a chord depends on its distance from the middle as a square root does.
         worst = chords[i] > 0.05 ? std::max(worst, std::abs(sum - chords[i])) : worst;
     }
@@ -59,12 +78,8 @@ TEST_CASE("a cut ball of constant density keeps exp(-density chord) of the light
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
     View view;
     view.request.background = {0, 0, 0, 1};
-    VolumeRendering rendering;
-    rendering.field.field = field_of(volume, "u");
     constexpr double density = 1.7;
-    rendering.transfer.density = {{0, density}};
-    rendering.transfer.color = {{0, {1, 1, 1}}};
-    view.request.volume = rendering;
+    view.request.volume = constant_density(volume, "u", density);
     const Frame frame = Renderer(device(), volume, precision).render(view.request);
     double worst = 0;
     int n_hit = 0;
@@ -92,12 +107,8 @@ TEST_CASE("light begins at the eye inside of a cut cell, on either side of the c
     request.camera.look_at = {0.1, -0.2, 0.05};
     request.camera.up = {0, 0, 1};
     request.camera.field_of_view = 90;
-    VolumeRendering rendering;
-    rendering.field.field = field_of(volume, "u");
     constexpr double density = 1.2;
-    rendering.transfer.density = {{0, density}};
-    rendering.transfer.color = {{0, {1, 1, 1}}};
-    request.volume = rendering;
+    request.volume = constant_density(volume, "u", density);
     const Frame frame = Renderer(device(), volume, precision).render(request);
     Vector3 axis{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -131,12 +142,8 @@ TEST_CASE("volumes of a cut gyroid are those of its parts of rays") {
         coordinate *= 4;
     }
     view.request.background = {0, 0, 0, 1};
-    VolumeRendering rendering;
-    rendering.field.field = field_of(volume, "p");
     constexpr double density = 0.3;
-    rendering.transfer.density = {{0, density}};
-    rendering.transfer.color = {{0, {1, 1, 1}}};
-    view.request.volume = rendering;
+    view.request.volume = constant_density(volume, "p", density);
     DeviceVolume data(device(), volume, Precision::float64, nullptr);
     data.select(0, 0, {0.0});
     std::vector<SegmentRay> rays;
@@ -153,10 +160,7 @@ TEST_CASE("volumes of a cut gyroid are those of its parts of rays") {
     const Frame frame = Renderer(device(), volume, precision).render(view.request);
     std::size_t n_wrong = 0;
     for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
-        double length = 0;
-        for (const Segment& segment : lists[pixel]) {
-            length += segment.leave - segment.enter;
-        }
+        const double length = length_of(lists[pixel]);
         const bool is_wrong = !(std::abs(frame.color[4 * pixel] - (1 - std::exp(-density * length))) < 1e-3);
         n_wrong += is_wrong ? 1 : 0;
     }

@@ -191,28 +191,8 @@ TEST_CASE("no ray passes between patches that share an edge") {
         const CutShape shape = BezierSurface{std::make_shared<const PatchMesh>(sheet(n, [&](double a, double b) -> Vector {
             return Vector(0.65, 0, 0) + turn * Vector(0.06 * std::sin(13 * a) * std::cos(17 * b), 0.6 * a - 0.3, 0.6 * b - 0.3);
         }))};
-        Camera camera;
-        const Vector eye = Vector(0.65, 0, 0) + turn * Vector(4, 0, 0), up = turn * Vector(0, 0, 1);
-        camera.eye = {eye.x(), eye.y(), eye.z()};
-        camera.look_at = {0.65, 0, 0};
-        camera.up = {up.x(), up.y(), up.z()};
-        camera.orthographic = true;
         constexpr std::uint32_t side = 113;
-        camera.height = 0.6 * side / 128;
-        for (const Precision precision : {Precision::float32, Precision::float64}) {
-            SurfaceScene scene(file.path(), precision);
-            const SurfaceSolver solver(surface_device(), precision, shape);
-            const SurfacePicture picture = scene.draw(solver, shape, camera, side, side);
-            std::size_t missed = 0, undecided = 0;
-            for (std::size_t pixel = 0; pixel < picture.element.size(); ++pixel) {
-                missed += picture.element[pixel] < 0 ? 1 : 0;
-                undecided += (picture.flags[pixel] & pixel_flag::undecided) != 0 ? 1 : 0;
-            }
-            WARN("tilt " << tilt << (precision == Precision::float32 ? ", float32: " : ", float64: ") << picture.element.size()
-                         << " rays, with edges and corners, " << missed << " missed, " << undecided << " undecided");
-            CHECK(missed == 0);
-            CHECK(undecided == 0);
-        }
+        check_no_gaps(file.path(), shape, turn, side, 0.6 * side / 128, "rays with edges and corners");
     }
 }
 

@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 namespace elvis::oracle {
 namespace {
@@ -15,6 +17,29 @@ std::size_t n_open_faces(const std::vector<std::uint32_t>& links, const ClassInf
     const auto begin = links.begin() + static_cast<std::ptrdiff_t>(links_an_element * element);
     return static_cast<std::size_t>(std::count(begin, begin + n_faces_of(info.shape), no_link));
 }
+
+/** A box of so many elements along each side, and where rays start in it. */
+struct Box {
+    explicit Box(int elements) {
+        generate(R"({"generator": 1, "mesh": "box", "order": 1, "field": "waves", "elements": )" + std::to_string(elements) + "}",
+                 file.path());
+        volume.emplace(open_volume(file.path()));
+        data.emplace(device, *volume, Precision::float32, nullptr);
+        data->select(0, 0, {0});
+        chains.emplace(device, *volume, *data);
+    }
+
+    std::uint64_t n_starts(const ViewStart& view) {
+        chains->look_from(view);
+        return chains->n_starts(0);
+    }
+
+    TemporaryFile file{"box.h5"};
+    std::optional<RuntimeVolume> volume;
+    Device device;
+    std::optional<DeviceVolume> data;
+    std::optional<ElementChains> chains;
+};
 
 } // namespace
 
@@ -69,49 +94,29 @@ TEST_CASE("links lead back, from one element class to another too") {
 }
 
 TEST_CASE("rays start in elements with an open face, and around the eye") {
-    const TemporaryFile file("starts.h5");
-    generate(R"({"generator": 1, "mesh": "box", "elements": 3, "order": 1, "field": "waves"})", file.path());
-    const RuntimeVolume volume = open_volume(file.path());
-    const Device device;
-    DeviceVolume data(device, volume, Precision::float32, nullptr);
-    data.select(0, 0, {0});
-    ElementChains chains(device, volume, data);
-    chains.look_from({{4, 3, 2}, {}});
-    CHECK(chains.n_starts(0) == 26);
-    chains.look_from({{0.05, -0.1, 0.02}, {}});
-    CHECK(chains.n_starts(0) == 27);
+    Box box(3);
+    CHECK(box.n_starts({{4, 3, 2}, {}}) == 26);
+    CHECK(box.n_starts({{0.05, -0.1, 0.02}, {}}) == 27);
     // In a corner element, which has open faces anyway.
-    chains.look_from({{0.9, 0.9, 0.9}, {}});
-    CHECK(chains.n_starts(0) == 26);
+    CHECK(box.n_starts({{0.9, 0.9, 0.9}, {}}) == 26);
     // Planes across a parallel view: through the middle, and beside it.
-    chains.look_from({{0, 0, 0}, {{1, 0, 0}}});
-    CHECK(chains.n_starts(0) == 27);
-    chains.look_from({{0.5, 0, 0}, {{1, 0, 0}}});
-    CHECK(chains.n_starts(0) == 26);
+    CHECK(box.n_starts({{0, 0, 0}, {{1, 0, 0}}}) == 27);
+    CHECK(box.n_starts({{0.5, 0, 0}, {{1, 0, 0}}}) == 26);
 }
 
 TEST_CASE("where elements are left out, rays start beside them") {
-    const TemporaryFile file("left_out.h5");
-    generate(R"({"generator": 1, "mesh": "box", "elements": 5, "order": 1, "field": "waves"})", file.path());
-    const RuntimeVolume volume = open_volume(file.path());
-    const Device device;
-    DeviceVolume data(device, volume, Precision::float32, nullptr);
-    data.select(0, 0, {0});
-    ElementChains chains(device, volume, data);
+    Box box(5);
     const ViewStart outside{{9, 0, 0}, {}};
-    chains.look_from(outside);
-    CHECK(chains.n_starts(0) == 125 - 27);
+    CHECK(box.n_starts(outside) == 125 - 27);
     // The one in the middle: its six neighbours have an open face now.
     std::vector<bool> kept(125, true);
     kept[62] = false;
-    chains.keep_only({kept});
-    chains.look_from(outside);
-    CHECK(chains.n_starts(0) == 125 - 27 + 6);
-    chains.look_from_anywhere();
-    CHECK(chains.n_starts(0) == 124);
-    chains.keep_only({});
-    chains.look_from(outside);
-    CHECK(chains.n_starts(0) == 125 - 27);
+    box.chains->keep_only({kept});
+    CHECK(box.n_starts(outside) == 125 - 27 + 6);
+    box.chains->look_from_anywhere();
+    CHECK(box.chains->n_starts(0) == 124);
+    box.chains->keep_only({});
+    CHECK(box.n_starts(outside) == 125 - 27);
 }
 
 } // namespace elvis::oracle

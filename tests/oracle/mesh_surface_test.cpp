@@ -127,29 +127,9 @@ TEST_CASE("no ray passes between triangles that share corners") {
                 mesh.triangles.push_back({corner + 1, corner + n + 2, corner + n + 1});
             }
         const CutShape shape = MeshSurface{std::make_shared<const TriangleMesh>(std::move(mesh))};
-        Camera camera;
-        const Vector eye = Vector(0.65, 0, 0) + turn * Vector(4, 0, 0), up = turn * Vector(0, 0, 1);
-        camera.eye = {eye.x(), eye.y(), eye.z()};
-        camera.look_at = {0.65, 0, 0};
-        camera.up = {up.x(), up.y(), up.z()};
-        camera.orthographic = true;
         // Two pixels a cell: every second one meets a corner, the others edges.
         constexpr std::uint32_t side = 2 * n - 15;
-        camera.height = 0.6 * side / (2 * n);
-        for (const Precision precision : {Precision::float32, Precision::float64}) {
-            SurfaceScene scene(file.path(), precision);
-            const SurfaceSolver solver(surface_device(), precision, shape);
-            const SurfacePicture picture = scene.draw(solver, shape, camera, side, side);
-            std::size_t missed = 0, undecided = 0;
-            for (std::size_t pixel = 0; pixel < picture.element.size(); ++pixel) {
-                missed += picture.element[pixel] < 0 ? 1 : 0;
-                undecided += (picture.flags[pixel] & pixel_flag::undecided) != 0 ? 1 : 0;
-            }
-            WARN("tilt " << tilt << (precision == Precision::float32 ? ", float32: " : ", float64: ") << picture.element.size()
-                         << " rays through edges and corners, " << missed << " missed, " << undecided << " undecided");
-            CHECK(missed == 0);
-            CHECK(undecided == 0);
-        }
+        check_no_gaps(file.path(), shape, turn, side, 0.6 * side / (2 * n), "rays through edges and corners");
     }
 }
 

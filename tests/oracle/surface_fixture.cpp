@@ -3,6 +3,8 @@
 #include <core/render/real_array.hpp>
 
 #include <algorithm>
+#include <catch2/catch.hpp>
+
 #include <cmath>
 #include <sstream>
 
@@ -209,6 +211,31 @@ std::string to_text(const SurfaceComparison& comparison) {
          << ", distance " << comparison.distance_error << ", value " << comparison.value_error << ", normal "
          << comparison.normal_error << ", worst pixel " << comparison.worst;
     return text.str();
+}
+
+void check_no_gaps(const std::string& volume, const CutShape& shape, const Eigen::AngleAxisd& turn, std::uint32_t side, double height,
+                   const std::string& what) {
+    Camera camera;
+    const Vector middle(0.65, 0, 0), eye = middle + turn * Vector(4, 0, 0), up = turn * Vector(0, 0, 1);
+    camera.eye = {eye.x(), eye.y(), eye.z()};
+    camera.look_at = {middle.x(), middle.y(), middle.z()};
+    camera.up = {up.x(), up.y(), up.z()};
+    camera.orthographic = true;
+    camera.height = height;
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        SurfaceScene scene(volume, precision);
+        const SurfaceSolver solver(surface_device(), precision, shape);
+        const SurfacePicture picture = scene.draw(solver, shape, camera, side, side);
+        std::size_t missed = 0, undecided = 0;
+        for (std::size_t pixel = 0; pixel < picture.element.size(); ++pixel) {
+            missed += picture.element[pixel] < 0 ? 1 : 0;
+            undecided += (picture.flags[pixel] & pixel_flag::undecided) != 0 ? 1 : 0;
+        }
+        WARN("tilt " << turn.angle() << (precision == Precision::float32 ? ", float32: " : ", float64: ") << picture.element.size()
+                     << ' ' << what << ", " << missed << " missed, " << undecided << " undecided");
+        CHECK(missed == 0);
+        CHECK(undecided == 0);
+    }
 }
 
 Camera camera_at(const Vector3& eye, double field_of_view, const Vector3& look_at) {

@@ -22,6 +22,20 @@ inline std::filesystem::path fixture(const std::string& name) { return std::file
 /** Options for the fixtures troubled and troubled_source. */
 inline std::string trouble(const std::string& name) { return "{\"trouble\": \"" + name + "\"}"; }
 
+/** What is said, of a file, of something that a plugin returned and that cannot be. */
+class BlamesPlugin : public Catch::MatcherBase<std::string> {
+public:
+    /** `beginning`: "FILE: plugin ID". */
+    BlamesPlugin(std::string beginning, std::string function) : m_beginning(std::move(beginning)), m_function(std::move(function)) {}
+    bool match(const std::string& text) const override {
+        return text.find(m_beginning + " is at fault: " + m_function + " returned ") == 0;
+    }
+    std::string describe() const override { return "blames the plugin for " + m_function; }
+
+private:
+    std::string m_beginning, m_function;
+};
+
 /** An environment variable with another value while this lives; null removes it. */
 class Environment {
 public:

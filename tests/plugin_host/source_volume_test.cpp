@@ -23,19 +23,7 @@ std::string open_error(const std::string& name) {
     return error_of([&] { open(name); });
 }
 
-/** What is said of something the plugin returned that cannot be. */
-class BlamesPlugin : public Catch::MatcherBase<std::string> {
-public:
-    explicit BlamesPlugin(std::string function) : m_function(std::move(function)) {}
-    bool match(const std::string& text) const override {
-        return text.find("geometry.dat: plugin org.elvis.test.troubled-source is at fault: " + m_function + " returned ") == 0;
-    }
-    std::string describe() const override { return "blames the plugin for " + m_function; }
-
-private:
-    std::string m_function;
-};
-BlamesPlugin blames(const std::string& function) { return BlamesPlugin(function); }
+test::BlamesPlugin blames(const std::string& function) { return {"geometry.dat: plugin org.elvis.test.troubled-source", function}; }
 
 } // namespace
 
