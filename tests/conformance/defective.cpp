@@ -5,31 +5,25 @@
  * Its file is "defective 1" and a line with a number s > 0. As a runtime plugin it is two hexahedra with everything optional
  * (defective.glsl); as a converter the same.
  */
+#include "defective_data.hpp"
 #include "defective_snippet.hpp"
 
-#include <elvis/converter.h>
 #include <elvis/plugin.h>
 #include <elvis/runtime.h>
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
-#include <string>
-#include <string_view>
+
+using namespace defective;
+
+struct elvis_volume {
+    Data data;
+};
 
 namespace {
-
-/** Whether this is the defect to have. */
-bool has(std::string_view defect) {
-    static const char* const wanted = std::getenv("ELVIS_DEFECT");
-    return wanted && defect == wanted;
-}
 
 /** Those of the snippet, by number from 1. */
 constexpr const char* glsl_defects[] = {
@@ -47,152 +41,6 @@ std::int64_t glsl_defect() {
         }
     }
     return 0;
-}
-
-std::atomic<int> n_opened{0}; ///< ever
-std::atomic<int> n_open{0};   ///< now
-std::atomic<int> n_inside{0}; ///< calls of evaluate at this moment
-
-/** What both interfaces open. */
-struct Data {
-    const elvis_host* host = nullptr;
-    double scale = 1;
-    std::string name = "bend";
-    char* lost = nullptr; ///< never released
-};
-
-elvis_result fail(const elvis_host* host, elvis_result code, const char* file, const char* message) {
-    if (!has("open-silent")) {
-        host->set_error(host, file, message);
-    }
-    return has("open-wrong-code") ? 42 : code;
-}
-
-bool is_ours(const char* path) {
-    char head[11] = {};
-    std::FILE* file = std::fopen(path, "rb");
-    const bool is_whole = file && std::fread(head, 1, 10, file) == 10;
-    if (file) {
-        std::fclose(file);
-    }
-    if (has("probe-crash") && !is_whole) {
-        std::abort();
-    }
-    if (has("probe-slow")) {
-        ::usleep(600000);
-    }
-    return (is_whole && std::strcmp(head, "defective ") == 0 && !has("probe-none")) || has("probe-all");
-}
-
-elvis_result read(const elvis_host* host, const char* path, Data& data) {
-    std::FILE* file = std::fopen(path, "rb");
-    if (!file) {
-        return has("open-anything") ? ELVIS_OK : fail(host, ELVIS_ERROR_FILE, path, "cannot be read");
-    }
-    char text[100] = {};
-    const std::size_t size = std::fread(text, 1, sizeof text - 1, file);
-    if (!has("leak-file")) {
-        std::fclose(file);
-    }
-    if (has("open-anything")) {
-        return ELVIS_OK;
-    }
-    if (std::strncmp(text, "defective 1\n", 12) != 0) {
-        return fail(host, ELVIS_ERROR_FORMAT, path, "line 1: 'defective 1' is expected");
-    }
-    char* end = nullptr;
-    data.scale = std::strtod(text + 12, &end);
-    const bool is_sound = end != text + 12 && end == text + size - 1 && *end == '\n' && data.scale > 0 && data.scale < 1e6;
-    if (!is_sound && has("damage-crash")) {
-        std::abort();
-    }
-    if (!is_sound && !has("damage-nonsense")) {
-        return fail(host, ELVIS_ERROR_FORMAT, path, "line 2: a positive number is expected, and nothing behind it");
-    }
-    return ELVIS_OK;
-}
-
-/** The part of open that both interfaces have. */
-elvis_result open_data(const elvis_host* host, const char* path, const char* options, Data& data) {
-    if (has("options-crash") && options && options[0] != '{') {
-        std::abort();
-    }
-    if (has("cancel-uncalled")) {
-        return ELVIS_ERROR_CANCELLED;
-    }
-    for (int i = 0; i < 10; ++i) {
-        if (host->is_cancelled(host) && !has("cancel-ignored")) {
-            host->set_error(host, nullptr, "stopped");
-            return has("cancel-code") ? ELVIS_ERROR_FAILED : ELVIS_ERROR_CANCELLED;
-        }
-    }
-    data.host = host;
-    const elvis_result result = read(host, path, data);
-    if (result != ELVIS_OK) {
-        return result;
-    }
-    const int number = n_opened++;
-    if (n_open++ > 0 && has("open-race")) {
-        data.scale *= 2;
-    }
-    if (has("open-race")) {
-        ::usleep(1000); // so that two meet
-    }
-    if (has("leak")) {
-        data.lost = new char[10000];
-    }
-    if (has("changing")) {
-        data.name += std::to_string(number);
-    }
-    if (has("source-changing")) {
-        data.scale *= 1 + number;
-    }
-    return ELVIS_OK;
-}
-
-/** Another thread inside at the same time is a mistake only for the defects that say so. */
-class Inside {
-public:
-    explicit Inside(bool is_defective) : m_is_defective(is_defective) {
-        if (m_is_defective) {
-            m_others = n_inside++;
-            ::usleep(100);
-        }
-    }
-    ~Inside() {
-        if (m_is_defective) {
-            --n_inside;
-        }
-    }
-    bool is_disturbed() const { return m_is_defective && m_others > 0; }
-
-private:
-    bool m_is_defective;
-    int m_others = 0;
-};
-
-void position(std::uint64_t element, const double* xi, double* x) {
-    x[0] = 2 * static_cast<double>(element) + xi[0];
-    x[1] = xi[1] + 0.2 * xi[0] * xi[0];
-    x[2] = xi[2] + 0.1 * xi[0] * xi[0] * xi[1];
-}
-
-double value(const Data& data, const double* xi) { return data.scale * (xi[0] * xi[0] + xi[1] * xi[2]); }
-
-} // namespace
-
-struct elvis_volume {
-    Data data;
-};
-struct elvis_source_volume {
-    Data data;
-};
-
-namespace {
-
-elvis_result probe(const elvis_host*, const char* path, std::uint32_t* confidence) {
-    *confidence = is_ours(path) ? 100 : 0;
-    return ELVIS_OK;
 }
 
 elvis_result open_volume(const elvis_host* host, const char* path, const char* options, elvis_volume** volume) {
@@ -415,94 +263,6 @@ elvis_result check_jacobians(elvis_volume*, std::uint64_t, std::uint64_t count, 
     return ELVIS_OK;
 }
 
-elvis_result open_source(const elvis_host* host, const char* const* paths, std::uint32_t, const char* options,
-                         elvis_source_volume** source) {
-    Data data;
-    const elvis_result result = open_data(host, paths[0], options, data);
-    if (result == ELVIS_OK) {
-        *source = new elvis_source_volume{data};
-    }
-    return result;
-}
-
-void close_source(elvis_source_volume* source) {
-    --n_open;
-    delete source;
-}
-
-elvis_result get_source_info(elvis_source_volume*, elvis_source_info* out) {
-    out->dimension = 3;
-    out->n_elements = 2;
-    out->n_corner_ids = 12;
-    out->n_fields = 1;
-    out->n_time_steps = 1;
-    out->mantissa_bits = has("source-bits") ? 99 : 53;
-    return ELVIS_OK;
-}
-
-elvis_result get_source_field(elvis_source_volume* source, std::uint32_t, elvis_source_field* out) {
-    out->n_components = 1;
-    out->name = source->data.name.c_str();
-    out->continuity = ELVIS_CONTINUITY_CONTINUOUS;
-    return ELVIS_OK;
-}
-
-elvis_result get_elements(elvis_source_volume*, std::uint64_t first, std::uint64_t count, elvis_source_element* elements) {
-    // Four corners at each of x = -1, 1, 3, counted round the face.
-    constexpr std::int64_t of_corner[] = {0, 4, 5, 1, 3, 7, 6, 2};
-    auto* entry = reinterpret_cast<unsigned char*>(elements);
-    const std::size_t stride = has("source-stride") ? sizeof(elvis_source_element) : elements->struct_size;
-    for (std::uint64_t i = 0; i < count; ++i, entry += stride) {
-        elvis_source_element out{};
-        out.struct_size = elements->struct_size;
-        out.shape = ELVIS_SHAPE_HEXAHEDRON;
-        std::fill_n(out.geometry_order, 3, has("source-geometry") ? 1u : 2u);
-        const auto element = static_cast<std::int64_t>(has("source-piece") ? i : first + i);
-        for (std::size_t corner = 0; corner < 8; ++corner) {
-            out.corners[corner] = of_corner[corner] + 4 * element;
-        }
-        if (has("source-corner")) {
-            std::swap(out.corners[2], out.corners[3]);
-        }
-        std::fill_n(out.face_groups, 6, ELVIS_GROUP_NONE);
-        std::memcpy(entry, &out, sizeof out);
-    }
-    return ELVIS_OK;
-}
-
-elvis_result get_spaces(elvis_source_volume*, std::uint32_t, std::uint64_t, std::uint64_t count, elvis_source_space* spaces) {
-    auto* entry = reinterpret_cast<unsigned char*>(spaces);
-    for (std::uint64_t i = 0; i < count; ++i, entry += spaces->struct_size) {
-        elvis_source_space out{};
-        out.struct_size = spaces->struct_size;
-        std::fill_n(out.order, 3, has("source-claims") ? 1u : 2u);
-        out.is_contained = 1;
-        std::memcpy(entry, &out, sizeof out);
-    }
-    return ELVIS_OK;
-}
-
-elvis_result map_source(elvis_source_volume*, std::uint64_t element, std::uint64_t n_points, const double* xi,
-                        double* positions) {
-    for (std::uint64_t i = 0; i < n_points; ++i) {
-        position(element, xi + 3 * i, positions + 3 * i);
-    }
-    return ELVIS_OK;
-}
-
-elvis_result sample(elvis_source_volume* source, std::uint32_t, std::uint64_t, std::uint64_t n_points, const double* xi,
-                    double* values) {
-    const Inside inside(has("source-threads"));
-    for (std::uint64_t i = 0; i < n_points; ++i) {
-        if (has("source-unwritten") && i + 1 == n_points && n_points > 1) {
-            continue;
-        }
-        const bool is_wrong = inside.is_disturbed() || (has("source-batch") && n_points == 1);
-        values[i] = value(source->data, xi + 3 * i) + (is_wrong ? 1 : 0);
-    }
-    return ELVIS_OK;
-}
-
 const void* get_interface(const char* id) {
     static const elvis_runtime runtime = {has("table-size") ? 1000001u : static_cast<std::uint32_t>(sizeof(elvis_runtime)),
                                           0,
@@ -527,22 +287,8 @@ const void* get_interface(const char* id) {
                                           evaluate_field,
                                           get_derivative_bounds,
                                           check_jacobians};
-    static const elvis_converter converter = {sizeof(elvis_converter),
-                                              0,
-                                              probe,
-                                              open_source,
-                                              close_source,
-                                              get_source_info,
-                                              get_source_field,
-                                              get_elements,
-                                              get_spaces,
-                                              map_source,
-                                              sample,
-                                              nullptr,
-                                              nullptr,
-                                              nullptr};
     if (std::strcmp(id, ELVIS_CONVERTER_INTERFACE) == 0) {
-        return &converter;
+        return converter();
     }
     return std::strcmp(id, ELVIS_RUNTIME_INTERFACE) == 0 || has("every-interface") ? &runtime : nullptr;
 }
