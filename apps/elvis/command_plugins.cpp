@@ -15,10 +15,6 @@ std::string capabilities(const Plugin& plugin) {
     return plugin.runtime() && plugin.converter() ? "runtime, converter" : plugin.runtime() ? "runtime" : "converter";
 }
 
-std::string version_text(std::uint32_t abi_version) {
-    return std::to_string(abi_version >> 16) + "." + std::to_string(abi_version & 0xffffu);
-}
-
 void print_json(const PluginRegistry& registry) {
     nlohmann::ordered_json root;
     root["plugins"] = nlohmann::ordered_json::array();
@@ -35,7 +31,7 @@ void print_json(const PluginRegistry& registry) {
                                    {"version", plugin->version()},
                                    {"vendor", plugin->vendor()},
                                    {"description", plugin->description()},
-                                   {"abi_version", version_text(plugin->abi_version())},
+                                   {"abi_version", abi_version_text(plugin->abi_version())},
                                    {"interfaces", interfaces},
                                    {"library", plugin->library().string()}});
     }
@@ -51,7 +47,7 @@ void print_table(const PluginRegistry& registry) {
         std::printf("%s %s (%s)\n", plugin->id().c_str(), plugin->version().c_str(), capabilities(*plugin).c_str());
         const std::string vendor = plugin->vendor().empty() ? "" : ", by " + plugin->vendor();
         std::printf("    %s%s, plugin interface %s\n", plugin->name().c_str(), vendor.c_str(),
-                    version_text(plugin->abi_version()).c_str());
+                    abi_version_text(plugin->abi_version()).c_str());
         if (!plugin->description().empty()) {
             std::printf("    %s\n", plugin->description().c_str());
         }

@@ -35,8 +35,7 @@ void check_descriptor(Context& context) {
         context.fail(error.cause());
         return;
     }
-    context.note(plugin->id() + " " + plugin->version() + ", interface " + std::to_string(plugin->abi_version() >> 16) + "." +
-                 std::to_string(plugin->abi_version() & 0xffffu));
+    context.note(plugin->id() + " " + plugin->version() + ", interface " + abi_version_text(plugin->abi_version()));
     const elvis_plugin_descriptor* first = raw_descriptor(context.subject().library);
     const elvis_plugin_descriptor* second = raw_descriptor(context.subject().library);
     if (first != second || !first) {

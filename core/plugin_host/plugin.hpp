@@ -45,6 +45,9 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
+/** A version of the interface (ELVIS_ABI_VERSION) for people: "1.0". */
+std::string abi_version_text(std::uint32_t version);
+
 /** A library that was found and not accepted. */
 struct RefusedPlugin {
     std::filesystem::path library;

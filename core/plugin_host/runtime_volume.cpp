@@ -5,15 +5,26 @@
 #include <core/plugin_host/table_copy.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
 
 namespace elvis {
 
 namespace {
 
 constexpr std::uint32_t max_record_size = 1u << 24;
+constexpr std::uint32_t known_dependences = ELVIS_DEPENDS_ON_FIELD | ELVIS_DEPENDS_ON_TIME;
+
+std::string hexadecimal(std::uint32_t bits) {
+    std::array<char, 12> text{};
+    std::snprintf(text.data(), text.size(), "0x%x", bits);
+    return text.data();
+}
 
 bool is_identifier(const std::string& name, bool upper_case) {
     if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front()))) {
@@ -53,6 +64,11 @@ struct RuntimeVolume::Impl {
 
     void check(elvis_result result, const char* function) const { services->check(result, function, path); }
     [[noreturn]] void refuse(const char* function, const std::string& what) const { services->refuse(function, path, what); }
+
+    /** What this version cannot pass over: the picture would be wrong. */
+    [[noreturn]] void refuse_newer(const std::string& what) const {
+        throw Error(path, "plugin " + plugin->id() + " needs a later version of ElVis: " + what + ", which this one does not know");
+    }
 
     void check_certainty(elvis_certainty certainty, const char* function) const {
         if (certainty != ELVIS_CERTIFIED && certainty != ELVIS_ESTIMATED) {
@@ -257,6 +273,9 @@ BufferInfo RuntimeVolume::buffer(std::uint32_t buffer, std::uint32_t field) cons
     if (theirs.record_size == 0 || theirs.record_size > max_record_size || theirs.n_records >= 0xffffffffu) {
         m_impl->refuse("get_buffer", "an impossible record size or count for buffer '" + std::string(theirs.name) + "'");
     }
+    if ((theirs.depends & ~known_dependences) != 0) {
+        m_impl->refuse_newer("buffer '" + std::string(theirs.name) + "' depends on bits " + hexadecimal(theirs.depends & ~known_dependences));
+    }
     return {theirs.name, theirs.kind, theirs.element_class, theirs.depends, theirs.n_records, theirs.record_size};
 }
 
@@ -269,6 +288,10 @@ Snippet RuntimeVolume::snippet(std::uint32_t element_class) const {
     }
     if (std::string prefix = theirs.prefix; prefix == "elvis" || prefix == "core") {
         m_impl->refuse("get_snippet", "the prefix '" + prefix + "', which is the host's own");
+    }
+    // There is none yet.
+    if ((theirs.capabilities & ELVIS_SNIPPET_REQUIRED) != 0) {
+        m_impl->refuse_newer("its snippet has the capabilities " + hexadecimal(theirs.capabilities & ELVIS_SNIPPET_REQUIRED));
     }
     if (theirs.n_sources == 0 || theirs.n_sources > 4096 || !theirs.sources) {
         m_impl->refuse("get_snippet", "no sources");
@@ -432,7 +455,10 @@ bool RuntimeVolume::has_jacobian_checks() const { return m_impl->table->check_ja
 
 elvis_certainty RuntimeVolume::check_jacobians(std::uint64_t first, double tolerance, std::span<JacobianCheck> out) const {
     assert(has_jacobian_checks() && dimension() == 3 && first + out.size() <= n_elements());
-    std::vector<elvis_jacobian_check> theirs(out.size(), sized<elvis_jacobian_check>());
+    auto unknown = sized<elvis_jacobian_check>();
+    unknown.sign = ELVIS_JACOBIAN_UNDECIDED;
+    unknown.lower = -std::numeric_limits<double>::infinity();
+    std::vector<elvis_jacobian_check> theirs(out.size(), unknown);
     elvis_certainty certainty = ELVIS_ESTIMATED;
     m_impl->services->begin("check_jacobians");
     m_impl->check(m_impl->table->check_jacobians(m_impl->volume, first, out.size(), tolerance, theirs.data(), &certainty),

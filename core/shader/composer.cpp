@@ -107,6 +107,7 @@ std::string header(const KernelRequest& request) {
           "GL_KHR_shader_subgroup_vote", "GL_KHR_shader_subgroup_ballot", "GL_KHR_shader_subgroup_arithmetic"}) {
         text += std::string("#extension ") + extension + " : enable\n";
     }
+    text += define("ELVIS_GLSL_VERSION", std::to_string(ELVIS_ABI_VERSION));
     text += define("ELVIS_REAL_IS_DOUBLE", request.precision == Precision::float64 ? "1" : "0");
     text += define("ELVIS_N_INSTANCES", std::to_string(request.instances.size()));
     text += define("ELVIS_WANTS_HESSIANS", request.with_second_derivatives ? "1" : "0");

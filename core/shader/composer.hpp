@@ -4,7 +4,7 @@
  *
  * The text of a kernel, in order:
  *
- *   1. #version, extensions, ELVIS_REAL_IS_DOUBLE, ELVIS_N_INSTANCES, ELVIS_WANTS_HESSIANS, the request's
+ *   1. #version, extensions, ELVIS_GLSL_VERSION, ELVIS_REAL_IS_DOUBLE, ELVIS_N_INSTANCES, ELVIS_WANTS_HESSIANS, the request's
  *      #defines
  *   2. library/types.glsl, library/math.glsl
  *   3. fetch functions for every record buffer of host and instances (core/shader/fetch.hpp), and the host's elvis_fetch_NAME

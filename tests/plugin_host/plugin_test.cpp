@@ -52,16 +52,16 @@ TEST_CASE("a library that is no plugin is refused with the reason") {
     CHECK_THAT(refusal("no_symbol"), Contains("does not export elvis_plugin_get_descriptor"));
     CHECK_THAT(refusal("null_descriptor"), Contains("cannot work on this machine"));
     CHECK_THAT(refusal("tiny_descriptor"), Contains("impossible size"));
-    CHECK_THAT(refusal("other_major"), Contains("major version " + std::to_string(ELVIS_ABI_VERSION_MAJOR + 1)));
+    CHECK_THAT(refusal("other_major"), Contains("version " + std::to_string(ELVIS_ABI_VERSION_MAJOR + 1) + ".0") && Contains("a later ElVis"));
     CHECK_THAT(refusal("no_name"), Contains("no name"));
     CHECK_THAT(refusal("bad_id"), Contains("My Plugin") && Contains("reverse-domain"));
     CHECK_THAT(refusal("no_interface"), Contains(ELVIS_RUNTIME_INTERFACE) && Contains(ELVIS_CONVERTER_INTERFACE));
     CHECK_THAT(refusal("no_function"), Contains("fill_buffer"));
 }
 
-TEST_CASE("an older minor version works, and what it does not know is absent") {
-    const auto plugin = Plugin::load(fixture("older_minor"));
-    CHECK(plugin->abi_version() == ELVIS_ABI_VERSION - 1);
+TEST_CASE("a table may end before the host's, and what it does not have is absent") {
+    const auto plugin = Plugin::load(fixture("shorter_table"));
+    CHECK(plugin->abi_version() == ELVIS_ABI_VERSION_MAJOR << 16);
     CHECK(plugin->runtime()->get_element_numbers == nullptr);
     CHECK(plugin->runtime()->get_field_ranges == nullptr);
     const RuntimeVolume volume(plugin, "a.cube");
@@ -90,16 +90,16 @@ TEST_CASE("a newer minor version works, and what this host does not know is pass
 }
 
 TEST_CASE("a library stays loaded as long as someone uses it, and no longer") {
-    REQUIRE_FALSE(is_loaded("older_minor"));
+    REQUIRE_FALSE(is_loaded("shorter_table"));
     {
-        auto plugin = Plugin::load(fixture("older_minor"));
-        CHECK(is_loaded("older_minor"));
+        auto plugin = Plugin::load(fixture("shorter_table"));
+        CHECK(is_loaded("shorter_table"));
         std::optional<RuntimeVolume> volume(std::in_place, std::move(plugin), "a.cube");
-        CHECK(is_loaded("older_minor"));
-        CHECK(volume->plugin().id() == "org.elvis.test.older-minor");
+        CHECK(is_loaded("shorter_table"));
+        CHECK(volume->plugin().id() == "org.elvis.test.shorter-table");
         volume.reset();
     }
-    CHECK_FALSE(is_loaded("older_minor"));
+    CHECK_FALSE(is_loaded("shorter_table"));
     error_of([] { Plugin::load(fixture("other_major")); });
     CHECK_FALSE(is_loaded("other_major"));
 }

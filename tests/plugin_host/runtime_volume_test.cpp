@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 using namespace elvis;
 using Catch::Matchers::Contains;
@@ -103,6 +104,13 @@ TEST_CASE("nonsense that would reach the shader is refused") {
     }
 }
 
+TEST_CASE("what a later version may leave out is passed over, what it needs is refused") {
+    CHECK(open("later-ability").snippet(0).prefix == "cube");
+    CHECK_THAT(error_of([] { (void)open("later-need").snippet(0); }),
+               Contains("a.cube: plugin org.elvis.test.troubled needs a later version of ElVis") && Contains("0x20000"));
+    CHECK_THAT(error_of([] { (void)open("later-dependence").buffer(0, 0); }), Contains("a later version") && Contains("'scale'") && Contains("0x40"));
+}
+
 TEST_CASE("bounds, ranges, numbers and faces out of range are refused") {
     for (const char* name : {"nan-bounds", "infinite-bounds", "reversed-bounds", "bounds-certainty"}) {
         INFO(name);
@@ -142,6 +150,10 @@ TEST_CASE("signs of Jacobians that cannot be are refused") {
     CHECK(check.sign == ELVIS_JACOBIAN_NEGATIVE);
     CHECK(check.xi == std::array{0.0, 0.5, 0.0});
     CHECK(check.determinant == -2);
+    // Nothing said is nothing known.
+    CHECK(open("silent-check").check_jacobians(0, 1e-9, std::span(&check, 1)) == ELVIS_ESTIMATED);
+    CHECK(check.sign == ELVIS_JACOBIAN_UNDECIDED);
+    CHECK(check.lower == -std::numeric_limits<double>::infinity());
     for (const char* name : {"jacobian-sign", "jacobian-point", "jacobian-value", "jacobian-bound"}) {
         INFO(name);
         CHECK_THAT(error_of([&] { open(name).check_jacobians(0, 1e-9, std::span(&check, 1)); }), blames("check_jacobians"));

@@ -110,11 +110,13 @@ TEST_CASE("The debug build checks indices of what is declared by name, and keeps
     CHECK(std::count(checked.begin(), checked.end(), '\n') == std::count(text.begin(), text.end(), '\n'));
 }
 
-TEST_CASE("A snippet's debug build compiles without a device") {
+namespace {
+
+/** The simple snippet in a kernel, without a device. */
+KernelRequest request_without_device(const char* title) {
     KernelRequest request;
-    request.name = "debug build";
+    request.name = title;
     request.kernel = "kernels/conformance.comp";
-    request.is_debug_build = true;
     SnippetInstance instance;
     instance.snippet = test::simple_snippet();
     instance.constants = {};
@@ -127,5 +129,24 @@ TEST_CASE("A snippet's debug build compiles without a device") {
         }
     }
     request.instances = {instance};
+    return request;
+}
+
+} // namespace
+
+TEST_CASE("A snippet's debug build compiles without a device") {
+    KernelRequest request = request_without_device("debug build");
+    request.is_debug_build = true;
     CHECK_FALSE(compile_shader(compose_text(request), request.name).empty());
+}
+
+TEST_CASE("A snippet can ask for the version of the interface") {
+    KernelRequest request = request_without_device("version");
+    std::string& text = request.instances[0].snippet.sources[0].text;
+    const std::string version = std::to_string(ELVIS_ABI_VERSION_MAJOR) + " * 65536 + " + std::to_string(ELVIS_ABI_VERSION_MINOR);
+    const std::string plain = text;
+    text = "#if ELVIS_GLSL_VERSION < " + version + "\n#error too old\n#endif\n" + plain;
+    CHECK_FALSE(compile_shader(compose_text(request), request.name).empty());
+    text = "#if ELVIS_GLSL_VERSION >= " + version + "\n#error as new as this\n#endif\n" + plain;
+    CHECK_THROWS_WITH(compile_shader(compose_text(request), request.name), Catch::Contains("as new as this"));
 }

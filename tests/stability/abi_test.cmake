@@ -5,5 +5,5 @@ execute_process(COMMAND "${ABIDIFF}" --no-show-locs "${BASELINE}" "${LIBRARY}" R
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "The binary interface differs from ${BASELINE} (abidiff: ${result}).\n${output}\n"
                       "Plugins that exist may break. If members were only added at the end of structs, say so in CHANGELOG.md and write the "
-                      "baseline anew:\n  abidw --no-corpus-path --no-comp-dir-path --no-show-locs --out-file ${BASELINE} ${LIBRARY}")
+                      "baseline anew:\n  tests/stability/freeze.py --build BUILD --baseline")
 endif()

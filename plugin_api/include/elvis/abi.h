@@ -10,6 +10,7 @@
  *  - Enumerations are constants of a fixed-width integer type, never C enums, so that their size is known.
  *  - Strings are UTF-8 and end with NUL. Unless a function says otherwise, a string or array that a plugin returns belongs to
  *    the plugin and stays valid and unchanged until the volume (or source) it was asked from is closed.
+ *  - Members called `reserved` are 0; who reads ignores them.
  *  - Arrays that the host passes are contiguous, aligned for their type, and belong to the host.
  *  - Lengths are world units, unless "reference coordinates" are said.
  *

@@ -18,6 +18,9 @@
  *   prism        0123 014 1254 325 0354
  *   pyramid      0123 014 124 324 034
  *   tetrahedron  012 013 123 023
+ * In two dimensions these are the edges:
+ *   quadrilateral  01 12 32 03
+ *   triangle       01 12 02
  *
  * Since 0.9.
  */
