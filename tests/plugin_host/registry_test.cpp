@@ -68,14 +68,14 @@ TEST_CASE("good plugins are found beside misbehaving ones, and each refusal has 
     CHECK(ids == std::vector<std::string>{"org.elvis.test.good", "org.elvis.test.newer-minor", "org.elvis.test.sampled",
                                           "org.elvis.test.shorter-table", "org.elvis.test.troubled", "org.elvis.test.troubled-source",
                                           "org.elvis.test.world-source"});
-    for (const char* name : {"bad_id", "no_function", "no_interface", "no_name", "no_symbol", "not_a_library",
+    for (const char* name : {"bad_id", "draft", "no_function", "no_interface", "no_name", "no_symbol", "not_a_library",
                              "null_descriptor", "other_major", "tiny_descriptor", "good_again"}) {
         INFO(name);
         const RefusedPlugin* entry = refused(fixtures.registry, name);
         REQUIRE(entry);
         CHECK_FALSE(entry->reason.empty());
     }
-    CHECK(fixtures.registry.refused().size() == 10);
+    CHECK(fixtures.registry.refused().size() == 11);
 }
 
 TEST_CASE("the first plugin with an id wins, across folders too") {

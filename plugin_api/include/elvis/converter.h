@@ -13,7 +13,7 @@
  *
  * A function pointer marked optional may be NULL.
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_CONVERTER_H
 #define ELVIS_CONVERTER_H

@@ -22,7 +22,7 @@
  *   quadrilateral  01 12 32 03
  *   triangle       01 12 02
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_ELEMENT_H
 #define ELVIS_ELEMENT_H

@@ -20,7 +20,7 @@
  *
  * A function pointer marked optional may be NULL.
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_RUNTIME_H
 #define ELVIS_RUNTIME_H
@@ -179,14 +179,14 @@ typedef struct elvis_fill_request {
 #define ELVIS_SNIPPET_FIELD_OFFSET 8u
 /** Positions that the snippet returns are relative to elvis_origin(element). */
 #define ELVIS_SNIPPET_LOCAL_ORIGIN 16u
-/** elvis_field_hessian: value, gradient and second derivatives of the field in xi. Since 0.9.1. */
+/** elvis_field_hessian: value, gradient and second derivatives of the field in xi. Since 1.0. */
 #define ELVIS_SNIPPET_FIELD_HESSIAN 32u
-/** elvis_mapping_hessian: mapping, Jacobian and second derivatives of the mapping. Since 0.9.1. */
+/** elvis_mapping_hessian: mapping, Jacobian and second derivatives of the mapping. Since 1.0. */
 #define ELVIS_SNIPPET_MAPPING_HESSIAN 64u
 /**
  * elvis_inside, elvis_inside_bounds: the class has a reference shape of its own, the part of `shape` in which a function is not
  * positive (cut cells). Mapping and fields are defined on all of `shape`; bounds, ranges and checks of the Jacobian may be of all
- * of it, too. See "Shapes of one's own" in glsl_interface.md. Since 0.9.2.
+ * of it, too. See "Shapes of one's own" in glsl_interface.md. Since 1.0.
  */
 #define ELVIS_SNIPPET_INSIDE 128u
 

@@ -2,7 +2,7 @@
  * @file plugin.h
  * The one symbol that a plugin library exports, and the descriptor it returns.
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_PLUGIN_H
 #define ELVIS_PLUGIN_H

@@ -189,7 +189,8 @@ public:
     }
 
     /** No Legendre polynomial exceeds 1 in size: the field is within the sum of the other coefficients of the first one. */
-    elvis_certainty get_field_ranges(std::uint32_t, std::uint32_t, std::uint64_t first, std::uint64_t count, std::span<double> ranges) {
+    elvis_certainty get_field_ranges(std::uint32_t, std::uint32_t, std::uint64_t first, std::uint64_t count,
+                                     std::span<double> ranges) {
         for (std::uint64_t i = 0; i < count; ++i) {
             const std::vector<double>& modes = m_file.hexahedra.at(first + i).modes;
             double others = 0;
@@ -234,8 +235,8 @@ private:
                     face.neighbour = static_cast<std::int64_t>(element);
                     face.neighbour_local_face = local_face;
                 } else {
-                    throw elvis::api::Error(ELVIS_ERROR_FORMAT, {}, "more than two hexahedra share a face of hexahedron " +
-                                                                        std::to_string(element));
+                    throw elvis::api::Error(ELVIS_ERROR_FORMAT, {},
+                                            "more than two hexahedra share a face of hexahedron " + std::to_string(element));
                 }
             }
         }
@@ -249,5 +250,5 @@ private:
 } // namespace
 } // namespace my_solver
 
-ELVIS_PLUGIN(.id = "org.example.my_solver", .name = "my_solver", .version = "0.1.0", .description = "Draws volumes of my_solver",
-             .runtime = elvis::api::runtime_table<my_solver::Volume>());
+ELVIS_PLUGIN(.id = "org.example.my_solver", .name = "my_solver", .version = "0.1.0",
+             .description = "Draws volumes of my_solver", .runtime = elvis::api::runtime_table<my_solver::Volume>());

@@ -10,10 +10,11 @@
  *  - Enumerations are constants of a fixed-width integer type, never C enums, so that their size is known.
  *  - Strings are UTF-8 and end with NUL. Unless a function says otherwise, a string or array that a plugin returns belongs to
  *    the plugin and stays valid and unchanged until the volume (or source) it was asked from is closed.
+ *  - Members called `reserved` are 0; who reads ignores them.
  *  - Arrays that the host passes are contiguous, aligned for their type, and belong to the host.
  *  - Lengths are world units, unless "reference coordinates" are said.
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_ABI_H
 #define ELVIS_ABI_H
@@ -21,8 +22,8 @@
 #include <stdint.h>
 
 /** Major version: plugin and host must agree on it. Minor version: members and functions were added at the end. */
-#define ELVIS_ABI_VERSION_MAJOR 0u
-#define ELVIS_ABI_VERSION_MINOR 9u
+#define ELVIS_ABI_VERSION_MAJOR 1u
+#define ELVIS_ABI_VERSION_MINOR 0u
 #define ELVIS_ABI_VERSION ((ELVIS_ABI_VERSION_MAJOR << 16) | ELVIS_ABI_VERSION_MINOR)
 
 #if defined(_WIN32)

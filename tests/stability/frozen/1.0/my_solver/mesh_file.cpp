@@ -16,7 +16,8 @@ constexpr int max_order = 20;
 double read_number(std::ifstream& file, const std::string& path, std::size_t hexahedron) {
     double number = 0;
     if (!(file >> number) || !std::isfinite(number)) {
-        throw elvis::api::Error(ELVIS_ERROR_FORMAT, path, "hexahedron " + std::to_string(hexahedron) + ": a number is expected");
+        throw elvis::api::Error(ELVIS_ERROR_FORMAT, path,
+                                "hexahedron " + std::to_string(hexahedron) + ": a number is expected");
     }
     return number;
 }
@@ -42,7 +43,8 @@ MeshFile read_mesh_file(const std::string& path) {
     while (stream >> word) {
         if (word != "hexahedron") {
             throw elvis::api::Error(ELVIS_ERROR_FORMAT, path,
-                                    "after hexahedron " + std::to_string(file.hexahedra.size()) + ": the word 'hexahedron' is expected");
+                                    "after hexahedron " + std::to_string(file.hexahedra.size()) +
+                                        ": the word 'hexahedron' is expected");
         }
         Hexahedron& hexahedron = file.hexahedra.emplace_back();
         for (Corner& corner : hexahedron.corners) {

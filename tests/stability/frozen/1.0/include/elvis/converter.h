@@ -5,14 +5,15 @@
  * The plugin says which elements there are and evaluates mapping and fields where the host asks; the host chooses the points,
  * projects, measures the projection error at other points, and writes. No GPU code is needed.
  *
- * Elements are numbered 0 .. n_elements-1 in the order of the source file, whatever their shape.
+ * Elements are numbered 0 .. n_elements-1 in the order of the source file, whatever their shape. Their geometry is the same at every
+ * time step.
  *
  * Threads: `probe` and `open` as in runtime.h. On one source, get_elements, evaluate_mapping and sample may run at the same
  * time on several threads; every other call is made alone.
  *
  * A function pointer marked optional may be NULL.
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_CONVERTER_H
 #define ELVIS_CONVERTER_H
@@ -29,6 +30,7 @@ typedef struct elvis_source_info {
     uint32_t struct_size;
     /** 3, or 2 for quadrilaterals and triangles. */
     uint32_t dimension;
+    /** At least 1, below 2^32 - 1. */
     uint64_t n_elements;
     /** Distinct corner ids are below this; 0 if corners have no ids and are to be matched by position. */
     uint64_t n_corner_ids;
@@ -46,7 +48,7 @@ typedef struct elvis_source_info {
 typedef struct elvis_source_element {
     uint32_t struct_size;
     elvis_shape shape;
-    /** Order of a polynomial mapping that contains the element's, per direction; at least 1. */
+    /** Order of a polynomial mapping that contains the element's, per direction; from 1 to 30. */
     uint32_t geometry_order[3];
     /** Ids of the corners in the order of element.h; meaningful if n_corner_ids > 0. */
     int64_t corners[8];
@@ -56,7 +58,9 @@ typedef struct elvis_source_element {
 
 typedef struct elvis_source_field {
     uint32_t struct_size;
+    /** From 1 to 1024. */
     uint32_t n_components;
+    /** Unique in the source. */
     elvis_string name;
     /** May be NULL. */
     elvis_string unit;
@@ -71,7 +75,7 @@ typedef struct elvis_source_space {
     uint32_t struct_size;
     /**
      * Smallest polynomial order per direction whose native space contains the source's; if there is none, the order that the
-     * plugin advises. 0 0 0 is a constant.
+     * plugin advises; at most 30. 0 0 0 is a constant.
      */
     uint32_t order[3];
     /** Non-zero if the source's space is contained in the native space of that order: conversion is exact but for round-off. */

@@ -8,7 +8,7 @@
  * Threads: every function may be called from any thread that the host is calling the plugin on, and from threads the plugin
  * has started itself, except set_error (see there).
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_HOST_H
 #define ELVIS_HOST_H

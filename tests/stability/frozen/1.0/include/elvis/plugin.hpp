@@ -18,7 +18,7 @@
  *
  * plugins/analytic is a complete example.
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_PLUGIN_HPP
 #define ELVIS_PLUGIN_HPP

@@ -9,6 +9,9 @@
  * class by class, 0 .. n_elements-1: first all of class 0, then all of class 1. "Element" below means this number, "local
  * element" its position in its class. The snippet is compiled once per class, with the class's constants as #defines.
  *
+ * Time. Fields change from one time step to another, geometry does not: mapping, elvis_inside, bounds, faces and signs of Jacobians
+ * are the same at every step. A moving mesh is a volume for each of its positions.
+ *
  * Life of a volume: probe -> open -> any number of other calls -> close. The host closes every volume it has opened.
  *
  * Threads: `probe` and `open` may be called from any thread, also at the same time for different files. On one volume, the host
@@ -17,7 +20,7 @@
  *
  * A function pointer marked optional may be NULL.
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_RUNTIME_H
 #define ELVIS_RUNTIME_H
@@ -35,6 +38,7 @@ typedef struct elvis_volume_info {
     uint32_t struct_size;
     /** 3 for volumes; 2 for surfaces made of quadrilaterals and triangles. */
     uint32_t dimension;
+    /** At least 1, below 2^32 - 1. */
     uint64_t n_elements;
     /** 0 if the plugin does not know the faces. */
     uint64_t n_faces;
@@ -59,7 +63,10 @@ typedef struct elvis_element_class {
     uint32_t is_affine;
 } elvis_element_class;
 
-/** A named integer that the snippet sees as a #define. Names match [A-Z][A-Z0-9_]* and start with the snippet's prefix. */
+/**
+ * A named integer that the snippet sees as a #define. Names match [A-Z][A-Z0-9_]* and start with the snippet's prefix. Values fit into
+ * GLSL's 32 bits, with sign or without: -2^31 .. 2^32 - 1.
+ */
 typedef struct elvis_constant {
     uint32_t struct_size;
     uint32_t reserved;
@@ -80,7 +87,7 @@ typedef struct elvis_class_field {
 
 typedef struct elvis_field {
     uint32_t struct_size;
-    /** 1 for a scalar, 3 for a vector in space. */
+    /** 1 for a scalar, 3 for a vector in space; other numbers, up to 1024, are numbers that belong together. */
     uint32_t n_components;
     /** Unique in the volume. */
     elvis_string name;
@@ -101,7 +108,7 @@ typedef uint32_t elvis_buffer_kind;
 /** Buffer that serves every class rather than one. */
 #define ELVIS_ALL_CLASSES 0xffffffffu
 
-/** Bits of elvis_buffer.depends: the host fills the buffer anew when that changes. */
+/** Bits of elvis_buffer.depends: the host fills the buffer anew when that changes. One that it does not know it refuses. */
 #define ELVIS_DEPENDS_ON_FIELD 1u
 #define ELVIS_DEPENDS_ON_TIME 2u
 
@@ -119,6 +126,7 @@ typedef struct elvis_buffer {
     uint32_t element_class;
     /** ELVIS_DEPENDS_... */
     uint32_t depends;
+    /** Below 2^32 - 1. */
     uint64_t n_records;
     /**
      * Numbers in a record of this field (record sizes may differ between fields). At most 2^24. The host pads a record to a
@@ -151,22 +159,36 @@ typedef struct elvis_fill_request {
     const double* origins;
 } elvis_fill_request;
 
-/** Bits of elvis_snippet.capabilities: what the snippet gives beyond mapping, Jacobian and field value. See glsl_interface.md.
+/**
+ * Bits of elvis_snippet.capabilities: what the snippet gives beyond mapping, Jacobian and field value. See glsl_interface.md.
+ *
+ * Bits of the lower half may be passed over by a host that does not know them: what they give is not used. Bits of the upper half,
+ * ELVIS_SNIPPET_REQUIRED, say what has to be known for a right picture: a host that does not know one refuses the volume.
  */
+#define ELVIS_SNIPPET_REQUIRED 0xffff0000u
 /** elvis_field_gradient: value and gradient in xi at once. */
 #define ELVIS_SNIPPET_FIELD_GRADIENT 1u
 /** elvis_mapping_jacobian: mapping and Jacobian at once. */
 #define ELVIS_SNIPPET_MAPPING_JACOBIAN 2u
-/** elvis_inverse_mapping: from position to reference coordinates. */
+/**
+ * elvis_inverse_mapping: from position to reference coordinates. Draft: checked by `elvis check-plugin`, and not used for pictures, whose
+ * error bounds rest on Newton's method.
+ */
 #define ELVIS_SNIPPET_INVERSE_MAPPING 4u
 /** The field that the snippet returns lacks elvis_fill_request.field_offset. */
 #define ELVIS_SNIPPET_FIELD_OFFSET 8u
 /** Positions that the snippet returns are relative to elvis_origin(element). */
 #define ELVIS_SNIPPET_LOCAL_ORIGIN 16u
-/** elvis_field_hessian: value, gradient and second derivatives of the field in xi. Since 0.9.1. */
+/** elvis_field_hessian: value, gradient and second derivatives of the field in xi. Since 1.0. */
 #define ELVIS_SNIPPET_FIELD_HESSIAN 32u
-/** elvis_mapping_hessian: mapping, Jacobian and second derivatives of the mapping. Since 0.9.1. */
+/** elvis_mapping_hessian: mapping, Jacobian and second derivatives of the mapping. Since 1.0. */
 #define ELVIS_SNIPPET_MAPPING_HESSIAN 64u
+/**
+ * elvis_inside, elvis_inside_bounds: the class has a reference shape of its own, the part of `shape` in which a function is not
+ * positive (cut cells). Mapping and fields are defined on all of `shape`; bounds, ranges and checks of the Jacobian may be of all
+ * of it, too. See "Shapes of one's own" in glsl_interface.md. Since 1.0.
+ */
+#define ELVIS_SNIPPET_INSIDE 128u
 
 /** One GLSL text. */
 typedef struct elvis_text {
@@ -192,7 +214,7 @@ typedef struct elvis_snippet {
     const elvis_text* sources;
 } elvis_snippet;
 
-/** How much a bound or range can be trusted. */
+/** How much a bound or range can be trusted. Where it is an output, the host has set it to ELVIS_ESTIMATED before the call. */
 typedef uint32_t elvis_certainty;
 /** The plugin proves that nothing lies outside, rounding included. */
 #define ELVIS_CERTIFIED 0u
@@ -318,7 +340,7 @@ typedef struct elvis_runtime {
                                                 uint64_t count, double* bounds, elvis_certainty* certainty);
 
     /**
-     * Optional. Sign of the Jacobian determinant in elements first .. first+count-1, one check each. An element whose smallest
+     * Optional. Sign of the Jacobian determinant in elements first .. first+count-1, one check each; entries left alone are UNDECIDED. An element whose smallest
      * determinant lies within `tolerance` (>= 0) times its largest magnitude of zero may be left undecided; a larger tolerance
      * may take less time. ELVIS_CERTIFIED if every POSITIVE, NEGATIVE and `lower` is proven, rounding included. Without it, the
      * host samples evaluate_mapping and says so. Only for volumes of dimension 3.

@@ -18,8 +18,11 @@
  *   prism        0123 014 1254 325 0354
  *   pyramid      0123 014 124 324 034
  *   tetrahedron  012 013 123 023
+ * In two dimensions these are the edges:
+ *   quadrilateral  01 12 32 03
+ *   triangle       01 12 02
  *
- * Since 0.9.
+ * Since 1.0.
  */
 #ifndef ELVIS_ELEMENT_H
 #define ELVIS_ELEMENT_H
