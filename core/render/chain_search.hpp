@@ -56,6 +56,8 @@ public:
     void compile();
     /** Of rays of pixels: which elements each tile's rays may start in. Before seek(), as often as the chains' view changes. */
     void list_starts(const ChainRays& rays);
+    /** A word for each tile, 0 where no class has a list. Valid until list_starts(). */
+    const Buffer& has_starts() const { return *m_has_starts; }
 
     struct Found {
         /** Whether any ray looked for a start here. */
@@ -81,6 +83,7 @@ private:
     std::vector<Range> m_ranges;
     /** By m_ranges. */
     std::vector<Kernels> m_kernels;
+    std::optional<Buffer> m_has_starts;
     Buffer m_counts;
 };
 

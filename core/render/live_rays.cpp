@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace elvis {
 
 struct LiveRays::Parameters {
     std::uint32_t width, height;
+    std::uint32_t tiles_a_row, first_tile_row;
     std::uint32_t seeks;
     std::uint32_t first_element, n_elements;
 };
@@ -19,7 +21,7 @@ constexpr double most_waste_of_processor = 1.2, most_waste_of_others = 1e30;
 
 KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::uint32_t tile_height, std::size_t push_bytes) {
     KernelRequest request =
-        pixel_kernel("live_rays", precision, {BindingType::storage_buffer, BindingType::storage_buffer}, push_bytes);
+        pixel_kernel("live_rays", precision, {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer}, push_bytes);
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width) + "u"}, {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
     return request;
 }
@@ -58,9 +60,18 @@ LiveRays::LiveRays(const Device& device, Precision precision, std::uint32_t tile
       m_most_waste(device.summary().type == "cpu" ? most_waste_of_processor : most_waste_of_others),
       m_kernel(device, request_for(precision, tile_width, tile_height, sizeof(Parameters))) {}
 
-std::vector<RayBox> LiveRays::run(const Buffer& states, const Parameters& parameters) {
-    const std::uint32_t tiles_a_row = (parameters.width + m_tile_width - 1) / m_tile_width;
-    const std::uint32_t tile_rows = (parameters.height + m_tile_height - 1) / m_tile_height;
+void LiveRays::begin(const Buffer& states, const Buffer& has_starts, std::uint32_t width, std::uint32_t height) {
+    m_states = &states;
+    m_has_starts = &has_starts;
+    m_width = width;
+    m_height = height;
+    m_all = {0, (width + m_tile_width - 1) / m_tile_width, 0, height};
+    m_is_first = true;
+}
+
+std::vector<RayBox> LiveRays::run(std::uint32_t seeks, std::uint32_t first_element, std::uint32_t n_elements) {
+    const std::uint32_t tiles_a_row = (m_width + m_tile_width - 1) / m_tile_width;
+    const std::uint32_t tile_rows = (m_height + m_tile_height - 1) / m_tile_height;
     const std::uint64_t bytes = std::uint64_t{tile_rows} * 2 * sizeof(std::uint32_t);
     if (!m_ranges || m_ranges->bytes() != bytes) {
         m_ranges.reset();
@@ -71,19 +82,35 @@ std::vector<RayBox> LiveRays::run(const Buffer& states, const Parameters& parame
         ranges[i] = 0xffffffffu;
     }
     m_ranges->write_items(std::span<const std::uint32_t>(ranges));
-    const std::array<const Buffer*, 2> bindings = {&states, &*m_ranges};
-    m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row, tile_rows);
+    const Parameters parameters{m_width, m_height, tiles_a_row, m_all.first_row / m_tile_height, seeks, first_element, n_elements};
+    const std::array<const Buffer*, 3> bindings = {m_states, &*m_ranges, m_has_starts};
+    const std::uint32_t end_tile_row = (m_all.end_row + m_tile_height - 1) / m_tile_height;
+    if (m_all.area() > 0) {
+        m_kernel.dispatch_from(m_all.first, bindings, std::as_bytes(std::span(&parameters, 1)), m_all.end - m_all.first,
+                               end_tile_row - parameters.first_tile_row);
+    }
     ranges = m_ranges->read_items<std::uint32_t>(ranges.size());
-    return boxes_of(ranges, m_tile_height, parameters.height, m_most_waste);
+    return boxes_of(ranges, m_tile_height, m_height, m_most_waste);
 }
 
-std::vector<RayBox> LiveRays::seeking(const Buffer& states, std::uint32_t width, std::uint32_t height) {
-    return run(states, {width, height, 1, 0, 0});
+std::vector<RayBox> LiveRays::seeking() {
+    std::vector<RayBox> boxes = run(1, 0, 0);
+    if (m_is_first) {
+        m_is_first = false;
+        m_all = {};
+        for (const RayBox& box : boxes) {
+            const bool is_empty = m_all.area() == 0;
+            m_all.first = is_empty ? box.first : std::min(m_all.first, box.first);
+            m_all.end = std::max(m_all.end, box.end);
+            m_all.first_row = is_empty ? box.first_row : m_all.first_row;
+            m_all.end_row = box.end_row;
+        }
+    }
+    return boxes;
 }
 
-std::vector<RayBox> LiveRays::going(const Buffer& states, std::uint32_t width, std::uint32_t height, std::uint32_t first_element,
-                                    std::uint32_t n_elements) {
-    return run(states, {width, height, 0, first_element, n_elements});
+std::vector<RayBox> LiveRays::going(std::uint32_t first_element, std::uint32_t n_elements) {
+    return run(0, first_element, n_elements);
 }
 
 } // namespace elvis

@@ -31,21 +31,28 @@ class LiveRays {
 public:
     LiveRays(const Device& device, Precision precision, std::uint32_t tile_width, std::uint32_t tile_height);
 
-    /** Of a picture of this size: of the rays that look for a start. `states`: a core_volume_state a pixel. */
-    std::vector<RayBox> seeking(const Buffer& states, std::uint32_t width, std::uint32_t height);
+    /** A picture of this size, of which all rays look for a start. `states`: a core_volume_state a pixel; `has_starts`: a word a tile, 0
+     * where rays can start in nothing. Both must outlive what follows. */
+    void begin(const Buffer& states, const Buffer& has_starts, std::uint32_t width, std::uint32_t height);
+    /** Of the rays that look for a start. Those that can find none end. */
+    std::vector<RayBox> seeking();
     /** Of those that go on in these elements. Rays that have looked for a start in vain end. */
-    std::vector<RayBox> going(const Buffer& states, std::uint32_t width, std::uint32_t height, std::uint32_t first_element,
-                              std::uint32_t n_elements);
+    std::vector<RayBox> going(std::uint32_t first_element, std::uint32_t n_elements);
 
 private:
     struct Parameters;
-    std::vector<RayBox> run(const Buffer& states, const Parameters& parameters);
+    std::vector<RayBox> run(std::uint32_t seeks, std::uint32_t first_element, std::uint32_t n_elements);
 
     const Device& m_device;
     std::uint32_t m_tile_width, m_tile_height;
     double m_most_waste;
     ComposedKernel m_kernel;
     std::optional<Buffer> m_ranges;
+    const Buffer *m_states = nullptr, *m_has_starts = nullptr;
+    std::uint32_t m_width = 0, m_height = 0;
+    /** Holds all rays that have not ended. */
+    RayBox m_all;
+    bool m_is_first = true;
 };
 
 } // namespace elvis

@@ -209,7 +209,7 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
     for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
         bool is_seeking = false;
         if (picture.only_live) {
-            live = m_live.seeking(*m_states, width, height);
+            live = m_live.seeking();
         }
         for (std::size_t index = 0; index < m_march.size(); ++index) {
             spare(live);
@@ -221,7 +221,7 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
         for (std::size_t index = 0; index < m_march.size(); ++index) {
             if (picture.only_live) {
                 const ChainSearch::Range& range = m_search.ranges()[index];
-                live = m_live.going(*m_states, width, height, range.first_element, range.n_elements);
+                live = m_live.going(range.first_element, range.n_elements);
             }
             spare(live);
             is_open = march(index, picture, live, counts) || is_open;
@@ -241,6 +241,7 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
     dispatch_pixels(m_begin, {&states}, bytes, n_pixels);
     m_search.list_starts(picture.rays);
+    m_live.begin(states, m_search.has_starts(), layer.width, layer.height);
     for (std::size_t i = 0; i < merged.n_veils(); ++i) {
         picture.stops = &merged.veil(i).depths;
         march_all(picture, counts);

@@ -1,5 +1,6 @@
 #include <core/volume/element_chains.hpp>
 
+#include <core/volume/face_cones.hpp>
 #include <core/volume/face_links.hpp>
 
 #include <algorithm>
@@ -51,6 +52,9 @@ ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, 
         chains.links = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, links_an_element);
         // Room for all elements, so that kernels composed with it stay valid.
         chains.nodes = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, words_a_node);
+        if (has_curved(index)) {
+            chains.cones = measure_face_cones(device, volume, data, index);
+        }
         chains.boxes.resize(6 * info.n_elements);
         for (std::uint64_t first = 0; first < info.n_elements; first += block) {
             const std::uint64_t count = std::min(block, info.n_elements - first);
@@ -147,14 +151,21 @@ template <class CanStart> void ElementChains::choose_starts(const CanStart& can_
     }
 }
 
+bool ElementChains::has_curved(std::uint32_t element_class) const {
+    return std::ranges::any_of(m_data.curvatures(element_class), [](float curvature) { return curvature > followed_curvature; });
+}
+
 std::pair<std::string, std::string> ElementChains::curved_define(std::uint32_t element_class) const {
-    const bool is_curved =
-        std::ranges::any_of(m_data.curvatures(element_class), [](float curvature) { return curvature > followed_curvature; });
-    return {"CORE_HAS_CURVED", is_curved ? "1" : "0"};
+    return {"CORE_HAS_CURVED", m_classes[element_class].cones ? "1" : "0"};
 }
 
 std::vector<FetchBuffer> ElementChains::host_buffers(std::uint32_t element_class) const {
-    return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_links", m_classes[element_class].links.get()}};
+    const ClassChains& chains = m_classes[element_class];
+    std::vector<FetchBuffer> buffers = {{"core_nodes", chains.nodes.get()}, {"core_links", chains.links.get()}};
+    if (chains.cones) {
+        buffers.push_back({"core_cones", chains.cones.get()});
+    }
+    return buffers;
 }
 
 } // namespace elvis

@@ -46,7 +46,8 @@ public:
     /**
      * `core_nodes`, a hierarchy over those in which leaves are local elements; and `core_links`: for each local face of an element the
      * neighbour among all elements of the volume, all bits where none is known, and at place 7 the bits of the mapping's curvature.
-     * Valid as long as this. Of classes with elements.
+     * Where rays have to be followed in elements of the class, `core_cones`, too: the directions of their faces. Valid as long as
+     * this. Of classes with elements.
      */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
     /** CORE_HAS_CURVED for kernels on the class's elements: whether rays have to be followed in any of them (shaders/library/ray_part.glsl). */
@@ -55,7 +56,7 @@ public:
 
 private:
     struct ClassChains {
-        std::unique_ptr<RecordBuffer> nodes, links;
+        std::unique_ptr<RecordBuffer> nodes, links, cones;
         std::vector<bool> is_kept, is_open;
         std::uint64_t n_starts = 0;
         /** Six numbers an element. */
@@ -64,6 +65,7 @@ private:
 
     template <class CanStart> void choose_starts(const CanStart& can_start);
     bool is_kept(std::uint32_t element) const;
+    bool has_curved(std::uint32_t element_class) const;
 
     const RuntimeVolume& m_volume;
     const DeviceVolume& m_data;

@@ -80,6 +80,7 @@ void main() {
     const core_ray pixel_ray = core_chain_ray(column, row, pixel);
     const core_walk_ray ray = core_walk_ray_of(pixel_ray, elvis_real(core_extent));
 
+    const vec3 along = vec3(ray.direction / length(ray.direction));
     // The first chain may start at the eye.
     const bool is_first = state.start_element == CORE_NO_ELEMENT;
     const elvis_real from = is_first ? pixel_ray.least_t : state.start;
@@ -158,11 +159,16 @@ void main() {
             best = is_better ? from : best;
             best_element = is_better ? element : best_element;
         }
-        for (uint attempt = 0u; attempt < (is_curved ? uint(CORE_N_FACES) * CORE_FACE_STARTS : 0u); ++attempt) {
-            const int face = int(attempt / CORE_FACE_STARTS);
+        // Bits of the faces through which the ray may come in.
+        uint open = 0u, start = 0u;
+        for (int face = 0; face < CORE_N_FACES; ++face) {
             const bool is_open = elvis_fetch_core_links(part.element, uint(face)) == CORE_NO_LINK;
-            if (is_open) {
-                const core_face_entry entry = core_enter_face(ray, part.element, part.curvature, face, attempt % CORE_FACE_STARTS);
+            open |= is_curved && is_open && !core_surely_crosses(part.element, face, along, 1.0) ? 1u << face : 0u;
+        }
+        while (open != 0u) {
+            if (open != 0u) {
+                const int face = findLSB(open);
+                const core_face_entry entry = core_enter_face(ray, part.element, part.curvature, face, start);
                 const uint element = core_first_element + part.element;
                 n_evaluations += entry.n_evaluations;
                 work += 1u;
@@ -175,6 +181,14 @@ void main() {
 #if CORE_MAKES_SEGMENTS
                 best_error = is_better ? entry.error : best_error;
 #endif
+                // There is but one entry through a face with such directions (library/chain_start.glsl).
+                const bool is_only = entry.is_found && core_surely_crosses(part.element, face, along, -1.0);
+                start = is_only ? CORE_FACE_STARTS : start + 1u;
+                open = start < CORE_FACE_STARTS ? open : open & (open - 1u);
+                start = start < CORE_FACE_STARTS ? start : 0u;
+            }
+            if (open == 0u) {
+                break;
             }
         }
         is_searching = is_searching && !is_curved;

@@ -23,6 +23,10 @@ layout(push_constant) uniform core_constants {
     uint core_n_isovalues;
 #endif
 };
+#ifdef CORE_TESTS_STARTS
+// Not 0 for tiles with a list, in this class or another.
+layout(std430, set = 0, binding = 3) buffer core_has_starts_block { uint core_has_starts[]; };
+#endif
 
 // The rays of a tile lie between four planes; each is given by a point, its normal inwards, and the sizes of both for rounding.
 struct core_beam {
@@ -142,6 +146,9 @@ void main() {
     const uint first = tile * CORE_TILE_STRIDE;
     if (is_wanted) {
         core_tiles[first] = n_entries | (n_inner > 0u ? CORE_TILE_INNER : 0u);
+#ifdef CORE_TESTS_STARTS
+        core_has_starts[tile] |= n_entries;
+#endif
     }
     for (uint i = 0u; i < n_entries; ++i) {
         core_tiles[first + 1u + 2u * i] = words[i];

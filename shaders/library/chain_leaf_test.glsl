@@ -14,8 +14,8 @@ bool core_leaf_is_met(uint item, core_beam beam, vec2 span) {
     // The element's own boundary is anywhere in it.
     bool may_start = ELVIS_HAS_INSIDE == 1 || span.x <= beam.eye_t;
     for (int face = 0; face < CORE_N_FACES; ++face) {
-        const bool leaves = core_surely_leaves(motions[0], face) && core_surely_leaves(motions[1], face) &&
-                            core_surely_leaves(motions[2], face) && core_surely_leaves(motions[3], face);
+        const bool leaves = core_surely_leaves(motions[0], item, face) && core_surely_leaves(motions[1], item, face) &&
+                            core_surely_leaves(motions[2], item, face) && core_surely_leaves(motions[3], item, face);
         may_start = may_start || (elvis_fetch_core_links(item, uint(face)) == CORE_NO_LINK && !leaves);
     }
     return may_start;

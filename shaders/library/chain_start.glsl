@@ -1,8 +1,9 @@
 // Whether a ray can come into an element through one of its faces without neighbour, from the linearized mapping alone, without any
 // evaluation.
 //
-// Where it surely enters through a face it does so once, as the way between two points of the shape lies in it. Others it can meet only
-// where the face's constraint may be zero and the others may hold.
+// Where it surely enters through a face it does so once: in elements that are nearly linear because the way between two points of the
+// shape lies in it; in others because a face that has all its directions within an angle does not come back above itself, but as a spiral
+// staircase. Others it can meet only where the face's constraint may be zero and the others may hold.
 //
 // The kernel brings library/ray_part.glsl and core_links.
 
@@ -28,13 +29,13 @@ bool core_may_start(core_walk_ray ray, uint element, elvis_real begin, elvis_rea
         const elvis_real middle = (rate < elvis_real(0) ? value : -value) / steepness, reach = norm * error / steepness;
         possible_to = rate > elvis_real(0) ? min(possible_to, middle + reach) : possible_to;
         possible_from = rate < elvis_real(0) ? max(possible_from, middle - reach) : possible_from;
-        const bool is_open = elvis_fetch_core_links(element, uint(face)) == CORE_NO_LINK && !core_surely_leaves(motion, face);
+        const bool is_open = elvis_fetch_core_links(element, uint(face)) == CORE_NO_LINK && !core_surely_leaves(motion, element, face);
         open_from = is_open ? min(open_from, middle - reach) : open_from;
         open_to = is_open ? max(open_to, middle + reach) : open_to;
         n_open += is_open ? 1u : 0u;
-        n_once += is_open && core_surely_enters(motion, face) ? 1u : 0u;
+        n_once += is_open && core_surely_enters(motion, element, face) ? 1u : 0u;
     }
     const bool is_met = max(possible_from, open_from) <= min(possible_to, open_to);
     // The element's own boundary (library/inside.glsl) is anywhere in it.
-    return ELVIS_HAS_INSIDE == 1 || !motion.is_known || (is_met && !(is_taken && n_open == 1u && n_once == 1u));
+    return ELVIS_HAS_INSIDE == 1 || linearization.exponents == 0u || (is_met && !(is_taken && n_open == 1u && n_once == 1u));
 }

@@ -62,6 +62,9 @@ core_face_entry core_enter_face(core_walk_ray ray, uint element, elvis_real curv
         y = next.y;
         z = next.z;
         core_project(x, y, z);
+        if (is_over) {
+            break;
+        }
     }
     return entry;
 }
