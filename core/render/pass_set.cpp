@@ -10,6 +10,9 @@ namespace {
 /** Solvers kept for later frames: some hold large meshes. */
 constexpr std::size_t most_solvers = 32;
 
+/** Sets of faces kept for later frames: while a selection is edited, each frame brings another. */
+constexpr std::size_t most_face_sets = 8;
+
 } // namespace
 
 std::optional<FaceGeometry> face_geometry(const Surface& surface) {
@@ -43,9 +46,32 @@ void PassSet::keep(const FrameRequest& request) {
     // Bounds of derivatives, on which passes rest, are made anew for another step.
     const bool is_other_step = m_step != request.time_step;
     std::erase_if(m_passes, [&](const auto& entry) { return is_other_step || !keys.contains(entry.first); });
+    keep_faces(request);
     m_data.keep(selections);
     m_step = request.time_step;
     m_current = nullptr;
+}
+
+/** Drops sets of faces that the frame does not show once there are many, and what was made for them. */
+void PassSet::keep_faces(const FrameRequest& request) {
+    if (m_face_sets.size() <= most_face_sets && m_edge_sets.size() <= most_face_sets) {
+        return;
+    }
+    std::set<FaceGeometry> shown;
+    for (const Surface& surface : request.surfaces) {
+        if (const auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
+            shown.insert(wires->faces);
+        } else if (const std::optional<FaceGeometry> faces = face_geometry(surface)) {
+            shown.insert(*faces);
+        }
+    }
+    const auto is_hidden = [&](const auto& entry) { return !shown.contains(entry.first); };
+    for (auto& [key, of_field] : m_passes) {
+        std::erase_if(of_field.faces, is_hidden);
+        std::erase_if(of_field.lines_on_faces, is_hidden);
+    }
+    std::erase_if(m_face_sets, is_hidden);
+    std::erase_if(m_edge_sets, is_hidden);
 }
 
 void PassSet::select(const FieldChoice& field, std::uint32_t time_step) {

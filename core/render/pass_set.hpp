@@ -77,6 +77,7 @@ private:
     };
 
     void follow_geometry();
+    void keep_faces(const FrameRequest& request);
     const FaceSet& face_set(const FaceGeometry& faces);
     std::vector<ElementFace> chosen_faces(const FaceGeometry& faces) const;
     void provide_shape(const CutShape& shape);

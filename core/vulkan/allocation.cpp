@@ -1,14 +1,13 @@
 #include <core/vulkan/allocation.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/memory.hpp>
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cstring>
-#include <fstream>
-#include <limits>
 #include <utility>
 
 namespace elvis {
@@ -20,19 +19,6 @@ std::string mebibytes(std::uint64_t bytes) { return std::to_string((bytes + (1u 
 Error too_large(const Device::Impl& device, std::uint64_t bytes, const char* place, const std::string& reason) {
     return Error(device.place(), std::string("no memory for ") + place + " of " + mebibytes(bytes) + ": " + reason + " (" +
                                      mebibytes(device.allocated_bytes) + " are in use)");
-}
-
-/** Bytes that the system can give without swapping; if it does not say, as many as there can be. */
-std::uint64_t available_host_memory() {
-    std::ifstream file("/proc/meminfo");
-    std::string key;
-    for (std::uint64_t kibibytes = 0; file >> key >> kibibytes;
-         file.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
-        if (key == "MemAvailable:") {
-            return kibibytes << 10u;
-        }
-    }
-    return std::numeric_limits<std::uint64_t>::max();
 }
 
 /** Below this, asking how much memory there is takes longer than it is worth. */
@@ -48,14 +34,15 @@ Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageF
                         "the device allocates at most " + mebibytes(impl.max_allocation_bytes) + " at once");
     }
     // A driver for CPUs promises any amount, and the system ends the process once that is used.
-    if (impl.summary.type == "cpu" && bytes >= large_bytes && bytes > available_host_memory()) {
-        throw too_large(impl, bytes, place, "the machine has " + mebibytes(available_host_memory()) + " left");
+    if (impl.summary.type == "cpu" && bytes >= large_bytes && bytes > available_bytes()) {
+        throw too_large(impl, bytes, place, "the machine has " + mebibytes(available_bytes()) + " left");
     }
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = std::max<std::uint64_t>(bytes, 16); // Vulkan knows no empty buffers.
     info.usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     check_vulkan(vkCreateBuffer(impl.device, &info, nullptr, &m_buffer), impl.place(), "creating a buffer");
+    ++impl.n_buffers;
     try {
         VkMemoryRequirements needs{};
         vkGetBufferMemoryRequirements(impl.device, m_buffer, &needs);
@@ -102,6 +89,7 @@ void Allocation::release() noexcept {
         vkDestroyBuffer(impl.device, m_buffer, nullptr);
         vkFreeMemory(impl.device, m_memory, nullptr); // Also unmaps.
         impl.allocated_bytes -= m_allocated;
+        --impl.n_buffers;
     }
     m_buffer = VK_NULL_HANDLE;
     m_memory = VK_NULL_HANDLE;

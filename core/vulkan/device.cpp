@@ -257,6 +257,8 @@ bool Device::uses_texel_buffers() const { return m_impl->texel_buffers; }
 bool Device::is_validated() const { return m_impl->options.validation; }
 std::string Device::cache_key() const { return m_impl->cache_key; }
 std::uint64_t Device::allocated_bytes() const { return m_impl->allocated_bytes; }
+std::uint64_t Device::n_buffers() const { return m_impl->n_buffers; }
+std::uint64_t Device::n_kernels() const { return m_impl->n_kernels; }
 
 std::vector<std::string> Device::validation_messages() const {
     const ValidationLog& log = m_impl->instance.log();

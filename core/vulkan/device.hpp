@@ -91,6 +91,9 @@ public:
 
     /** Bytes allocated on the device now, over all buffers. */
     std::uint64_t allocated_bytes() const;
+    /** Buffers and kernels that exist now, to tell what grows. */
+    std::uint64_t n_buffers() const;
+    std::uint64_t n_kernels() const;
 
     /** Records commands, submits them and waits. A lost device is an Error that says so. */
     void submit(const std::function<void(VkCommandBuffer)>& record) const;

@@ -67,6 +67,7 @@ struct Device::Impl {
     VkFence fence = VK_NULL_HANDLE;
     std::unique_ptr<PipelineCache> pipelines;
     std::atomic<std::uint64_t> allocated_bytes{0};
+    std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0};
 
     /** Guards queue, commands and fence. */
     std::mutex submit_mutex;

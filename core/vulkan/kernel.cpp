@@ -86,9 +86,12 @@ struct Kernel::Impl {
 
     Impl(const Device& on, std::vector<BindingLayout> bindings, std::uint32_t push_bytes, const std::string& name)
         : device(on), layout(std::move(bindings)), push_constant_bytes(push_bytes),
-          place("kernel '" + name + "' on " + on.impl().place()), pace(groups_at_once(on)) {}
+          place("kernel '" + name + "' on " + on.impl().place()), pace(groups_at_once(on)) {
+        ++device.impl().n_kernels;
+    }
 
     ~Impl() {
+        --device.impl().n_kernels;
         vkDestroyDescriptorPool(device.handle(), pool, nullptr);
         vkDestroyPipeline(device.handle(), pipeline, nullptr);
         vkDestroyPipelineLayout(device.handle(), pipeline_layout, nullptr);

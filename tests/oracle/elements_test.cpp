@@ -208,4 +208,30 @@ TEST_CASE("edges behind a surface are hidden, those in it are not") {
     CHECK(wrong == 0);
 }
 
+TEST_CASE("selections that are no longer shown are forgotten") {
+    const TemporaryFile file("forgotten.h5");
+    generate(R"({"generator": 1, "mesh": "box", "elements": 3, "order": 1, "field": "waves"})", file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    const Device own;
+    Renderer renderer(own, volume, Precision::float32);
+    // A condition that is dragged, element by element, with its wires.
+    const auto draw = [&](std::uint64_t element) {
+        ElementSelection selection;
+        selection.numbers = {{element, element}};
+        FrameRequest request = request_for(ElementFaces{selection}, {2.1, 1.3, 1.9}, 16);
+        request.surfaces.push_back(request.surfaces.front());
+        request.surfaces.back().geometry = WireFrame{ElementFaces{selection}, 1};
+        renderer.render(request);
+        return own.n_buffers();
+    };
+    std::uint64_t most_at_first = 0, most_later = 0;
+    for (std::uint64_t element = 0; element < 11; ++element) {
+        most_at_first = std::max(most_at_first, draw(element));
+    }
+    for (std::uint64_t element = 11; element < 27; ++element) {
+        most_later = std::max(most_later, draw(element));
+    }
+    CHECK(most_later <= most_at_first);
+}
+
 } // namespace elvis::oracle

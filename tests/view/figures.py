@@ -67,10 +67,12 @@ def measure_cancelling(window, times=40):
           flush=True)
 
 
-def resident(window):
-    """Mebibytes."""
-    with open(f"/proc/{window.process.pid}/status") as file:
-        return next(int(line.split()[1]) for line in file if line.startswith("VmRSS")) / 1024
+def memory(window):
+    """Mebibytes, and numbers of what lives on the device, at rest: after the time in which free memory is given back."""
+    window.settle()
+    time.sleep(1.5)
+    memory = window.screen()["memory"]
+    return {**memory, **{name: memory[name] / 2**20 for name in ("resident", "heap", "device")}}
 
 
 def interact(window, chance):
@@ -103,8 +105,11 @@ def measure_memory(window, minutes):
         interact(window, chance)
         n_done += 1
         if time.time() - start >= next_line:
-            series.append(resident(window))
-            print(f"  after {(time.time() - start) / 60:4.1f} min, {n_done} things done: {series[-1]:.0f} MiB", flush=True)
+            now = memory(window)
+            series.append(now["resident"])
+            print(f"  after {(time.time() - start) / 60:4.1f} min, {n_done} things done: {now['resident']:.0f} MiB, in use "
+                  f"{now['heap']:.1f} of the heap and {now['device']:.1f} by {now['buffers']} buffers; {now['kernels']} kernels",
+                  flush=True)
             next_line += 30
     print("memory: " + " ".join(f"{size:.0f}" for size in series) + " MiB")
 

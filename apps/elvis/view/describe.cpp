@@ -1,5 +1,6 @@
 #include "describe.hpp"
 
+#include <core/base/memory.hpp>
 #include <core/scene/write_scene.hpp>
 
 #include <nlohmann/json.hpp>
@@ -49,6 +50,12 @@ std::string description(Ui& ui) {
     json["messages"] = nlohmann::ordered_json::array();
     for (const Message& message : bench.messages()) {
         json["messages"].push_back(message.text);
+    }
+    // At rest: else it would change all the time.
+    if (bench.is_settled()) {
+        const DeviceUse use = bench.device_use();
+        json["memory"] = {{"resident", resident_bytes()}, {"heap", heap_bytes()},     {"device", use.bytes},
+                          {"buffers", use.n_buffers},     {"kernels", use.n_kernels}};
     }
     json["foreign_file"] = bench.foreign_file.value_or("");
     json["dialog"] = static_cast<int>(ui.dialog);

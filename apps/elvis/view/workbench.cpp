@@ -14,6 +14,8 @@ namespace elvis::view {
 namespace {
 
 constexpr std::size_t most_frame_times = 60;
+/** Kept, of a tenth of a mebibyte each: time steps that are played would bring ever more. */
+constexpr std::size_t most_histograms = 100;
 
 double seconds_between(Workbench::Clock::time_point from, Workbench::Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
@@ -27,8 +29,7 @@ double MotionStatistics::frames_per_second() const {
 }
 
 Workbench::Workbench(std::unique_ptr<Session> session)
-    : m_device_messages([device = &session->device()] { return device->validation_messages(); }),
-      m_worker(std::move(session)) {}
+    : m_device(&session->device()), m_worker(std::move(session)) {}
 
 void Workbench::say(Message::Kind kind, std::string text) {
     constexpr std::size_t most_messages = 500;
@@ -186,6 +187,9 @@ const Histogram* Workbench::histogram(const std::optional<std::string>& field) {
         return nullptr;
     }
     const std::string key = field_key(field);
+    if (m_histograms.size() >= most_histograms && !m_histograms.contains(key)) {
+        m_histograms.clear();
+    }
     const auto [found, is_new] = m_histograms.try_emplace(key);
     if (is_new) {
         found->second.emplace(ends->lower, ends->upper);
