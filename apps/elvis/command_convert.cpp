@@ -1,10 +1,9 @@
 #include "commands.hpp"
+#include "crash_report.hpp"
 #include "long_task.hpp"
 
 #include <core/base/error.hpp>
-#include <core/convert/convert.hpp>
-#include <core/plugin_host/plugin.hpp>
-#include <core/plugin_host/source_volume.hpp>
+#include <core/convert/request.hpp>
 
 #include <cstdio>
 #include <fstream>
@@ -24,6 +23,11 @@ struct Arguments {
     std::vector<std::string> fields;
     int order = -1;
     bool json = false;
+    bool is_separate = false;
+    /** Mebibytes; 0: what the machine has left. */
+    std::uint64_t memory_limit = 0;
+    /** Of the process that converts for another. */
+    int answer = -1;
 };
 
 void print_table(const ConvertReport& report, const std::string& output) {
@@ -48,8 +52,9 @@ void write_report(const ConvertReport& report, const std::string& path) {
     }
 }
 
-void run(const Arguments& arguments) {
-    ConvertOptions options;
+ConvertRequest request_of(const Arguments& arguments) {
+    ConvertRequest request{arguments.inputs, arguments.output, arguments.plugin, arguments.options, {}};
+    ConvertOptions& options = request.options;
     options.program_version = ELVIS_VERSION;
     options.fields = arguments.fields;
     if (arguments.order >= 0) {
@@ -58,14 +63,36 @@ void run(const Arguments& arguments) {
     if (!arguments.continuity.empty()) {
         options.continuity = arguments.continuity == "cg" ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
     }
-    const PluginRegistry registry;
+    return request;
+}
+
+ConvertReport convert_here(const Arguments& arguments) {
     TaskControl control;
     const ProgressBar progress(control);
     const InterruptGuard guard(control);
-    const std::shared_ptr<const Plugin> plugin =
-        arguments.plugin.empty() ? registry.converter_for(arguments.inputs.front()) : registry.find(arguments.plugin);
-    const SourceVolume source(plugin, arguments.inputs, arguments.options, &control);
-    const ConvertReport report = convert(source, arguments.output, options, control);
+    return convert(request_of(arguments), control);
+}
+
+ConvertReport convert_apart(const Arguments& arguments) {
+    TaskControl control;
+    const ProgressBar progress(control);
+    const InterruptGuard guard(control, SecondInterrupt::is_counted);
+    ConvertProcess process;
+    process.most_bytes = arguments.memory_limit << 20u;
+    process.is_urgent = [] { return n_interrupts > 1; };
+    return convert_separately(request_of(arguments), control, process);
+}
+
+/** In the process that convert_separately started. */
+void answer(const Arguments& arguments) {
+    report_crashes_to(arguments.answer, crash_mark);
+    TaskControl control;
+    const InterruptGuard guard(control, SecondInterrupt::is_ignored);
+    answer_conversion(request_of(arguments), control, arguments.answer);
+}
+
+void run(const Arguments& arguments) {
+    const ConvertReport report = arguments.is_separate ? convert_apart(arguments) : convert_here(arguments);
     if (!arguments.report.empty()) {
         write_report(report, arguments.report);
     }
@@ -92,7 +119,16 @@ void add_convert(CLI::App& app) {
     command->add_option("--fields", arguments->fields, "Only these fields, separated by commas")->delimiter(',');
     command->add_option("--report", arguments->report, "JSON file with residuals, jumps and times");
     command->add_flag("--json", arguments->json, "Print the report in JSON");
-    command->callback([arguments] { run(*arguments); });
+    CLI::Option* separate = command->add_flag(
+        "--separate-process", arguments->is_separate,
+        "Run the plugin in a process of its own: one that crashes, hangs or takes all memory ends alone, with a message");
+    command->add_option("--memory-limit", arguments->memory_limit,
+                        "Mebibytes that the separate process may take (default: nearly all that the machine has left)")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40u))
+        ->needs(separate);
+    // The program calls itself with this.
+    command->add_option("--answer", arguments->answer)->group("");
+    command->callback([arguments] { arguments->answer >= 0 ? answer(*arguments) : run(*arguments); });
 }
 
 } // namespace elvis::commands

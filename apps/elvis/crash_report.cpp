@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstring>
 
@@ -14,15 +15,31 @@ namespace {
 
 constexpr std::array<int, 5> signals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
+/** Where crashes are told, and the mark before them; none: stderr, in words. */
+std::atomic<int> answer{-1};
+std::atomic<char> answer_mark{' '};
+
 /** Safe in a signal handler. */
-void write_text(const char* text) {
-    if ([[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, text, std::strlen(text)); n < 0) {
+void write_text(const char* text, int descriptor = STDERR_FILENO) {
+    if ([[maybe_unused]] const ssize_t n = ::write(descriptor, text, std::strlen(text)); n < 0) {
         return; // Nobody is left to be told.
     }
 }
 
+void tell(int descriptor, const char* plugin, const char* function) {
+    const std::array<char, 2> mark{answer_mark.load(), '\0'};
+    write_text(mark.data(), descriptor);
+    write_text(plugin, descriptor);
+    write_text("\x1f", descriptor);
+    write_text(function, descriptor);
+    write_text("\n", descriptor);
+}
+
 void on_crash(int signal) {
-    if (const char* plugin = current_call::plugin()) {
+    const char* plugin = current_call::plugin();
+    if (const int descriptor = answer.load(); plugin != nullptr && descriptor >= 0) {
+        tell(descriptor, plugin, current_call::function());
+    } else if (plugin != nullptr) {
         write_text("elvis: the plugin ");
         write_text(plugin);
         write_text(" crashed in its function ");
@@ -34,6 +51,11 @@ void on_crash(int signal) {
 }
 
 } // namespace
+
+void report_crashes_to(int descriptor, char mark) {
+    answer_mark = mark;
+    answer = descriptor;
+}
 
 void report_crashes() {
     // A stack of its own, for stacks that overflow. Recursion without end is the commonest crash of readers.

@@ -12,4 +12,7 @@ namespace elvis {
  */
 void report_crashes();
 
+/** From now on such a crash is told in one line to this descriptor instead, for the program that started this one. */
+void report_crashes_to(int descriptor, char mark);
+
 } // namespace elvis

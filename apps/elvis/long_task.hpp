@@ -18,23 +18,30 @@
 
 namespace elvis::commands {
 
-inline std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+inline std::atomic<int> n_interrupts{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 
-/**
- * Ctrl-C and a polite kill ask the task to stop instead of ending the process, as long as this lives. The second one ends the
- * process at once: a plugin or a driver may not return.
- */
+/** What the second interrupt does. */
+enum class SecondInterrupt {
+    ends_program, ///< at once: a plugin or a driver may not return
+    is_counted,   ///< whoever runs the task looks at n_interrupts
+    is_ignored    ///< nor are there words about the first: another program asks, and knows how to insist
+};
+inline std::atomic<SecondInterrupt> second_interrupt{SecondInterrupt::ends_program};
+
+/** Ctrl-C and a polite kill ask the task to stop instead of ending the process, as long as this lives. */
 class InterruptGuard {
 public:
-    explicit InterruptGuard(TaskControl& control)
+    explicit InterruptGuard(TaskControl& control, SecondInterrupt second = SecondInterrupt::ends_program)
         : m_previous_interrupt(std::signal(SIGINT, on_signal)), m_previous_terminate(std::signal(SIGTERM, on_signal)),
           m_watcher([&control](const std::stop_token& stop) {
               while (!stop.stop_requested()) {
-                  control.cancelled = interrupted.load();
+                  control.cancelled = n_interrupts > 0;
                   std::this_thread::sleep_for(std::chrono::milliseconds(20));
               }
-          }) {}
+          }) {
+        second_interrupt = second;
+    }
     ~InterruptGuard() {
         std::signal(SIGINT, m_previous_interrupt);
         std::signal(SIGTERM, m_previous_terminate);
@@ -44,9 +51,12 @@ public:
 
 private:
     static void on_signal(int signal) {
-        if (interrupted.exchange(true)) {
+        const bool is_first = n_interrupts++ == 0;
+        if (!is_first && second_interrupt == SecondInterrupt::ends_program) {
             std::signal(signal, SIG_DFL);
             ::raise(signal);
+        }
+        if (!is_first || second_interrupt == SecondInterrupt::is_ignored) {
             return;
         }
         constexpr std::string_view text = "\nelvis: stopping; once more to stop at once\n";

@@ -71,6 +71,8 @@ struct ConvertReport {
 
 /** The report as JSON text (keys of the launcher's contract). */
 std::string to_json(const ConvertReport& report);
+/** The report that to_json wrote. */
+ConvertReport report_from_json(const std::string& text);
 
 /**
  * Converts into `output`, which appears only when everything is done: an error or Cancelled leaves nothing behind. Uses all

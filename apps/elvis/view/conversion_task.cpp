@@ -1,9 +1,13 @@
 #include "conversion_task.hpp"
 
+#include <core/base/child_process.hpp>
 #include <core/base/error.hpp>
-#include <core/plugin_host/plugin.hpp>
-#include <core/plugin_host/source_volume.hpp>
+#include <core/convert/request.hpp>
 
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
 #include <utility>
 
 namespace elvis::view {
@@ -27,11 +31,12 @@ void ConversionTask::start(std::vector<std::string> inputs, std::string output) 
         ConversionResult result;
         result.output = output;
         try {
-            const PluginRegistry registry;
-            const SourceVolume source(registry.converter_for(inputs.front()), inputs, {}, &m_control);
-            ConvertOptions options;
-            options.program_version = ELVIS_VERSION;
-            result.report = elvis::convert(source, output, options, m_control);
+            // Plugins print to a file, whose end is shown if they crash.
+            const std::unique_ptr<std::FILE, int (*)(std::FILE*)> said(std::tmpfile(), std::fclose);
+            ConvertProcess process;
+            process.output = said ? ::fileno(said.get()) : STDERR_FILENO;
+            result.report = convert_separately({inputs, output, {}, {}, {}}, m_control, process);
+            result.said = said ? last_output(process.output) : std::string();
         } catch (const Cancelled&) {
             result.was_cancelled = true;
         } catch (const std::exception& error) {

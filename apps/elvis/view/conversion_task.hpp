@@ -19,12 +19,14 @@ namespace elvis::view {
 struct ConversionResult {
     std::string output;
     ConvertReport report;
+    /** What plugin and converter warned of. */
+    std::string said;
     /** If not empty, there is no output. */
     std::string error;
     bool was_cancelled = false;
 };
 
-/** One at a time. */
+/** One at a time, in a process of its own: what its plugin does wrong is told and leaves the window as it is. */
 class ConversionTask {
 public:
     ConversionTask() = default;

@@ -271,6 +271,9 @@ void Workbench::take(const ConversionResult& result) {
         say(Message::Kind::error, result.error);
         return;
     }
+    if (!result.said.empty()) {
+        say(Message::Kind::warning, result.said);
+    }
     for (const FieldReport& field : result.report.fields) {
         char text[200];
         std::snprintf(text, sizeof text, "field %s: %s, residual %.3g of its range", field.name.c_str(),
