@@ -61,7 +61,7 @@ void Volume::fill_geometry(std::size_t element_class, std::uint64_t first, std::
                 for (std::size_t mode = 0; mode < n_modes; ++mode)
                     relative[mode] = native[mode] - origin * convert.native_one()[mode];
                 convert.apply(relative, modes);
-                clean_apex(convert.device_space(), native, modes);
+                native::device::clean_apex(convert.device_space(), native, modes);
                 scatter(convert.device_space(), 3, modes, records.data() + (done + element) * record_size + direction);
             }
     }
@@ -89,7 +89,7 @@ void Volume::fill_field(std::size_t element_class, std::size_t field, std::size_
                 const auto native =
                     std::span<const double>(coefficients).subspan((element * n_components + component) * n_modes, n_modes);
                 convert.apply(native, modes);
-                clean_apex(convert.device_space(), native, modes);
+                native::device::clean_apex(convert.device_space(), native, modes);
                 if (!transformed && !offset.empty())
                     modes[0] -= offset[component];
                 scatter(convert.device_space(), width, modes, record + component * component_stride);

@@ -7,6 +7,8 @@
  */
 #include "volume.hpp"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -35,6 +35,9 @@ native::Reader open_file(const std::string& path) {
     }
 }
 
+/** Highest order that the snippets are compiled for: beyond, unrolled loops take a compiler seconds. */
+constexpr std::uint32_t max_device_order = 16;
+
 void check_space(const std::string& path, const Space& space, const std::string& what) {
     const std::uint32_t order = *std::max_element(space.order.begin(), space.order.end());
     if (order > max_device_order)
@@ -193,15 +196,13 @@ const Conversion& Volume::conversion(const Space& space) const {
     return *m_conversions.back().second;
 }
 
-const Volume::Bounders& Volume::bounders(const Space& space) const {
+const native::DerivativeBounder& Volume::derivative_bounder(const Space& space) const {
     const std::lock_guard lock(m_conversions_mutex);
-    for (const auto& [known, bounders] : m_bounders)
+    for (const auto& [known, bounder] : m_derivative_bounders)
         if (known == space)
-            return *bounders;
-    const DeviceSpace device(space);
-    m_bounders.emplace_back(space,
-                            std::make_unique<const Bounders>(Bounders{DerivativeWeights(device), BernsteinBounds(device)}));
-    return *m_bounders.back().second;
+            return *bounder;
+    m_derivative_bounders.emplace_back(space, std::make_unique<const native::DerivativeBounder>(space));
+    return *m_derivative_bounders.back().second;
 }
 
 } // namespace elvis::native_plugin

@@ -4,11 +4,10 @@
  */
 #pragma once
 
-#include "bernstein_bounds.hpp"
 #include "block_cache.hpp"
-#include "conversion.hpp"
-#include "derivative_weights.hpp"
 
+#include <elvis/native/conversion.hpp>
+#include <elvis/native/derivative_bounds.hpp>
 #include <elvis/native/jacobian.hpp>
 #include <elvis/native/volume_file.hpp>
 #include <elvis/plugin.hpp>
@@ -23,6 +22,9 @@
 #include <vector>
 
 namespace elvis::native_plugin {
+
+using native::device::Conversion;
+using native::device::DeviceSpace;
 
 /**
  * Failures are api::Error that names the file. Functions may run at the same time as elvis/runtime.h allows; the file is read
@@ -102,11 +104,7 @@ private:
     Coefficients element_field(std::size_t field, std::size_t time_step, Place place) const;
 
     const Conversion& conversion(const native::Space& space) const;
-    struct Bounders {
-        DerivativeWeights weights;
-        BernsteinBounds bernstein;
-    };
-    const Bounders& bounders(const native::Space& space) const;
+    const native::DerivativeBounder& derivative_bounder(const native::Space& space) const;
     /** Runs `read` with the file to itself; its errors become ours. */
     template <class Read> void read_file(Read read) const;
     api::Error error(elvis_result code, const std::string& what) const { return {code, m_path, what}; }
@@ -125,7 +123,7 @@ private:
     mutable BlockCache m_cache;
     mutable std::mutex m_conversions_mutex;
     mutable std::vector<std::pair<native::Space, std::unique_ptr<const Conversion>>> m_conversions;
-    mutable std::vector<std::pair<native::Space, std::unique_ptr<const Bounders>>> m_bounders;
+    mutable std::vector<std::pair<native::Space, std::unique_ptr<const native::DerivativeBounder>>> m_derivative_bounders;
     /** Filled when faces are first asked for. */
     mutable std::unordered_map<std::int64_t, std::int64_t> m_positions;
 };

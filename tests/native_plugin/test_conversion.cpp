@@ -3,7 +3,9 @@
  */
 #include "spaces.hpp"
 
-#include <conversion.hpp>
+#include <elvis/native/conversion.hpp>
+
+#include <Eigen/Dense>
 
 #include <catch2/catch.hpp>
 
@@ -13,8 +15,8 @@
 namespace {
 
 using namespace elvis;
-using native_plugin::Conversion;
-using native_plugin::DeviceSpace;
+using native::device::Conversion;
+using native::device::DeviceSpace;
 
 /** Sum over the device basis, by its definition in collapsed coordinates; coefficients in the order of the record. */
 double evaluate_device(const DeviceSpace& space, const std::vector<double>& coefficients, const native::Point& eta) {

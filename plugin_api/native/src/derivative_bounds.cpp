@@ -1,0 +1,47 @@
+#include <elvis/native/derivative_bounds.hpp>
+
+#include "bernstein_bounds.hpp"
+
+#include <elvis/native/conversion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace elvis::native {
+namespace {
+
+/** What rounding of all coefficients to single precision changes at most, relative to the sum of their weights: 2^-24. */
+constexpr double single_rounding = 6e-8;
+
+double finite_or_unknown(double bound) { return std::isfinite(bound) ? bound : std::numeric_limits<double>::quiet_NaN(); }
+
+} // namespace
+
+struct DerivativeBounder::Forms {
+    device::Conversion conversion;
+    device::DerivativeWeights weights;
+    device::BernsteinBounds bernstein;
+
+    explicit Forms(const Space& space)
+        : conversion(space), weights(conversion.device_space()), bernstein(conversion.device_space()) {}
+};
+
+DerivativeBounder::DerivativeBounder(const Space& space) : m_forms(std::make_shared<const Forms>(space)) {}
+
+DerivativeBound DerivativeBounder::operator()(std::span<const double> coefficients) const {
+    thread_local std::vector<double> modes;
+    modes.resize(coefficients.size());
+    m_forms->conversion.apply(coefficients, modes);
+    device::clean_apex(m_forms->conversion.device_space(), coefficients, modes);
+    DerivativeBound bound = m_forms->weights.bound(modes);
+    if (m_forms->bernstein.is_usable()) {
+        const DerivativeBound other = m_forms->bernstein.bound(modes);
+        bound.first = std::min(bound.first, other.first + single_rounding * bound.first);
+        bound.second = std::min(bound.second, other.second + single_rounding * bound.second);
+    }
+    return {finite_or_unknown(bound.first), finite_or_unknown(bound.second)};
+}
+
+} // namespace elvis::native
