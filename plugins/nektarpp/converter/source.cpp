@@ -70,6 +70,9 @@ public:
     }
 
     void sample(std::uint32_t time_step, std::uint64_t element, std::span<const double> xi, double* values) override {
+        if (m_series.fields().empty()) {
+            return;
+        }
         const std::shared_ptr<const FieldFile> step = m_series.step(time_step);
         const auto n_points = static_cast<Eigen::Index>(xi.size() / 3);
         const auto n_fields = static_cast<Eigen::Index>(m_series.fields().size());

@@ -161,6 +161,9 @@ private:
 
 std::vector<std::string> find_files(const std::string& path, const std::string& options) {
     const Options named(path, options);
+    if (fs::is_directory(path) && !is_nektar(path.c_str())) {
+        throw elvis::api::Error(ELVIS_ERROR_FORMAT, path, "is a folder without files P0000000.xml or P0000000.fld");
+    }
     const bool is_field = holds_fields(path);
     std::string mesh = path;
     if (named.mesh()) {

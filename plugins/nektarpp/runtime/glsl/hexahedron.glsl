@@ -1,4 +1,7 @@
-// Body of a sum in hexahedra: A_p(xi1) A_q(xi2) A_r(xi3), p fastest, r slowest; a slab holds one r. In quadrilaterals R = 0.
+// The sum in hexahedra: A_p(xi1) A_q(xi2) A_r(xi3), p fastest, r slowest; a slab holds one r. In quadrilaterals R = 0.
+
+NEKTAR_FUNCTION {
+    NEKTAR_BEGIN
     NEKTAR_JET a[NEKTAR_P + 1], b[NEKTAR_Q + 1], c[NEKTAR_R + 1];
     NEKTAR_DIRECTION(NEKTAR_P, a, xi.x, nektar_nodes_p, nektar_scales_p)
     NEKTAR_DIRECTION(NEKTAR_Q, b, xi.y, nektar_nodes_q, nektar_scales_q)
@@ -49,3 +52,5 @@
         f33 += g * c[r].oo;
 #endif
     }
+    NEKTAR_END
+}

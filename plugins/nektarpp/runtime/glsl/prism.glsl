@@ -1,4 +1,4 @@
-// Body of a sum in prisms: A_p(eta1) A_q(xi2) B_{p,r}(xi3), r <= R - p, r fastest, p slowest. With L0 = l(eta1) t, L1 = r(eta1) t,
+// The sum in prisms: A_p(eta1) A_q(xi2) B_{p,r}(xi3), r <= R - p, r fastest, p slowest. With L0 = l(eta1) t, L1 = r(eta1) t,
 // t = (1 - xi3)/2, L3 = (1 + xi3)/2 the factor t^p (t for p = 0) of B makes A_p a polynomial in L0 and L1:
 //
 //   modified      [L0 | L1 | L0 L1 t^(p-2) P_{p-2}^{1,1}(eta1)] A_q(xi2) [1 | L3 P_{r-1}^{2p-1,1}(xi3)],   p = 0: L3 P_{r-2}^{1,1}
@@ -6,6 +6,9 @@
 //
 // In the modified basis mode (0, q, 1) is A_q L3. In triangles Q = 0. Loops run over all r and skip those beyond R - p: bounds that
 // depend on another index would keep compilers from unrolling.
+
+NEKTAR_FUNCTION {
+    NEKTAR_BEGIN
     elvis_real t = (elvis_real(1) - xi.z) * elvis_real(0.5LF), right = (elvis_real(1) + xi.x) * elvis_real(0.5LF), left = t - right;
     NEKTAR_JET a[NEKTAR_P + 1], b[NEKTAR_Q + 1], c[NEKTAR_P + 1][NEKTAR_R + 1];
     NEKTAR_COLLAPSED(NEKTAR_P, a, left, right, t)
@@ -85,3 +88,5 @@
     f23 += e2 * elvis_real(0.5LF);
 #endif
 #endif
+    NEKTAR_END
+}

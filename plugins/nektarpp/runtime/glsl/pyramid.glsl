@@ -1,4 +1,4 @@
-// Body of a sum in pyramids: A_p(eta1) A_q(eta2) t^e J_{k,r}(xi3), r <= R - max(p, q), r fastest, p slowest; t = (1 - xi3)/2,
+// The sum in pyramids: A_p(eta1) A_q(eta2) t^e J_{k,r}(xi3), r <= R - max(p, q), r fastest, p slowest; t = (1 - xi3)/2,
 // eta_d = x_d / t, x_d = xi_d + (1 + xi3)/2.
 //
 //   modified      J_{k,r} = [1 | L3 P_{r-1}^{2k-1,1}]   k = e = max(p, q, 1) if p < 2 or q < 2 (p = q = 0: J_{1,r-1} for r >= 2);
@@ -34,6 +34,9 @@
 #else
 #define NEKTAR_ETA_LIMIT elvis_real(8)
 #endif
+
+NEKTAR_FUNCTION {
+    NEKTAR_BEGIN
     elvis_real t = (elvis_real(1) - xi.z) * elvis_real(0.5LF);
     elvis_real eta1 = nektar_eta(xi.x + elvis_real(1) - t, t, NEKTAR_ETA_LIMIT);
     elvis_real eta2 = nektar_eta(xi.y + elvis_real(1) - t, t, NEKTAR_ETA_LIMIT);
@@ -124,3 +127,5 @@
     f3 += top * elvis_real(0.5LF);
 #endif
 #endif
+    NEKTAR_END
+}

@@ -90,18 +90,25 @@
 #endif
 #endif
 
+// The function's head, its first and its last statement.
 #if NEKTAR_LEVEL == 0
-NEKTAR_TYPE NEKTAR_SUM(uint element, elvis_vec3 xi) {
-    NEKTAR_TYPE f = NEKTAR_TYPE(0);
+#define NEKTAR_FUNCTION NEKTAR_TYPE NEKTAR_SUM(uint element, elvis_vec3 xi)
+#define NEKTAR_BEGIN NEKTAR_TYPE f = NEKTAR_TYPE(0);
+#define NEKTAR_END return f;
 #elif NEKTAR_LEVEL == 1
-void NEKTAR_SUM(uint element, elvis_vec3 xi, out NEKTAR_TYPE f, out NEKTAR_TYPE f1, out NEKTAR_TYPE f2, out NEKTAR_TYPE f3) {
-    f = f1 = f2 = f3 = NEKTAR_TYPE(0);
+#define NEKTAR_FUNCTION                                                                                                            \
+    void NEKTAR_SUM(uint element, elvis_vec3 xi, out NEKTAR_TYPE f, out NEKTAR_TYPE f1, out NEKTAR_TYPE f2, out NEKTAR_TYPE f3)
+#define NEKTAR_BEGIN f = f1 = f2 = f3 = NEKTAR_TYPE(0);
+#define NEKTAR_END
 #else
-void NEKTAR_SUM(uint element, elvis_vec3 xi, out NEKTAR_TYPE f, out NEKTAR_TYPE f1, out NEKTAR_TYPE f2, out NEKTAR_TYPE f3,
-                out NEKTAR_TYPE f11, out NEKTAR_TYPE f22, out NEKTAR_TYPE f33, out NEKTAR_TYPE f23, out NEKTAR_TYPE f13,
-                out NEKTAR_TYPE f12) {
-    f = f1 = f2 = f3 = f11 = f22 = f33 = f23 = f13 = f12 = NEKTAR_TYPE(0);
+#define NEKTAR_FUNCTION                                                                                                            \
+    void NEKTAR_SUM(uint element, elvis_vec3 xi, out NEKTAR_TYPE f, out NEKTAR_TYPE f1, out NEKTAR_TYPE f2, out NEKTAR_TYPE f3,    \
+                    out NEKTAR_TYPE f11, out NEKTAR_TYPE f22, out NEKTAR_TYPE f33, out NEKTAR_TYPE f23, out NEKTAR_TYPE f13,       \
+                    out NEKTAR_TYPE f12)
+#define NEKTAR_BEGIN f = f1 = f2 = f3 = f11 = f22 = f33 = f23 = f13 = f12 = NEKTAR_TYPE(0);
+#define NEKTAR_END
 #endif
+
 #if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON || ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL
 #include "hexahedron.glsl"
 #elif ELVIS_SHAPE == ELVIS_SHAPE_PRISM || ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
@@ -111,11 +118,10 @@ void NEKTAR_SUM(uint element, elvis_vec3 xi, out NEKTAR_TYPE f, out NEKTAR_TYPE 
 #else
 #include "tetrahedron.glsl"
 #endif
-#if NEKTAR_LEVEL == 0
-    return f;
-#endif
-}
 
+#undef NEKTAR_FUNCTION
+#undef NEKTAR_BEGIN
+#undef NEKTAR_END
 #undef NEKTAR_JET
 #undef NEKTAR_VALUE
 #undef NEKTAR_CONSTANT

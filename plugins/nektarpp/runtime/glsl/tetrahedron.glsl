@@ -1,4 +1,4 @@
-// Body of a sum in tetrahedra: A_p(eta1) B_{p,q}(eta2) C_{p+q,r}(xi3), q <= Q - p, r <= R - p - q, r fastest, p slowest. With
+// The sum in tetrahedra: A_p(eta1) B_{p,q}(eta2) C_{p+q,r}(xi3), q <= Q - p, r <= R - p - q, r fastest, p slowest. With
 // barycentric coordinates L0 .. L3, s = L0 + L1, t = s + L2, the powers of l in B and C make every factor a polynomial:
 //
 //   modified      [L0 | L1 | L0 L1 s^(p-2) P_{p-2}^{1,1}(eta1)] [1 | L2 t^(q-1) P_{q-1}^{2p-1,1}(eta2)] [1 | L3 P_{r-1}^{2(p+q)-1,1}(xi3)]
@@ -6,6 +6,9 @@
 //   orthogonal    s^p P_p(eta1) t^q P_q^{2p+1,0}(eta2) P_r^{2(p+q)+2,0}(xi3)
 //
 // In the modified basis mode (0, 0, 1) is L3, and modes (0, 1, r) are L2 [1 | L3 P_{r-1}^{1,1}(xi3)]. Loops as in prism.glsl.
+
+NEKTAR_FUNCTION {
+    NEKTAR_BEGIN
     elvis_real s = (-xi.y - xi.z) * elvis_real(0.5LF), t = (elvis_real(1) - xi.z) * elvis_real(0.5LF);
     elvis_real right = (elvis_real(1) + xi.x) * elvis_real(0.5LF), left = s - right, up = (elvis_real(1) + xi.y) * elvis_real(0.5LF);
     NEKTAR_JET a[NEKTAR_P + 1], b[NEKTAR_P + 1][NEKTAR_Q + 1], c[NEKTAR_Q + 1][NEKTAR_R + 1];
@@ -84,3 +87,5 @@
     f33 += e33 * up;
 #endif
 #endif
+    NEKTAR_END
+}
