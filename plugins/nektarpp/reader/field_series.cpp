@@ -122,7 +122,9 @@ const ModeSet* FieldSeries::modes(std::size_t field, std::uint64_t element) cons
         const MeshElement& of_mesh = m_mesh.elements()[element];
         throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, m_steps.front().paths.path,
                                 std::string(elvis::native::name(of_mesh.shape)) + " " + std::to_string(of_mesh.id) +
-                                    ": field " + m_fields[field] + " changes its basis from one time step to another");
+                                    ": field " + m_fields[field] +
+                                    " changes its basis from one time step to another, which cannot be drawn as it is. Convert "
+                                    "the data instead: elvis convert MESH FIELDS -o volume.h5");
     }
     return number == no_modes ? nullptr : &m_sets[number];
 }
