@@ -34,8 +34,9 @@ std::string literal(double number) {
 }
 
 std::string declaration(const char* name, char direction, const std::vector<double>& numbers) {
-    const std::string type = "elvis_real[" + std::to_string(numbers.size()) + "]";
-    std::string text = "const " + type + " nektar_" + name + "_" + direction + " = " + type + "(";
+    const std::string size = std::to_string(numbers.size());
+    std::string text = "const elvis_real nektar_";
+    text.append(name).append({'_', direction, '['}).append(size).append("] = elvis_real[").append(size).append("](");
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         text += (i == 0 ? "" : ", ") + literal(numbers[i]);
     }
