@@ -74,8 +74,8 @@ inline nektar_writer::Block block_of(const elvis::native::Space& space, const st
     }();
     std::string bases, modes = "UNIORDER:";
     for (std::size_t direction = 0; direction < basis.size(); ++direction) {
-        bases += (direction ? "," : "") + basis[direction];
-        modes += (direction ? "," : "") + std::to_string(space.order[direction] + 1);
+        bases.append(direction ? "," : "").append(basis[direction]);
+        modes.append(direction ? "," : "").append(std::to_string(space.order[direction] + 1));
     }
     return {field, name, bases, modes, id, coefficients};
 }
