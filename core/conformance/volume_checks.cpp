@@ -11,6 +11,7 @@
 #include <core/volume/reference_corners.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -123,10 +124,19 @@ void check_volume_threads(Context& context) {
 }
 
 /** Positions of the corners of a local face, through evaluate_mapping. */
+/** Of two-dimensional shapes the faces of a volume are edges. */
+std::string_view corners_of_face(elvis_shape shape, std::uint32_t local_face) {
+    static constexpr std::array<std::string_view, 4> quadrilateral = {"01", "12", "32", "03"};
+    static constexpr std::array<std::string_view, 3> triangle = {"01", "12", "02"};
+    return shape == ELVIS_SHAPE_QUADRILATERAL ? quadrilateral.at(local_face)
+           : shape == ELVIS_SHAPE_TRIANGLE    ? triangle.at(local_face)
+                                              : face_corners(shape, local_face);
+}
+
 std::vector<Point> corner_positions(const RuntimeVolume& volume, std::uint64_t element, std::uint32_t local_face) {
     const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
     std::vector<Point> positions;
-    for (const char corner : face_corners(shape, local_face)) {
+    for (const char corner : corners_of_face(shape, local_face)) {
         const Point xi = reference_corner(shape, static_cast<std::uint32_t>(corner - '0'));
         Point x{};
         volume.evaluate_mapping(element, xi, x, {});
