@@ -17,6 +17,8 @@ constexpr std::uint64_t elements_at_once = 1024;
 
 /** Half a unit in the last place of single precision. */
 constexpr double single_rounding = 6e-8;
+/** What rounding moves positions by at most, relative to the sum of coefficients: 64 units in the last place. */
+constexpr double evaluation_rounding = 1.5e-14;
 
 /** Sum of coefficients times modes, and of their derivatives, at one point. */
 struct Sum {
@@ -99,9 +101,14 @@ void Volume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> 
         m_mesh.mapping_coefficients(element(position), coefficients);
         const std::size_t n_modes = coefficients.size() / 3;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const native::Range range = (*bounder)(std::span(coefficients).subspan(axis * n_modes, n_modes));
-            bounds[6 * (position - first) + axis] = range.lower;
-            bounds[6 * (position - first) + 3 + axis] = range.upper;
+            const auto own = std::span(coefficients).subspan(axis * n_modes, n_modes);
+            const native::Range range = (*bounder)(own);
+            double size = 0;
+            for (const double coefficient : own) {
+                size += std::abs(coefficient);
+            }
+            bounds[6 * (position - first) + axis] = range.lower - evaluation_rounding * size;
+            bounds[6 * (position - first) + 3 + axis] = range.upper + evaluation_rounding * size;
         }
     });
 }
