@@ -234,13 +234,7 @@ void main() {
             from = part_from;
             to = part_to;
             piece.values = piece.slopes = core_segment_begin();
-            follower.known = part.anchor;
-            follower.known_x = part.x;
-            follower.known_y = part.y;
-            follower.known_z = part.z;
-            follower.slope_x = part.slope_x;
-            follower.slope_y = part.slope_y;
-            follower.slope_z = part.slope_z;
+            follower = core_follow_from(part.anchor, elvis_vec3(part.x, part.y, part.z), elvis_vec3(part.slope_x, part.slope_y, part.slope_z));
             core_follow_to(follower, from);
         }
 

@@ -137,14 +137,8 @@ void main() {
             const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - chain.start), until - from);
             const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
                                       (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
-            core_follower follower;
-            follower.known = part.anchor;
-            follower.known_x = part.x;
-            follower.known_y = part.y;
-            follower.known_z = part.z;
-            follower.slope_x = part.slope_x;
-            follower.slope_y = part.slope_y;
-            follower.slope_z = part.slope_z;
+            core_follower follower = core_follow_from(part.anchor, elvis_vec3(part.x, part.y, part.z),
+                                                      elvis_vec3(part.slope_x, part.slope_y, part.slope_z));
             core_follow_to(follower, core_integral_at(integral));
             follower.span = core_integral_span(integral);
             follower.enough = enough;

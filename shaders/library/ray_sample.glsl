@@ -21,6 +21,8 @@
 struct core_follower {
     // A point that was found: parameter, reference coordinates and their change with the parameter.
     elvis_real known, known_x, known_y, known_z, slope_x, slope_y, slope_z;
+    // The one found before that; the same one if there is none.
+    elvis_real before, before_x, before_y, before_z, before_slope_x, before_slope_y, before_slope_z;
     // Parameter wanted in the end, and the one that is looked for; the prediction for that.
     elvis_real goal, at, x, y, z;
     // The part of the ray from the goal on, or back, over which `bend` is wanted; error of the field that is good enough.
@@ -44,14 +46,39 @@ struct core_ray_sample {
     bool is_finite;
 };
 
+// Starts from a point that was found: where it is, and how it changes with the parameter.
+core_follower core_follow_from(elvis_real known, elvis_vec3 point, elvis_vec3 slope) {
+    core_follower follower;
+    follower.known = follower.before = known;
+    follower.known_x = follower.before_x = point.x;
+    follower.known_y = follower.before_y = point.y;
+    follower.known_z = follower.before_z = point.z;
+    follower.slope_x = follower.before_slope_x = slope.x;
+    follower.slope_y = follower.before_slope_y = slope.y;
+    follower.slope_z = follower.before_slope_z = slope.z;
+    return follower;
+}
+
+// By the cubic through the last two points that were found and their slopes, between them or not much farther beyond the last one than they are
+// apart; else along the last one's slope.
 void core_predict(inout core_follower follower, elvis_real at) {
-    const elvis_real since = at - follower.known;
+    const elvis_real since = at - follower.known, width = follower.before - follower.known;
+    const bool is_near = (since - width) * (since + elvis_real(1.5LF) * width) < elvis_real(0);
+    const elvis_real t = is_near ? since / width : elvis_real(0), s = elvis_real(1) - t;
+    const elvis_real of_before = t * t * (elvis_real(3) - elvis_real(2) * t), of_slope = is_near ? width * t * s * s : since;
+    const elvis_real of_slope_before = -width * t * t * s;
     // Far predictions are of no use but for their direction, and could overflow.
     const elvis_real limit = elvis_real(4);
     follower.at = at;
-    follower.x = clamp(follower.known_x + since * follower.slope_x, -limit, limit);
-    follower.y = clamp(follower.known_y + since * follower.slope_y, -limit, limit);
-    follower.z = clamp(follower.known_z + since * follower.slope_z, -limit, limit);
+    follower.x = clamp(follower.known_x + of_before * (follower.before_x - follower.known_x) + of_slope * follower.slope_x +
+                           of_slope_before * follower.before_slope_x,
+                       -limit, limit);
+    follower.y = clamp(follower.known_y + of_before * (follower.before_y - follower.known_y) + of_slope * follower.slope_y +
+                           of_slope_before * follower.before_slope_y,
+                       -limit, limit);
+    follower.z = clamp(follower.known_z + of_before * (follower.before_z - follower.known_z) + of_slope * follower.slope_z +
+                           of_slope_before * follower.before_slope_z,
+                       -limit, limit);
     follower.steps = 0u;
 }
 
@@ -140,6 +167,13 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
     follower.all_steps += 1u;
     const bool is_stuck = !is_found && (!is_sound || follower.steps >= CORE_SAMPLE_STEPS);
     const bool is_there = is_found && follower.at == follower.goal;
+    follower.before = is_found ? follower.known : follower.before;
+    follower.before_x = is_found ? follower.known_x : follower.before_x;
+    follower.before_y = is_found ? follower.known_y : follower.before_y;
+    follower.before_z = is_found ? follower.known_z : follower.before_z;
+    follower.before_slope_x = is_found ? follower.slope_x : follower.before_slope_x;
+    follower.before_slope_y = is_found ? follower.slope_y : follower.before_slope_y;
+    follower.before_slope_z = is_found ? follower.slope_z : follower.before_slope_z;
     follower.known = is_found ? follower.at : follower.known;
     follower.known_x = is_found ? found.x : follower.known_x;
     follower.known_y = is_found ? found.y : follower.known_y;
