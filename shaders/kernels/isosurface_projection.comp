@@ -354,16 +354,19 @@ void main() {
             const bool keeps_slope = found.is_known && speed * bend_here * radius < abs(found.slope);
             const bool is_confirmed = !is_candidate || keeps_slope || (is_seen_below && is_seen_above) || CORE_PLAIN == 1;
             const elvis_real slack = walk_ray.tolerance + elvis_real(0.25LF) * half_width;
-            const bool is_inside = root_t >= part_from - slack && root_t <= part_to + slack;
+            const elvis_real outside = max(part_from - root_t, root_t - part_to);
+            const bool is_inside = outside <= slack;
             // As near to a face as rounding moves it, a crossing is certain only if another element has it, too: beyond the face
             // there may be nothing.
             const bool is_surely_inside = root_t >= part.enter + part.enter_error + slack && root_t <= part.leave - part.leave_error - slack;
             const bool is_behind_start = root_t > ray.least_t + ray.widths_behind * half_width && root_t > ray.least_t;
             const bool is_hit = is_settled && is_confirmed && is_inside && is_behind_start;
-            const bool is_undecided = !is_hit && (is_settled ? !is_confirmed : is_last);
             // The last step may be small by chance.
             const elvis_real blur = max(abs(step), CORE_BLUR_SHARE * half_width);
-            const bool is_blurred = is_hit && CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size;
+            const bool is_wide = CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size, is_blurred = is_hit && is_wide;
+            // What rounding alone may have led out of the part may be in it.
+            const bool is_led_out = is_wide && !is_inside && outside <= half_width;
+            const bool is_undecided = !is_hit && (is_settled ? !is_confirmed || is_led_out : is_last);
             n_crossings += is_settled && is_confirmed ? 1u : 0u;
             n_undecided += is_undecided ? 1u : 0u;
             undecided_t = is_undecided ? min(undecided_t, from + candidate.t * (to - from)) : is_blurred ? min(undecided_t, root_t) : undecided_t;
