@@ -102,6 +102,7 @@ nlohmann::ordered_json run_volume_convergence(const Bench& bench) {
                               {"transfer", row.transfer},
                               {"integrator", row.curve},
                               {"step", row.step},
+                              {"tolerance", row.tolerance},
                               {"is_missed", row.is_missed},
                               {"error", row.error},
                               {"samples_a_pixel", row.samples_a_pixel},
@@ -109,9 +110,10 @@ nlohmann::ordered_json run_volume_convergence(const Bench& bench) {
                               {"inexact_share", row.inexact_share},
                               {"fewer_samples", row.fewer_samples},
                               {"less_time", row.less_time}});
-        say(arguments, "to 0.001: %-7s %-6s %-11s step %-9.3g error %-9.3g%s %8.1f samples a pixel (%.2f times fewer) %9.1f ms (%.2f times "
+        say(arguments, "to 0.001: %-7s %-6s %-11s %s %-9.3g error %-9.3g%s %8.1f samples a pixel (%.2f times fewer) %9.1f ms (%.2f times "
                         "less), inexact %.4f\n",
-                        row.scene.c_str(), row.transfer.c_str(), row.curve.c_str(), row.step, row.error,
+                        row.scene.c_str(), row.transfer.c_str(), row.curve.c_str(), row.step > 0 ? "step" : "tol.",
+                        row.step > 0 ? row.step : row.tolerance, row.error,
                         row.is_missed ? " MISSED" : "", row.samples_a_pixel, row.fewer_samples, row.milliseconds, row.less_time,
                         row.inexact_share);
     };

@@ -68,8 +68,8 @@ struct ConvergenceOrder {
 /** What it takes to have no channel off by more than 0.001. */
 struct ComparisonRow {
     std::string scene, transfer, curve;
-    /** The largest step found, 0 for what has none. */
-    double step = 0;
+    /** The largest step found, 0 for what has none; the tolerance of what has that instead, else 0. */
+    double step = 0, tolerance = 0;
     double error = 0;
     /** No step was short enough. */
     bool is_missed = false;

@@ -2,6 +2,7 @@
 #include <core/render/real_array.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace elvis {
 
@@ -32,7 +33,12 @@ struct Parameters {
     std::uint32_t first_component, end_component;
     std::uint32_t n_isovalues;
     std::uint32_t has_beyond;
+    float extent;
 };
+
+float diagonal_of(const std::array<double, 6>& bounds) {
+    return static_cast<float>(std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]));
+}
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
 
@@ -74,7 +80,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
 
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
-      m_level_set(device, volume, data), m_projection(device),
+      m_extent(diagonal_of(data.bounds())), m_level_set(device, volume, data), m_projection(device),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
@@ -186,7 +192,8 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                               m_component.first,
                               m_component.end,
                               static_cast<std::uint32_t>(m_values.size()),
-                              target.beyond ? 1u : 0u};
+                              target.beyond ? 1u : 0u,
+                              m_extent};
         const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[inner_tiles];
         const auto draw_tiles = [&](Role role) {
             const ComposedKernel& kernel = kernels.provide(m_device, role, m_values.size() == 1);

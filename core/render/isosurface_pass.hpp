@@ -59,6 +59,8 @@ private:
     const Device& m_device;
     Precision m_precision;
     std::uint32_t m_tile_width;
+    /** The diagonal of the volume's bounds. */
+    float m_extent;
     LevelSet m_level_set;
     /** Less the offset. */
     std::vector<double> m_values;

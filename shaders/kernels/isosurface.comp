@@ -28,6 +28,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/finite.glsl"
 #include "library/pixel_ray.glsl"
 #include "library/isosurface_bindings.glsl"
+#include "library/isosurface_blur.glsl"
 
 layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(push_constant) uniform core_parameters {
@@ -40,6 +41,8 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
     uint core_n_isovalues;
     uint core_has_beyond;
+    // The diagonal of the volume's bounds.
+    float core_extent;
 };
 
 #include "library/isovalues.glsl"
@@ -355,6 +358,10 @@ void main() {
         const bool is_hit = best_element != CORE_NO_ELEMENT;
         flags |= is_hit ? CORE_FLAG_ISOSURFACE : 0u;
         flags |= is_hit && !best_is_certain ? CORE_FLAG_UNDECIDED : 0u;
+        // Rounding alone: the crossing's own width is that of the piece in which it was found.
+        const elvis_real width = core_shown_rounding(is_hit ? best_element : 0u) / abs(dot(elvis_vec3(normal_x, normal_y, normal_z), ray.direction));
+        const bool is_blurred = is_hit && CORE_BLUR_SHARE * width * stretch > CORE_DEPTH_TOLERANCE * elvis_real(core_extent);
+        flags |= is_blurred ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
         if (flags != 0u) {
             core_marks[pixel].flags |= flags;
         }

@@ -26,6 +26,7 @@ layout(local_size_x = 32) in;
 #include "library/finite.glsl"
 #include "library/pixel_ray.glsl"
 #include "library/isosurface_bindings.glsl"
+#include "library/isosurface_blur.glsl"
 
 layout(set = 0, binding = 5, std430) readonly buffer core_list_block { uint core_list[]; };
 layout(push_constant) uniform core_parameters {
@@ -76,15 +77,6 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #else
 #define CORE_MOST_LEVELS 8u
 #define CORE_END_TOLERANCE elvis_real(2.5e-7LF)
-#endif
-// Where rounding of the field moves a crossing by more than this, over the volume's size, the pixel is undecided.
-#if ELVIS_REAL_IS_DOUBLE
-#define CORE_DEPTH_TOLERANCE elvis_real(3e-12LF)
-// Share of the bound of that which is met at worst.
-#define CORE_BLUR_SHARE elvis_real(0.015625LF)
-#else
-#define CORE_DEPTH_TOLERANCE elvis_real(4e-6LF)
-#define CORE_BLUR_SHARE elvis_real(0.125LF)
 #endif
 // E over how much the polynomial varies, above which it is not believed.
 #if CORE_USES_COLLEAGUE

@@ -34,6 +34,15 @@ core_model core_shown_model(uint element, elvis_vec3 xi, core_patch region, out 
     return model;
 }
 
+// What a value is off at most, whatever is near.
+elvis_real core_shown_rounding(uint element) {
+    elvis_real sum = elvis_real(0);
+    for (uint component = core_first_component; component < core_end_component; ++component) {
+        sum += core_leaf_bounds(elvis_fetch4_core_bounds(element, component)).y;
+    }
+    return sum;
+}
+
 bool core_is_model_estimated(uint element) {
     bool is_estimated = false;
     for (uint component = core_first_component; component < core_end_component; ++component) {
@@ -41,5 +50,10 @@ bool core_is_model_estimated(uint element) {
     }
     return is_estimated;
 }
+
+#else
+
+// Of an expression only the model over a patch is known.
+elvis_real core_shown_rounding(uint element) { return elvis_real(0); }
 
 #endif
