@@ -35,7 +35,9 @@ inline KernelRequest pixel_kernel(const std::string& name, Precision precision, 
 inline void dispatch_pixels(const ComposedKernel& kernel, const std::vector<const Buffer*>& bindings,
                             std::span<const std::byte> push_constants, std::uint32_t n_pixels) {
     constexpr std::uint32_t pixels_a_row = pixel_group_size * pixel_groups_x;
-    kernel.dispatch(bindings, push_constants, pixel_groups_x, (n_pixels + pixels_a_row - 1) / pixels_a_row);
+    // Groups without pixels cost as much as others: small pictures have one row, as long as it need be.
+    const std::uint32_t n_groups = (n_pixels + pixel_group_size - 1) / pixel_group_size;
+    kernel.dispatch(bindings, push_constants, std::min(pixel_groups_x, n_groups), (n_pixels + pixels_a_row - 1) / pixels_a_row);
 }
 
 } // namespace elvis
