@@ -82,7 +82,8 @@ elvis_result get_info(elvis_volume* volume, elvis_volume_info* out) {
 elvis_result get_class(elvis_volume*, std::uint32_t, elvis_element_class* out) {
     out->shape = ELVIS_SHAPE_HEXAHEDRON;
     out->n_elements = 2;
-    std::fill_n(out->geometry_order, 3, 2u);
+    std::fill_n(out->geometry_order, 3, has("low-geometry-order") ? 1u : 2u);
+    out->is_affine = has("affine") ? 1 : 0;
     return ELVIS_OK;
 }
 
@@ -98,7 +99,7 @@ elvis_result get_class_field(elvis_volume*, std::uint32_t, std::uint32_t, elvis_
                                                {sizeof(elvis_constant), 0, "DEFECTIVE_DEFECT", glsl_defect()}};
     out->n_constants = has("twice-constant") ? 2 : 1;
     out->constants = constants;
-    std::fill_n(out->order, 3, 2);
+    std::fill_n(out->order, 3, has("low-field-order") ? 1 : 2);
     return ELVIS_OK;
 }
 

@@ -57,9 +57,16 @@ typedef struct elvis_element_class {
     elvis_shape shape;
     /** May be 0. */
     uint64_t n_elements;
-    /** Polynomial order of the mapping in each direction, at least 1; 0 0 0 if the mapping is not polynomial. */
+    /**
+     * Polynomial order of the mapping in each direction, at least 1; 0 0 0 if the mapping is not polynomial. For simplices, and for
+     * the triangles of prisms, the largest is the total degree. Never below the true order: `elvis export` writes cells of it, and
+     * mesh lines and bent faces are fitted with it.
+     */
     uint32_t geometry_order[3];
-    /** Non-zero if the mapping is affine in xi (a parallelepiped or straight simplex) for every element of the class. */
+    /**
+     * Non-zero if the mapping is affine in xi (a parallelepiped or straight simplex) for every element of the class. Then mesh lines
+     * are straight, and coordinates in expressions have certified bounds; in doubt leave it 0.
+     */
     uint32_t is_affine;
 } elvis_element_class;
 
@@ -80,7 +87,11 @@ typedef struct elvis_class_field {
     uint32_t n_constants;
     /** Constants of this class and field, orders among them; n_constants entries. */
     const elvis_constant* constants;
-    /** Polynomial order of the field in each direction, or -1 -1 -1 if it is not polynomial in xi. */
+    /**
+     * Polynomial order of the field in each direction, as for geometry_order, or -1 -1 -1 if it is not polynomial in xi. Never below
+     * the true order: `elvis export` writes cells of it. It is also what `order` is in expressions, and what elements are chosen by;
+     * pictures do not rest on it.
+     */
     int32_t order[3];
     uint32_t reserved;
 } elvis_class_field;
