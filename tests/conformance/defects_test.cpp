@@ -83,6 +83,7 @@ constexpr Planted all_planted[] = {
     {"snippet-compiles", "glsl-float-only"},
     {"snippet-values", "glsl-single"},
     {"snippet-values", "glsl-shift"},
+    {"snippet-values", "no-origin"},
     {"snippet-jacobian", "glsl-transposed"},
     {"snippet-jacobian", "glsl-pair"},
     {"snippet-gradient", "glsl-gradient"},
@@ -169,6 +170,25 @@ TEST_CASE("Every planted defect is caught by the check that is made for it") {
         CHECK(is_caught);
     }
     std::printf("defects caught: %zu of %zu planted\n", n_caught, std::size(all_planted));
+}
+
+TEST_CASE("Faces in one place without neighbours are noted, and may be a crack") {
+    const Workplace place;
+    int status = -1;
+    const auto answer = place.check("face-crack", "--check volume-faces", status);
+    INFO(answer.dump(2));
+    CHECK(status == 0);
+    CHECK(answer["checks"][0]["notes"].dump().find("warning: 1 pairs of faces") != std::string::npos);
+    CHECK(place.check("", "--check volume-faces", status)["checks"][0]["notes"].dump().find("warning") == std::string::npos);
+}
+
+TEST_CASE("A forgotten origin is told from a wrong mapping") {
+    const Workplace place;
+    int status = -1;
+    const auto forgotten = place.check("no-origin", "--check snippet-values", status)["checks"][0]["findings"].dump();
+    CHECK(forgotten.find("elvis_fill_request.origins") != std::string::npos);
+    const auto wrong = place.check("glsl-shift", "--check snippet-values", status)["checks"][0]["findings"].dump();
+    CHECK(wrong.find("elvis_fill_request.origins") == std::string::npos);
 }
 
 TEST_CASE("Every check has a planted defect") {
