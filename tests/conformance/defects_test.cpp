@@ -182,6 +182,23 @@ TEST_CASE("Faces in one place without neighbours are noted, and may be a crack")
     CHECK(place.check("", "--check volume-faces", status)["checks"][0]["notes"].dump().find("warning") == std::string::npos);
 }
 
+TEST_CASE("Checks that fail for one reason say it once") {
+    const std::string folder = fs::temp_directory_path() / ("elvis-reason-" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    std::ofstream(folder + "/volume.defective") << "defective 1\n0.75\n";
+    const std::string command =
+        "cd '" + folder +
+        "' && ELVIS_DEFECT=nonsense-count '" ELVIS_PROGRAM "' check-plugin '" DEFECTIVE_PLUGIN
+        "' --volume volume.defective --check volume-description --check bounds --check orders >out.txt 2>&1";
+    CHECK(std::system(command.c_str()) != 0);
+    std::stringstream text;
+    text << std::ifstream(folder + "/out.txt").rdbuf();
+    fs::remove_all(folder);
+    INFO(text.str());
+    CHECK(text.str().find("for the same reason as volume-description") != std::string::npos);
+    CHECK(text.str().find("2 further checks failed for the same reason") != std::string::npos);
+}
+
 TEST_CASE("A forgotten origin is told from a wrong mapping") {
     const Workplace place;
     int status = -1;
