@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 namespace elvis::commands {
@@ -55,8 +56,18 @@ void list_checks(bool as_json) {
     }
 }
 
-void print_result(const CheckResult& result) {
+/** Names of checks that have failed, by what they found: one cause often makes many fail. */
+using Causes = std::map<std::vector<std::string>, std::string>;
+
+void print_result(const CheckResult& result, Causes& causes) {
     std::printf("%-10s %-22s %6.2f s\n", conformance::outcome_name(result.outcome), result.check->name, result.seconds);
+    if (result.outcome == Outcome::failed) {
+        const auto [cause, is_new] = causes.try_emplace(result.findings, result.check->name);
+        if (!is_new) {
+            std::printf("           - for the same reason as %s\n", cause->second.c_str());
+            return;
+        }
+    }
     for (const std::string& finding : result.findings) {
         std::printf("           %s%s\n", result.outcome == Outcome::skipped ? "" : "- ", finding.c_str());
     }
@@ -92,6 +103,7 @@ void run(const Arguments& arguments) {
     ordered_json checks = ordered_json::array();
     std::size_t counts[5] = {};
     double seconds = 0;
+    Causes causes;
     for (const Check* check : wanted) {
         const CheckResult result = run_in_process(*check, subject, arguments.timeout);
         ++counts[static_cast<std::size_t>(result.outcome)];
@@ -99,7 +111,7 @@ void run(const Arguments& arguments) {
         if (arguments.json) {
             checks.push_back(to_json(result));
         } else {
-            print_result(result);
+            print_result(result, causes);
         }
     }
     const auto count = [&](Outcome outcome) { return counts[static_cast<std::size_t>(outcome)]; };
@@ -119,6 +131,10 @@ void run(const Arguments& arguments) {
                     count(Outcome::skipped), seconds, static_cast<unsigned long long>(subject.seed));
     }
     if (n_bad > 0) {
+        const std::size_t n_same = arguments.json ? 0 : count(Outcome::failed) - causes.size();
+        if (n_same > 0) {
+            std::printf("%zu further checks failed for the same reason as another; mend that first\n", n_same);
+        }
         throw Error(arguments.subject.library,
                     std::to_string(n_bad) + " of " + std::to_string(wanted.size()) + " checks failed");
     }

@@ -50,7 +50,8 @@ void add_export(CLI::App& app) {
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command
         ->add_option("--order", arguments->order,
-                     "Order of the cells; default: the largest of geometry and fields in each element, which is exact")
+                     "Order of the cells; default: the largest that the plugin gives for geometry and fields, which is exact "
+                     "if it is no smaller than theirs")
         ->check(CLI::Range(1, 20));
     command->callback([arguments] { run(*arguments); });
 }

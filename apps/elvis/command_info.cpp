@@ -201,8 +201,11 @@ void print_table(const ordered_json& root) {
     }
     std::printf("  bounds %s (%s)\n", root["bounds"].dump().c_str(), text_of(root["bounds_certainty"]).c_str());
     for (const ordered_json& field : root["fields"]) {
-        std::printf("  field %s: %s components, %s, largest jump %s\n    orders %s\n", text_of(field["name"]).c_str(),
-                    field["components"].dump().c_str(), text_of(field["continuity"]).c_str(), field["max_jump"].dump().c_str(),
+        const std::string continuity = text_of(field["continuity"]);
+        std::printf("  field %s: %s component%s, %s, largest jump %s\n    orders %s\n", text_of(field["name"]).c_str(),
+                    field["components"].dump().c_str(), field["components"] == 1 ? "" : "s",
+                    continuity == "unknown" ? "continuity unknown" : continuity.c_str(),
+                    field["max_jump"].is_null() ? "unknown" : field["max_jump"].dump().c_str(),
                     field["order_by_class"].dump().c_str());
         if (field.contains("range_by_component")) {
             std::printf("    range %s (%s)\n", field["range_by_component"].dump().c_str(),

@@ -8,6 +8,7 @@
 #include <core/base/error.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/buffers_file.hpp>
+#include <core/scene/color_map.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/scene/output_file.hpp>
 #include <core/scene/png_file.hpp>
@@ -39,6 +40,9 @@ void render_picture(const RenderArguments& arguments, const Scene& scene, const 
                     Renderer& renderer, const Times& times) {
     const bool is_double = scene.precision.value_or("float32") == "float64";
     FrameRequest request = make_frame_request(scene, volume, renderer);
+    for (const std::string& remark : request.remarks) {
+        spdlog::warn("{}", remark);
+    }
     if (request.volume && scene.volume_rendering->has_default_density()) {
         const auto& density = request.volume->transfer.density;
         spdlog::info("volume: density rises from {:.6g} at {:.6g} to {:.6g} at {:.6g}", density.front().density,
@@ -123,10 +127,11 @@ void add_render(CLI::App& app) {
     command->add_option("--field", a->field, "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
     command->add_option("--cut-plane", a->cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
         ->allow_extra_args(false);
-    const CLI::Option* boundary =
-        command->add_option("--boundary", a->boundary_groups, "The boundary, or one of its groups by name; may be repeated")
-            ->expected(0, 1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    const CLI::Option* boundary = command
+                                      ->add_option("--boundary", a->boundary_groups,
+                                                   "The whole boundary; with a name, that group of it only; may be repeated")
+                                      ->expected(0, 1)
+                                      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--isosurface", a->isovalues, "Value of the field where a surface is drawn; may be repeated")
         ->allow_extra_args(false);
     command->add_option("--volume", a->volume,
@@ -146,7 +151,13 @@ void add_render(CLI::App& app) {
         ->check(CLI::PositiveNumber);
     command->add_option("--contours", a->contours, "V,V,..: values of contour lines");
     command->add_flag("--mesh-lines", a->mesh_lines, "Draw where boundaries of elements meet the surfaces");
-    command->add_option("--color-map", a->color_map, "Built-in name, or file (ParaView JSON, ElVis XML)");
+    std::string maps;
+    for (const std::string& name : color_map_names()) {
+        maps += (maps.empty() ? "" : ", ") + name;
+    }
+    command->add_option("--color-map", a->color_map,
+                        "Built-in name (" + maps +
+                            "; gray is even in lightness, not linear in RGB), or file (ParaView JSON, ElVis XML)");
     command->add_option("--range", a->range, "LOW,HIGH: values at the ends of the colour map");
     command->add_flag("--log-scale", a->log_scale, "Colours by the logarithm of values, which have none of their own where they are not above 0");
     command->add_option("--eye", a->eye, "x,y,z of the camera");

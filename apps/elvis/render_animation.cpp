@@ -45,6 +45,9 @@ public:
             m_scene.time_step = time_step;
             found = m_requests.try_emplace(time_step, make_frame_request(m_scene, m_volume, m_renderer)).first;
             found->second.with_buffers = false;
+            for (const std::string& remark : found->second.remarks) {
+                spdlog::warn("time step {}: {}", time_step, remark);
+            }
         }
         return found->second;
     }

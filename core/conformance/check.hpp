@@ -86,6 +86,7 @@ std::vector<Check> file_checks();
 std::vector<Check> table_checks();
 std::vector<Check> volume_checks();
 std::vector<Check> geometry_checks();
+std::vector<Check> order_checks();
 std::vector<Check> device_checks();
 std::vector<Check> own_shape_checks();
 std::vector<Check> behaviour_checks();

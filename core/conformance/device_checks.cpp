@@ -60,6 +60,20 @@ void check_compilation(Context& context) {
     context.note(std::to_string(n_compiled) + " kernels compiled");
 }
 
+/** What to say where the snippet gives world coordinates, although its positions are said to be relative to the origin. */
+std::string origin_hint(const Sample& sample, const Point& origin, const Point& position, double tolerance) {
+    double shift = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        shift = std::max(shift, std::abs(origin[k]));
+        if (!(std::abs(sample.position[k] - position[k]) <= tolerance)) {
+            return {};
+        }
+    }
+    return shift > tolerance ? "; the difference is the element's origin: with ELVIS_SNIPPET_LOCAL_ORIGIN, subtract "
+                               "elvis_fill_request.origins from positions in fill_buffer"
+                             : "";
+}
+
 void check_mapping(Context& context) {
     const RuntimeVolume volume = open_volume(context);
     if (!volume.has_evaluation()) {
@@ -90,7 +104,8 @@ void check_mapping(Context& context) {
                 worst = std::max(worst, size > 0 ? error / size : 0.0);
                 if (!(error <= 1e-10 * size)) {
                     complaints.add(place(volume, point) + ": elvis_mapping gives coordinate " + std::to_string(k) + " as " +
-                                   text_of(samples[i].position[k] + origin[k]) + ", evaluate_mapping " + text_of(position[k]));
+                                   text_of(samples[i].position[k] + origin[k]) + ", evaluate_mapping " + text_of(position[k]) +
+                                   origin_hint(samples[i], origin, position, 1e-10 * size));
                 }
             }
             const double error = std::abs(samples[i].value - values[point.component]);

@@ -5,13 +5,13 @@
  */
 #include <core/base/error.hpp>
 #include <core/conformance/check.hpp>
-#include <core/conformance/device_sampler.hpp>
 #include <core/conformance/differences.hpp>
+#include <core/conformance/evaluator.hpp>
 #include <core/conformance/reference_points.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
 
 namespace elvis::conformance {
 
@@ -25,85 +25,6 @@ RuntimeVolume open_volume(Context& context) {
     context.progress("open");
     return RuntimeVolume(context.plugin(), context.subject().files.front(), context.subject().options);
 }
-
-/** Position and field at points of one element, from the CPU functions or from the device in double precision. */
-class Evaluator {
-public:
-    Evaluator(Context& context, const RuntimeVolume& volume) : m_volume(volume) {
-        if (!volume.has_evaluation()) {
-            context.progress("setting up the device");
-            m_device = std::make_unique<DeviceSampler>(volume, context.subject().device, Precision::float64);
-            m_device->select(0, 0);
-        }
-    }
-
-    const char* name() const { return m_device ? "the snippet in double precision" : "the plugin's own evaluation"; }
-
-    std::vector<Point> positions(std::uint64_t element, const std::vector<Point>& xi) const {
-        std::vector<Point> found(xi.size());
-        if (!m_device) {
-            const std::vector<double> points = flat(xi);
-            std::vector<double> numbers(points.size());
-            m_volume.evaluate_mapping(element, points, numbers, {});
-            for (std::size_t i = 0; i < xi.size(); ++i) {
-                found[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-            }
-            return found;
-        }
-        const auto samples = m_device->sample(points_of(element, xi, 0));
-        const Point origin = m_device->origin(element);
-        for (std::size_t i = 0; i < xi.size(); ++i) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                found[i][axis] = samples[i].position[axis] + origin[axis];
-            }
-        }
-        return found;
-    }
-
-    /** Before values(). */
-    void select(std::uint32_t field) {
-        m_field = field;
-        if (m_device) {
-            m_device->select(field, 0);
-        }
-    }
-
-    /** Value and gradient of a component of the selected field. */
-    std::vector<std::pair<double, Point>> values(std::uint64_t element, const std::vector<Point>& xi,
-                                                 std::uint32_t component) const {
-        std::vector<std::pair<double, Point>> found(xi.size());
-        if (!m_device) {
-            const std::uint32_t n = m_volume.fields()[m_field].n_components;
-            const std::vector<double> points = flat(xi);
-            std::vector<double> values(n * xi.size());
-            std::vector<double> gradients(3 * n * xi.size());
-            m_volume.evaluate_field(m_field, 0, element, points, values, gradients);
-            for (std::size_t i = 0; i < xi.size(); ++i) {
-                const double* g = &gradients[3 * (n * i + component)];
-                found[i] = {values[n * i + component], {g[0], g[1], g[2]}};
-            }
-            return found;
-        }
-        const auto samples = m_device->sample(points_of(element, xi, component));
-        for (std::size_t i = 0; i < xi.size(); ++i) {
-            found[i] = {samples[i].value, samples[i].gradient};
-        }
-        return found;
-    }
-
-private:
-    static std::vector<SamplePoint> points_of(std::uint64_t element, const std::vector<Point>& xi, std::uint32_t component) {
-        std::vector<SamplePoint> points;
-        for (const Point& point : xi) {
-            points.push_back({element, point, component});
-        }
-        return points;
-    }
-
-    const RuntimeVolume& m_volume;
-    std::unique_ptr<DeviceSampler> m_device;
-    std::uint32_t m_field = 0;
-};
 
 std::string at_text(std::uint64_t element, const Point& xi) {
     return "element " + std::to_string(element) + " at xi " + text_of(xi);

@@ -83,6 +83,7 @@ void check_tables(Context& context) {
         list(reinterpret_cast<const void*>(table->get_faces), "get_faces");
         list(reinterpret_cast<const void*>(table->get_boundary_group), "get_boundary_group");
         list(reinterpret_cast<const void*>(table->get_field_ranges), "get_field_ranges");
+        list(reinterpret_cast<const void*>(table->get_note), "get_note");
         list(reinterpret_cast<const void*>(table->evaluate_mapping), "evaluate_mapping");
         list(reinterpret_cast<const void*>(table->evaluate_field), "evaluate_field");
         list(reinterpret_cast<const void*>(table->get_field_derivative_bounds), "get_field_derivative_bounds");

@@ -220,7 +220,8 @@ SnippetReport compile_in_plugin(const std::string& path, Subject subject) {
         for (const std::string& source : known) {
             list += (list.empty() ? "" : ", ") + source;
         }
-        throw Error(path, "is no source of the plugin's snippets, which are: " + list);
+        throw Error(path,
+                    "has not the name of a source of the plugin's snippets, by which files are matched; those are: " + list);
     }
     return report;
 }

@@ -123,7 +123,6 @@ void check_volume_threads(Context& context) {
     check_threads(context, queries(volume, 512));
 }
 
-/** Positions of the corners of a local face, through evaluate_mapping. */
 /** Of two-dimensional shapes the faces of a volume are edges. */
 std::string_view corners_of_face(elvis_shape shape, std::uint32_t local_face) {
     static constexpr std::array<std::string_view, 4> quadrilateral = {"01", "12", "32", "03"};
@@ -133,6 +132,7 @@ std::string_view corners_of_face(elvis_shape shape, std::uint32_t local_face) {
                                               : face_corners(shape, local_face);
 }
 
+/** Positions of the corners of a local face, through evaluate_mapping. */
 std::vector<Point> corner_positions(const RuntimeVolume& volume, std::uint64_t element, std::uint32_t local_face) {
     const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
     std::vector<Point> positions;
@@ -156,6 +156,62 @@ double corner_distance(const std::vector<Point>& a, const std::vector<Point>& b)
         largest = std::max(largest, nearest);
     }
     return largest;
+}
+
+struct BoundaryFace {
+    std::int64_t element;
+    std::vector<Point> corners;
+    /** Of the corners' middle along a direction that is none of the mesh's. */
+    double place;
+    double size;
+};
+
+std::vector<BoundaryFace> boundary_faces(const RuntimeVolume& volume, const std::vector<elvis_face>& faces) {
+    constexpr std::size_t most = 1u << 18;
+    std::vector<BoundaryFace> found;
+    for (const elvis_face& face : faces) {
+        if (face.neighbour != ELVIS_NEIGHBOUR_NONE || found.size() >= most) {
+            continue;
+        }
+        BoundaryFace entry{face.element, {}, 0, 0};
+        entry.corners =
+            corner_positions(volume, static_cast<std::uint64_t>(face.element), static_cast<std::uint32_t>(face.local_face));
+        for (const Point& x : entry.corners) {
+            const Point& first = entry.corners[0];
+            entry.place += (0.5 * x[0] + 0.7071 * x[1] + 0.5001 * x[2]) / static_cast<double>(entry.corners.size());
+            entry.size = std::max(entry.size, std::hypot(x[0] - first[0], x[1] - first[1], x[2] - first[2]));
+        }
+        found.push_back(std::move(entry));
+    }
+    return found;
+}
+
+/** Two faces without neighbour in one place may be a crack; more often, a reader has not matched them. */
+void note_coinciding_boundary(Context& context, const RuntimeVolume& volume, const std::vector<elvis_face>& faces) {
+    std::vector<BoundaryFace> boundary = boundary_faces(volume, faces);
+    std::ranges::sort(boundary, {}, &BoundaryFace::place);
+    std::size_t n_pairs = 0;
+    std::string example;
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+        const BoundaryFace& one = boundary[i];
+        const double tolerance = 1e-4 * one.size;
+        for (std::size_t j = i + 1; j < boundary.size() && boundary[j].place - one.place <= 2 * tolerance; ++j) {
+            const BoundaryFace& other = boundary[j];
+            if (one.corners.size() == other.corners.size() && corner_distance(one.corners, other.corners) <= tolerance &&
+                corner_distance(other.corners, one.corners) <= tolerance) {
+                ++n_pairs;
+                if (example.empty()) {
+                    example = "elements " + std::to_string(std::min(one.element, other.element)) + " and " +
+                              std::to_string(std::max(one.element, other.element));
+                }
+            }
+        }
+    }
+    if (n_pairs > 0) {
+        context.note("warning: " + std::to_string(n_pairs) +
+                     " pairs of faces lie in the same place and have no neighbour (ELVIS_NEIGHBOUR_NONE), for example of " +
+                     example + ": they are drawn as boundary; if this is no crack, the faces were not matched");
+    }
 }
 
 void check_faces(Context& context) {
@@ -220,6 +276,9 @@ void check_faces(Context& context) {
         }
     }
     context.note(std::to_string(volume.n_faces()) + " faces");
+    if (volume.has_evaluation() && n_complaints == 0) {
+        note_coinciding_boundary(context, volume, faces);
+    }
 }
 
 } // namespace

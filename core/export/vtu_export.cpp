@@ -138,6 +138,10 @@ bool Exporter::is_constant(std::uint32_t field) const {
 
 CellClass Exporter::cell_class(std::uint32_t index) {
     const ClassInfo& info = m_volume.classes()[index];
+    if (info.geometry_order[0] == 0 && !m_options.order) {
+        throw Error(m_volume.path(), "the mapping of element class " + std::to_string(index) +
+                                         " is not polynomial; say with which order to sample it (--order)");
+    }
     std::uint32_t order = std::max({info.geometry_order[0], info.geometry_order[1], info.geometry_order[2], 1u});
     for (std::uint32_t field = 0; field < m_volume.fields().size(); ++field) {
         const std::int32_t of_field = field_order(index, field);

@@ -66,6 +66,8 @@ struct FrameRequest {
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
     bool with_buffers = true;
     Sharing sharing;
+    /** What people should know of how the request came to be; nothing to the renderer. */
+    std::vector<std::string> remarks;
 };
 
 /** Bits of Frame::flags; the same numbers in `--buffers` files. */

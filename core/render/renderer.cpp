@@ -316,6 +316,23 @@ FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_st
     return m_impl->fields.range(field, time_step, certainty);
 }
 
+double Renderer::value_rounding(const FieldChoice& field, std::uint32_t time_step) {
+    if (!field.expression && (field.component >= 0 || field.is_own_boundary)) {
+        return 0;
+    }
+    const bool is_double = m_impl->precision == Precision::float64;
+    if (is_double) {
+        // Rare, and not worth a kernel else.
+        constexpr double narrow = 1e-6;
+        const FieldRange range = field_range(field, time_step);
+        if (range.upper - range.lower > narrow * std::max({1.0, std::abs(range.lower), std::abs(range.upper)})) {
+            return 0;
+        }
+    }
+    const double error = m_impl->fields.float32_error(field, time_step, 0);
+    return is_double && !field.expression ? 0x1p-29 * error : error;
+}
+
 Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     Impl& impl = *m_impl;
     impl.check(wanted);

@@ -42,6 +42,11 @@ public:
     std::array<double, 6> bounds() const;
     /** Range of a field (component or magnitude) over the volume at a time step, and whether it is certified. */
     FieldRange field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
+    /**
+     * About what rounding costs its values, to tell whether the range is more than that. 0 for components of fields, which lack
+     * the middle of their range on the device, and where the range is certainly more.
+     */
+    double value_rounding(const FieldChoice& field, std::uint32_t time_step);
 
     /**
      * Draws a picture. With a control it can be cancelled from another thread: then Cancelled is thrown within some 50 ms, other

@@ -8,7 +8,9 @@
 #include <core/scene/transfer.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace elvis {
 
@@ -92,7 +94,34 @@ FieldChoice choose_field(const Scene& scene, const RuntimeVolume& volume, const 
     return choose_field(volume, with_distances(*text, scene.surfaces));
 }
 
-std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& field, const Scene& scene, Renderer& renderer) {
+std::string text_of(double number) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", number);
+    return text.data();
+}
+
+/** A range that is rounding and nothing else becomes wide enough for rounding not to be seen, and a remark. */
+std::array<double, 2> beyond_rounding(const FieldRange& all, double rounding, const std::string& label,
+                                      std::vector<std::string>& remarks) {
+    // A thirtieth of the colours is hardly seen.
+    constexpr double roundings = 32;
+    if (!(rounding > 0) || !std::isfinite(rounding) || all.upper - all.lower > 2 * rounding) {
+        return {all.lower, all.upper};
+    }
+    const double middle = 0.5 * (all.lower + all.upper);
+    const std::array<double, 2> wider = {middle - roundings * rounding, middle + roundings * rounding};
+    const std::string remark = (label.empty() ? std::string("the field") : label) +
+                               " is constant but for rounding: " + text_of(middle) + " within " + text_of(rounding) +
+                               "; its colours span [" + text_of(wider[0]) + ", " + text_of(wider[1]) +
+                               "] (--range sets others, --precision float64 shows finer differences)";
+    if (std::ranges::find(remarks, remark) == remarks.end()) {
+        remarks.push_back(remark);
+    }
+    return wider;
+}
+
+std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& field, const std::string& label, const Scene& scene,
+                               Renderer& renderer, std::vector<std::string>& remarks) {
     if (map.range) {
         return *map.range;
     }
@@ -102,11 +131,14 @@ std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& fiel
         const FieldRange range = renderer.field_range(field, step);
         all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
     }
-    return {all.lower, all.upper};
+    if (map.is_logarithmic || !(all.lower <= all.upper)) {
+        return {all.lower, all.upper};
+    }
+    return beyond_rounding(all, renderer.value_rounding(field, steps.front()), label, remarks);
 }
 
 VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Scene& scene, const RuntimeVolume& volume,
-                                      Renderer& renderer) {
+                                      Renderer& renderer, std::vector<std::string>& remarks) {
     if (volume.dimension() == 2) {
         throw Error(scene.volume, "is two-dimensional: it has nothing inside for 'volume_rendering' to show");
     }
@@ -117,7 +149,7 @@ VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Sce
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
     std::array<double, 2> range{};
     if (own.is_colored_by_map()) {
-        range = range_of(map, rendering.field, scene, renderer);
+        range = range_of(map, rendering.field, rendering.field_label, scene, renderer, remarks);
     }
     rendering.transfer = make_transfer_function(own, map, range, diagonal);
     if (own.is_colored_by_map() && map.is_logarithmic) {
@@ -130,7 +162,8 @@ VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Sce
     return rendering;
 }
 
-Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
+Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, Renderer& renderer,
+                     std::vector<std::string>& remarks) {
     Surface surface;
     surface.geometry = own.geometry;
     surface.field = choose_field(scene, volume, own.field ? own.field : scene.field, surface.field_label);
@@ -152,7 +185,7 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
         }
     }
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
-    const std::array<double, 2> range = range_of(map, surface.field, scene, renderer);
+    const std::array<double, 2> range = range_of(map, surface.field, surface.field_label, scene, renderer, remarks);
     surface.colors = make_color_table(map, range);
     if (map.is_logarithmic && !surface.field.expression) {
         // Small values keep their digits: nothing is subtracted from them.
@@ -212,10 +245,10 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
     request.camera = resolve_camera(scene.camera, renderer.bounds(), planes_looked_at(surfaces, volume, renderer),
                                     static_cast<double>(request.width) / request.height);
     for (const SceneSurface& surface : surfaces) {
-        request.surfaces.push_back(make_surface(surface, scene, volume, renderer));
+        request.surfaces.push_back(make_surface(surface, scene, volume, renderer, request.remarks));
     }
     if (scene.volume_rendering && scene.volume_rendering->is_shown) {
-        request.volume = make_volume_rendering(*scene.volume_rendering, scene, volume, renderer);
+        request.volume = make_volume_rendering(*scene.volume_rendering, scene, volume, renderer, request.remarks);
     }
     return request;
 }

@@ -21,7 +21,8 @@ std::vector<bool> chosen_groups(const RuntimeVolume& volume, const std::vector<s
                 list += (list.empty() ? "" : ", ") + one;
             }
             throw Error(volume.path(), "has no boundary group '" + name + "'; " +
-                                           (list.empty() ? "there are none" : "its groups are: " + list));
+                                           (list.empty() ? "there are none" : "its groups are: " + list) +
+                                           ". Without a name, the whole boundary is drawn");
         }
         is_chosen[static_cast<std::size_t>(found - known.begin())] = true;
     }

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/ElVis")
 
 install(DIRECTORY include/elvis DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT plugin_api)
-install(FILES README.md glsl_interface.md reference.md stability.md tutorial.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT plugin_api)
+include("${CMAKE_CURRENT_LIST_DIR}/install_pages.cmake")
 install(DIRECTORY tutorial DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT plugin_api)
 install(TARGETS elvis_plugin_api EXPORT ElVisPluginApi COMPONENT plugin_api)
 install(EXPORT ElVisPluginApi NAMESPACE ElVis:: DESTINATION "${package_folder}" COMPONENT plugin_api)

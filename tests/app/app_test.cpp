@@ -288,6 +288,7 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
     } cases[] = {
         {"rendr ball.h5 -o x.png", 2, "render"},
         {"render ball.h5 --boundary lid -o x.png", 1, "sphere"},
+        {"render ball.h5 --boundary all -o x.png", 1, "Without a name, the whole boundary is drawn"},
         {"render missing.h5 -o x.png", 1, "missing.h5"},
         {"render not_a_volume.h5 -o x.png", 1, "not_a_volume.h5"},
         {"render ball.json -o x.png", 1, "elvis convert"},
@@ -318,7 +319,8 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
         {"render ball.h5 --volume default --integrator simpson -o x.png", 2, "adaptive-trapezoid"},
         {"render ball.h5 --volume default --volume-step 0.1 -o x.png", 2, "--volume-step: is of the integrators riemann"},
         {"render ball.h5 --volume default --volume-step 0 --integrator riemann -o x.png", 2, "--volume-step"},
-        {"render ball.h5 --volume good_levels.json --volume-tolerance 0.1 --integrator riemann -o x.png", 2, "--volume-tolerance"},
+        {"render ball.h5 --volume good_levels.json --volume-tolerance 0.1 --integrator riemann -o x.png", 2,
+         "--volume-tolerance"},
         {"render broken.json -o x.png", 1, "broken.json:2"},
         {"render ball.h5 --size 0x10 -o x.png", 2, "--size"},
         {"render ball.h5 --cut-plane 0,0,0,1 -o x.png", 2, "--cut-plane"},

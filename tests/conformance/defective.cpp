@@ -71,7 +71,7 @@ elvis_result get_info(elvis_volume* volume, elvis_volume_info* out) {
     }
     out->dimension = 3;
     out->n_elements = has("nonsense-count") ? 0x123456789 : 2;
-    out->n_faces = has("face-missing") ? 10 : 11;
+    out->n_faces = has("face-missing") ? 10 : has("face-crack") ? 12 : 11;
     out->n_classes = 1;
     out->n_fields = 1;
     out->n_time_steps = has("time-backwards") || has("buffer-time") ? 2 : 1;
@@ -82,7 +82,8 @@ elvis_result get_info(elvis_volume* volume, elvis_volume_info* out) {
 elvis_result get_class(elvis_volume*, std::uint32_t, elvis_element_class* out) {
     out->shape = ELVIS_SHAPE_HEXAHEDRON;
     out->n_elements = 2;
-    std::fill_n(out->geometry_order, 3, 2u);
+    std::fill_n(out->geometry_order, 3, has("low-geometry-order") ? 1u : 2u);
+    out->is_affine = has("affine") ? 1 : 0;
     return ELVIS_OK;
 }
 
@@ -98,7 +99,7 @@ elvis_result get_class_field(elvis_volume*, std::uint32_t, std::uint32_t, elvis_
                                                {sizeof(elvis_constant), 0, "DEFECTIVE_DEFECT", glsl_defect()}};
     out->n_constants = has("twice-constant") ? 2 : 1;
     out->constants = constants;
-    std::fill_n(out->order, 3, 2);
+    std::fill_n(out->order, 3, has("low-field-order") ? 1 : 2);
     return ELVIS_OK;
 }
 
@@ -124,7 +125,8 @@ elvis_result fill_buffer(elvis_volume* volume, const elvis_fill_request* request
     for (std::uint64_t i = 0; i < request->count; ++i) {
         const std::uint64_t element = request->first + i;
         if (request->buffer == 0) {
-            const double* origin = request->origins + 3 * element;
+            static constexpr double none[6] = {};
+            const double* origin = has("no-origin") ? none : request->origins + 3 * element;
             const double numbers[] = {2 * static_cast<double>(element) - origin[0], -origin[1], -origin[2], disturbance};
             number = std::copy(std::begin(numbers), std::end(numbers), number);
         } else {
@@ -188,6 +190,11 @@ elvis_result get_faces(elvis_volume*, std::uint64_t first, std::uint64_t count, 
         out.neighbour_local_face = face != 0 ? -1 : has("face-neighbour") ? 2 : 4;
         if (has("face-neighbour") && face == 8) {
             out.local_face = 4;
+        }
+        if (has("face-crack") && (face == 0 || face == 11)) {
+            out.neighbour = ELVIS_NEIGHBOUR_NONE;
+            out.neighbour_local_face = -1;
+            out.local_face = face == 0 ? 2 : 4;
         }
         std::memcpy(entry, &out, sizeof out);
     }

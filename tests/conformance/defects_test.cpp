@@ -75,11 +75,15 @@ constexpr Planted all_planted[] = {
     {"jacobian-signs", "jacobian-lower"},
     {"cpu-derivatives", "cpu-jacobian"},
     {"cpu-derivatives", "cpu-gradient"},
+    {"orders", "low-geometry-order"},
+    {"orders", "low-field-order"},
+    {"orders", "affine"},
     {"snippet-compiles", "glsl-syntax"},
     {"snippet-compiles", "glsl-name"},
     {"snippet-compiles", "glsl-float-only"},
     {"snippet-values", "glsl-single"},
     {"snippet-values", "glsl-shift"},
+    {"snippet-values", "no-origin"},
     {"snippet-jacobian", "glsl-transposed"},
     {"snippet-jacobian", "glsl-pair"},
     {"snippet-gradient", "glsl-gradient"},
@@ -166,6 +170,42 @@ TEST_CASE("Every planted defect is caught by the check that is made for it") {
         CHECK(is_caught);
     }
     std::printf("defects caught: %zu of %zu planted\n", n_caught, std::size(all_planted));
+}
+
+TEST_CASE("Faces in one place without neighbours are noted, and may be a crack") {
+    const Workplace place;
+    int status = -1;
+    const auto answer = place.check("face-crack", "--check volume-faces", status);
+    INFO(answer.dump(2));
+    CHECK(status == 0);
+    CHECK(answer["checks"][0]["notes"].dump().find("warning: 1 pairs of faces") != std::string::npos);
+    CHECK(place.check("", "--check volume-faces", status)["checks"][0]["notes"].dump().find("warning") == std::string::npos);
+}
+
+TEST_CASE("Checks that fail for one reason say it once") {
+    const std::string folder = fs::temp_directory_path() / ("elvis-reason-" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    std::ofstream(folder + "/volume.defective") << "defective 1\n0.75\n";
+    const std::string command =
+        "cd '" + folder +
+        "' && ELVIS_DEFECT=nonsense-count '" ELVIS_PROGRAM "' check-plugin '" DEFECTIVE_PLUGIN
+        "' --volume volume.defective --check volume-description --check bounds --check orders >out.txt 2>&1";
+    CHECK(std::system(command.c_str()) != 0);
+    std::stringstream text;
+    text << std::ifstream(folder + "/out.txt").rdbuf();
+    fs::remove_all(folder);
+    INFO(text.str());
+    CHECK(text.str().find("for the same reason as volume-description") != std::string::npos);
+    CHECK(text.str().find("2 further checks failed for the same reason") != std::string::npos);
+}
+
+TEST_CASE("A forgotten origin is told from a wrong mapping") {
+    const Workplace place;
+    int status = -1;
+    const auto forgotten = place.check("no-origin", "--check snippet-values", status)["checks"][0]["findings"].dump();
+    CHECK(forgotten.find("elvis_fill_request.origins") != std::string::npos);
+    const auto wrong = place.check("glsl-shift", "--check snippet-values", status)["checks"][0]["findings"].dump();
+    CHECK(wrong.find("elvis_fill_request.origins") == std::string::npos);
 }
 
 TEST_CASE("Every check has a planted defect") {

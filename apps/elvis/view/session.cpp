@@ -77,6 +77,7 @@ Picture Session::draw(const Scene& scene, const FrameSchedule::Step& step) {
     Picture picture =
         picture_of(frame, annotation_of(scene, request, frame, *m_volume), request.width, request.height);
     picture.camera = request.camera;
+    picture.remarks.insert(picture.remarks.end(), request.remarks.begin(), request.remarks.end());
     picture.is_refinable = has_refinement(request);
     picture.milliseconds = frame.render_milliseconds + milliseconds_since(drawn);
     return picture;
@@ -86,7 +87,7 @@ std::vector<std::string> Session::save_picture(const Scene& scene, const std::st
     need_precision(scene);
     const FrameRequest request = drawn_request(scene);
     Frame frame = m_renderer->render(request);
-    std::vector<std::string> remarks;
+    std::vector<std::string> remarks = request.remarks;
     if (scene.annotation) {
         for (const std::string& name : annotate(frame, make_annotation_request(*scene.annotation, request, frame, *m_volume))) {
             remarks.push_back("annotation: there is no room for the " + name);

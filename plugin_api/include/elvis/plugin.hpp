@@ -16,7 +16,7 @@
  *     ELVIS_PLUGIN(.id = "org.example.reader", .name = "Example reader", .version = "1.0.0",
  *                  .runtime = elvis::api::runtime_table<Volume>());
  *
- * plugins/analytic is a complete example.
+ * A complete example is plugins/analytic, installed as share/doc/ElVis/examples/analytic.
  *
  * Since 1.0.
  */

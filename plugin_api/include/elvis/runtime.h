@@ -57,9 +57,16 @@ typedef struct elvis_element_class {
     elvis_shape shape;
     /** May be 0. */
     uint64_t n_elements;
-    /** Polynomial order of the mapping in each direction, at least 1; 0 0 0 if the mapping is not polynomial. */
+    /**
+     * Polynomial order of the mapping in each direction, at least 1; 0 0 0 if the mapping is not polynomial. For simplices, and for
+     * the triangles of prisms, the largest is the total degree. Never below the true order: `elvis export` writes cells of it, and
+     * mesh lines and bent faces are fitted with it.
+     */
     uint32_t geometry_order[3];
-    /** Non-zero if the mapping is affine in xi (a parallelepiped or straight simplex) for every element of the class. */
+    /**
+     * Non-zero if the mapping is affine in xi (a parallelepiped or straight simplex) for every element of the class. Then mesh lines
+     * are straight, and coordinates in expressions have certified bounds; in doubt leave it 0.
+     */
     uint32_t is_affine;
 } elvis_element_class;
 
@@ -80,7 +87,11 @@ typedef struct elvis_class_field {
     uint32_t n_constants;
     /** Constants of this class and field, orders among them; n_constants entries. */
     const elvis_constant* constants;
-    /** Polynomial order of the field in each direction, or -1 -1 -1 if it is not polynomial in xi. */
+    /**
+     * Polynomial order of the field in each direction, as for geometry_order, or -1 -1 -1 if it is not polynomial in xi. Never below
+     * the true order: `elvis export` writes cells of it. It is also what `order` is in expressions, and what elements are chosen by;
+     * pictures do not rest on it.
+     */
     int32_t order[3];
     uint32_t reserved;
 } elvis_class_field;
@@ -214,9 +225,23 @@ typedef struct elvis_snippet {
     const elvis_text* sources;
 } elvis_snippet;
 
-/** How much a bound or range can be trusted. Where it is an output, the host has set it to ELVIS_ESTIMATED before the call. */
+/**
+ * How much a bound or range can be trusted. Where it is an output, the host has set it to ELVIS_ESTIMATED before the call.
+ *
+ * What has to lie inside, and whose rounding is meant: bounds and ranges are those of the mapping and the field that the data in double
+ * precision stand for, and of these as evaluate_mapping and evaluate_field compute them, whose sums are rounded in double precision. A
+ * sum of n terms c_i phi_i, each phi_i good to a few units in the last place, is off by no more than about
+ *
+ *   n 2^-52 sum over i of |c_i| max |phi_i|
+ *
+ * so a bound that is exact on paper is widened by that, and by the rounding of its own computation. What single precision adds (data
+ * rounded to float in buffers, the snippet's sums), with or without ELVIS_SNIPPET_LOCAL_ORIGIN and ELVIS_SNIPPET_FIELD_OFFSET, is the
+ * host's affair: it looks into every element whose box lies within a few roundings of the point, where rounding is relative to the size
+ * of the element with a local origin and to its coordinates without one. Widening by single precision, too, does no harm but costs time.
+ * get_field_derivative_bounds says by itself what its bounds are to hold for.
+ */
 typedef uint32_t elvis_certainty;
-/** The plugin proves that nothing lies outside, rounding included. */
+/** The plugin proves that nothing lies outside, rounding as above included. */
 #define ELVIS_CERTIFIED 0u
 /** From samples: what is drawn with it is labelled "estimated". */
 #define ELVIS_ESTIMATED 1u

@@ -1,0 +1,55 @@
+// What the page on scenes shows is read as it stands there.
+
+#include <core/scene/color_map.hpp>
+#include <core/scene/scene.hpp>
+#include <tests/support/files.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+using namespace elvis;
+
+namespace {
+
+std::string read_page() {
+    std::stringstream text;
+    text << std::ifstream(ELVIS_SCENE_PAGE).rdbuf();
+    return text.str();
+}
+
+} // namespace
+
+TEST_CASE("Every scene of the page on scenes is read") {
+    const test::TemporaryFolder folder;
+    std::istringstream lines(read_page());
+    int n = 0;
+    bool is_open = false;
+    std::string scene;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind("```", 0) == 0) {
+            if (is_open) {
+                INFO(scene);
+                CHECK_NOTHROW(read_scene(folder.write("scene.json", scene)));
+                ++n;
+            }
+            is_open = !is_open;
+            scene.clear();
+        } else if (is_open) {
+            scene += line + "\n";
+        }
+    }
+    CHECK(n >= 4);
+}
+
+TEST_CASE("The page on scenes and the schema name every colour map") {
+    const std::string page = read_page();
+    const std::string schema(scene_schema_text());
+    for (const std::string& name : color_map_names()) {
+        INFO(name);
+        CHECK(page.find(name) != std::string::npos);
+        CHECK(schema.find(name) != std::string::npos);
+    }
+}
