@@ -6,10 +6,10 @@
  * that direction. So the plugin is evaluated along straight lines through interior points, at more than K + 1 Chebyshev points,
  * and the coefficients beyond T_K must vanish. What follows for a line from `geometry_order` and `order` depends on the shape:
  *
- *   hexahedron, quadrilateral     xi_i: order[i]
- *   prism, tetrahedron, triangle  xi_i: the largest of the orders; oblique lines within the triangle or the tetrahedron too, if
- * the order is that of the total degree, which the interface leaves open: only a note pyramid                       xi1, xi2:
- * the largest of the orders; along xi3 its spaces may be rational
+ *   - hexahedron, quadrilateral: along xi_i, order[i].
+ *   - prism, tetrahedron, triangle: along xi_i, the largest of the orders. Along oblique lines too if the order is that of the total
+ *     degree, which the interface leaves open for fields: a note.
+ *   - pyramid: along xi1 and xi2, the largest of the orders; along xi3 its spaces may be rational.
  *
  * An affine mapping is of degree 1 along every line.
  */
