@@ -358,10 +358,13 @@ void main() {
         const bool is_hit = best_element != CORE_NO_ELEMENT;
         flags |= is_hit ? CORE_FLAG_ISOSURFACE : 0u;
         flags |= is_hit && !best_is_certain ? CORE_FLAG_UNDECIDED : 0u;
-        // Rounding alone: the crossing's own width is that of the piece in which it was found.
+#if ELVIS_REAL_IS_DOUBLE
+        // Rounding alone: the crossing's own width is that of the piece in which it was found. In single precision bounds of rounding say too
+        // little: projection would be as uncertain, and less exact.
         const elvis_real width = core_shown_rounding(is_hit ? best_element : 0u) / abs(dot(elvis_vec3(normal_x, normal_y, normal_z), ray.direction));
         const bool is_blurred = is_hit && CORE_BLUR_SHARE * width * stretch > CORE_DEPTH_TOLERANCE * elvis_real(core_extent);
         flags |= is_blurred ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
+#endif
         if (flags != 0u) {
             core_marks[pixel].flags |= flags;
         }
