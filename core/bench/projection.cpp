@@ -1,5 +1,6 @@
 #include <core/bench/projection.hpp>
 
+#include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 #include <core/bench/plot.hpp>
 #include <core/segment/tables.hpp>
@@ -75,7 +76,7 @@ std::vector<ProjectionRow> bench_projection(const Device& device, const PluginRe
                                      : RuntimeVolume(registry.runtime_for(options.volume), options.volume);
     Renderer renderer(device, volume, Precision::float64);
     const std::array<double, 6> bounds = renderer.bounds();
-    const double diagonal = std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
+    const double diagonal = diagonal_of(bounds);
     const FieldRange range = renderer.field_range({}, 0);
     FrameRequest request = request_of(bounds, diagonal, options.isovalue.value_or(0.5 * (range.lower + range.upper)), options.size);
     Isosurfaces& isosurfaces = std::get<Isosurfaces>(request.surfaces[0].geometry);

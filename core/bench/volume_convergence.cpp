@@ -1,5 +1,6 @@
 #include <core/bench/volume_convergence.hpp>
 
+#include <core/base/bounds.hpp>
 #include <core/bench/composite_rules.hpp>
 #include <core/bench/volume.hpp>
 #include <core/render/renderer.hpp>
@@ -27,10 +28,6 @@ constexpr double largest_tolerance = 0.25;
 
 constexpr std::array<Integrator, 3> stepped{Integrator::riemann, Integrator::trapezoid, Integrator::categories};
 constexpr std::array<Integrator, 2> tolerant{Integrator::adaptive_trapezoid, Integrator::exact};
-
-double diagonal_of(const std::array<double, 6>& bounds) {
-    return std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
-}
 
 std::string text_of(double number) {
     char text[32];

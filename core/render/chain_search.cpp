@@ -1,4 +1,5 @@
 #include <core/render/chain_search.hpp>
+#include <core/base/bounds.hpp>
 
 #include <algorithm>
 #include <array>
@@ -28,10 +29,6 @@ struct SeekParameters {
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
 
-float diagonal(const std::array<double, 6>& bounds) {
-    return static_cast<float>(std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]));
-}
-
 void add_storage_buffers(KernelRequest& request, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
         request.bindings.push_back({static_cast<std::uint32_t>(request.bindings.size()), BindingType::storage_buffer});
@@ -43,7 +40,7 @@ void add_storage_buffers(KernelRequest& request, std::uint32_t count) {
 ChainSearch::ChainSearch(const Device& device, const DeviceVolume& data, const ElementChains& chains, const RuntimeVolume& volume,
                          std::vector<std::pair<std::string, std::string>> defines, bool are_given)
     : m_device(device), m_data(data), m_chains(chains), m_defines(std::move(defines)), m_are_given(are_given),
-      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_extent(diagonal(data.bounds())),
+      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const ClassInfo& info = volume.classes()[index];

@@ -1,8 +1,8 @@
 #include <core/render/isosurface_pass.hpp>
+#include <core/base/bounds.hpp>
 #include <core/render/real_array.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace elvis {
 
@@ -35,10 +35,6 @@ struct Parameters {
     std::uint32_t has_beyond;
     float extent;
 };
-
-float diagonal_of(const std::array<double, 6>& bounds) {
-    return static_cast<float>(std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]));
-}
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
 
@@ -80,7 +76,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
 
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
-      m_extent(diagonal_of(data.bounds())), m_level_set(device, volume, data), m_projection(device),
+      m_extent(static_cast<float>(diagonal_of(data.bounds()))), m_level_set(device, volume, data), m_projection(device),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {

@@ -1,3 +1,4 @@
+#include <core/base/bounds.hpp>
 #include <core/render/pixel_kernel.hpp>
 #include <core/render/real_array.hpp>
 #include <core/render/surface_pass.hpp>
@@ -38,10 +39,6 @@ struct PixelsParameters {
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
-double diagonal_of(const std::array<double, 6>& bounds) {
-    return std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
-}
 
 /** Where a shape is looked for if what lies outside of the volume is shown, too. */
 std::array<double, 6> box_of(const CutShape& shape, const std::array<double, 6>& volume) {

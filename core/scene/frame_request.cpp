@@ -1,5 +1,6 @@
 #include <core/scene/frame_request.hpp>
 
+#include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
 #include <core/scene/color_map.hpp>
@@ -145,7 +146,7 @@ VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Sce
     VolumeRendering rendering;
     rendering.field = choose_field(scene, volume, own.field ? own.field : scene.field, rendering.field_label);
     const std::array<double, 6> bounds = renderer.bounds();
-    const double diagonal = std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
+    const double diagonal = diagonal_of(bounds);
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
     std::array<double, 2> range{};
     if (own.is_colored_by_map()) {

@@ -361,7 +361,8 @@ void main() {
 #if ELVIS_REAL_IS_DOUBLE
         // Rounding alone: the crossing's own width is that of the piece in which it was found. In single precision bounds of rounding say too
         // little: projection would be as uncertain, and less exact.
-        const elvis_real width = core_shown_rounding(is_hit ? best_element : 0u) / abs(dot(elvis_vec3(normal_x, normal_y, normal_z), ray.direction));
+        const elvis_real width = core_shown_rounding(is_hit ? best_element : 0u, elvis_vec3(best_x, best_y, best_z)) /
+                                 abs(dot(elvis_vec3(normal_x, normal_y, normal_z), ray.direction));
         const bool is_blurred = is_hit && CORE_BLUR_SHARE * width * stretch > CORE_DEPTH_TOLERANCE * elvis_real(core_extent);
         flags |= is_blurred ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
 #endif

@@ -34,8 +34,8 @@ core_model core_shown_model(uint element, elvis_vec3 xi, core_patch region, out 
     return model;
 }
 
-// What a value is off at most, whatever is near.
-elvis_real core_shown_rounding(uint element) {
+// What the value at a point is off at most.
+elvis_real core_shown_rounding(uint element, elvis_vec3 xi) {
     elvis_real sum = elvis_real(0);
     for (uint component = core_first_component; component < core_end_component; ++component) {
         sum += core_leaf_bounds(elvis_fetch4_core_bounds(element, component)).y;
@@ -53,7 +53,11 @@ bool core_is_model_estimated(uint element) {
 
 #else
 
-// Of an expression only the model over a patch is known.
-elvis_real core_shown_rounding(uint element) { return elvis_real(0); }
+// Of an expression: what its model leaves over a patch that is a point.
+elvis_real core_shown_rounding(uint element, elvis_vec3 xi) {
+    const elvis_vec3 here = elvis_vec3(0);
+    elvis_real value;
+    return core_shown_model(element, xi, core_patch(here, here, here, here, elvis_real(0), elvis_real(0)), value).remainder;
+}
 
 #endif

@@ -178,7 +178,7 @@ TEST_CASE("Faces in one place without neighbours are noted, and may be a crack")
     const auto answer = place.check("face-crack", "--check volume-faces", status);
     INFO(answer.dump(2));
     CHECK(status == 0);
-    CHECK(answer["checks"][0]["notes"].dump().find("warning: 1 pairs of faces") != std::string::npos);
+    CHECK(answer["checks"][0]["notes"].dump().find("warning: 1 pair of faces") != std::string::npos);
     CHECK(place.check("", "--check volume-faces", status)["checks"][0]["notes"].dump().find("warning") == std::string::npos);
 }
 
