@@ -40,6 +40,7 @@ uint core_first_entry() {
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
 #include "library/show.glsl"
+#include "library/distrust_column.glsl"
 #include "library/locate.glsl"
 
 #if CORE_LINES
@@ -122,9 +123,7 @@ void main() {
 
     // Then no pixel of the column is to be trusted.
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
-    for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
-        core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
-    }
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
 
     if (end_row > first_row) {
         const uint all_evaluations = subgroupAdd(n_evaluations);

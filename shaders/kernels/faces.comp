@@ -25,6 +25,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/pixel_ray.glsl"
 #include "library/face_rays.glsl"
 #include "library/face_surface.glsl"
+#include "library/distrust_column.glsl"
 #include "library/inside.glsl"
 
 #define CORE_STEPS 8u
@@ -190,9 +191,7 @@ void main() {
     }
     // Then no pixel of the column is to be trusted.
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
-    for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
-        core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
-    }
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
     if (end_row > first_row) {
         const uint all_evaluations = subgroupAdd(n_evaluations);
         const uint all_steps = subgroupAdd(n_all_steps);

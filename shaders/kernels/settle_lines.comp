@@ -41,7 +41,7 @@ layout(push_constant) uniform core_parameters {
 };
 
 
-#include "library/driver_limit.glsl"
+#include "library/distrust_column.glsl"
 #include "library/cell.glsl"
 #include "library/own_face.glsl"
 #include "library/surroundings.glsl"
@@ -150,9 +150,7 @@ void main() {
 
     // Then no pixel of the column is to be trusted.
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_class >> 31));
-    for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
-        core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
-    }
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
     if (end_row > first_row) {
         const uint all_evaluations = subgroupAdd(n_evaluations);
         if (subgroupElect()) {

@@ -12,7 +12,6 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "library/cut_frame.glsl"
-#include "library/driver_limit.glsl"
 #include "library/surface_hit.glsl"
 
 struct core_hit_record {
@@ -41,6 +40,8 @@ layout(push_constant) uniform core_parameters {
 };
 
 shared float core_lane_boxes[6 * CORE_TILE_WIDTH];
+
+#include "library/distrust_column.glsl"
 
 // The next pixel of a column that is still looking, from a row on.
 uint core_next_row(uint column, uint row, uint end_row) {
@@ -145,9 +146,7 @@ void main() {
 
     // Then no pixel of the column is to be trusted.
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
-    for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
-        core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
-    }
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
 
     const uint lane = gl_LocalInvocationID.x;
     core_lane_boxes[lane] = low_x;

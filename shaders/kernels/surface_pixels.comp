@@ -50,6 +50,7 @@ elvis_vec3 core_normal_here;
 #define CORE_SURFACE_NORMAL core_normal_here
 
 #include "library/show.glsl"
+#include "library/distrust_column.glsl"
 #include "library/locate.glsl"
 
 // The column's next pixel with a crossing of this round, from a row on.
@@ -112,9 +113,7 @@ void main() {
 
     // Then no pixel of the column is to be trusted.
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
-    for (uint i = first_row; i < (is_cut_short ? end_row : first_row); ++i) {
-        core_marks[i * core_size.x + column].flags |= CORE_FLAG_WORK_LIMIT;
-    }
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
 
     if (end_row > first_row) {
         const uint all_evaluations = subgroupAdd(n_evaluations);

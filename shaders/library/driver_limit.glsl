@@ -1,3 +1,6 @@
+#ifndef CORE_DRIVER_LIMIT
+#define CORE_DRIVER_LIMIT
+
 // Whether the driver has ended a loop, of the snippet too, before it was done: then this one ends before its second turn. `zero`:
 // zero, but not so that a compiler could know.
 bool core_has_driver_given_up(uint zero) {
@@ -7,3 +10,5 @@ bool core_has_driver_given_up(uint zero) {
     }
     return canary < 2u;
 }
+
+#endif
