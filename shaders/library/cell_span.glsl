@@ -31,3 +31,24 @@ vec2 core_cell_inside(core_level_cell cell, vec3 start, vec3 motion, float toler
 vec2 core_cell_level_span(core_level_cell cell, vec3 start, vec3 motion, float tolerance, vec2 span) {
     return core_level_part(cell.value + dot(cell.slope, start), dot(cell.slope, motion), core_cell_error(cell, tolerance), span);
 }
+
+struct core_cell_part {
+    // The ray goes through the cell before the end; it can meet an isovalue there.
+    bool is_inside, is_met;
+    vec2 span;
+    // The span's middle.
+    vec3 xi;
+};
+
+core_cell_part core_cell_part_of(core_level_cell cell, core_ray ray, float end_t) {
+    const vec3 start = core_cell_turn(cell, ray.box_origin - cell.middle);
+    const vec3 motion = core_cell_turn(cell, vec3(ray.direction));
+    const float tolerance = core_cell_tolerance(cell, ray.far);
+    const vec2 inside = core_cell_inside(cell, start, motion, tolerance, vec2(float(ray.least_t), end_t));
+    core_cell_part part;
+    part.span = core_cell_level_span(cell, start, motion, tolerance, inside);
+    part.is_inside = inside.x <= inside.y;
+    part.is_met = part.is_inside && part.span.x <= part.span.y;
+    part.xi = core_cell_middle(cell.code) + cell.size * (start + 0.5 * (part.span.x + part.span.y) * motion);
+    return part;
+}

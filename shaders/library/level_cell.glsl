@@ -12,6 +12,9 @@
 //
 // The curvature is that of library/prediction.glsl in the cell. Where there is no linearization, y is of the element's box, size is zero, and the error CORE_LEVEL_UNKNOWN.
 
+#ifndef CORE_LEVEL_CELL
+#define CORE_LEVEL_CELL
+
 #define CORE_LEVEL_UNKNOWN 3e38
 // Of single precision, in x and in all that is computed of y.
 #define CORE_CELL_ROUNDING (32.0 * CORE_FLOAT_ROUNDOFF)
@@ -71,5 +74,7 @@ float core_cell_tolerance(core_level_cell cell, float far) {
 float core_cell_error(core_level_cell cell, float tolerance) {
     return cell.error + tolerance * dot(abs(cell.slope), vec3(1));
 }
+
+#endif
 
 #endif
