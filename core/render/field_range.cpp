@@ -16,9 +16,12 @@ constexpr std::uint64_t block = 65536;
 constexpr std::uint32_t group_size = 32;
 /** Elements of one dispatch: bounds its time. */
 constexpr std::uint32_t elements_a_dispatch = 65536;
+/** shaders/kernels/field_range.comp */
+constexpr std::uint32_t n_points = 343, points_a_dispatch = 7;
 
 struct Parameters {
     std::uint32_t first, n_elements, component;
+    std::uint32_t first_point, end_point;
 };
 
 void include(FieldRange& range, double lower, double upper) {
@@ -59,6 +62,7 @@ std::vector<FieldRange> ranges_from_samples(const Device& device, const RuntimeV
         KernelRequest request;
         request.name = "field_range of element class " + std::to_string(index);
         request.kernel = "kernels/field_range.comp";
+        request.watches_loops = true;
         request.precision = data.precision();
         request.buffers = data.host_buffers(index);
         data.add_field(request, index);
@@ -70,8 +74,10 @@ std::vector<FieldRange> ranges_from_samples(const Device& device, const RuntimeV
         for (std::uint32_t component = 0; component < n_components; ++component) {
             for (std::uint32_t first = 0; first < n_elements; first += elements_a_dispatch) {
                 const std::uint32_t count = std::min(elements_a_dispatch, n_elements - first);
-                const Parameters parameters{first, count, component};
-                kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
+                for (std::uint32_t point = 0; point < n_points; point += points_a_dispatch) {
+                    const Parameters parameters{first, count, component, point, point + points_a_dispatch};
+                    kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
+                }
                 const auto take = [&](const auto& numbers) {
                     for (std::size_t at = 0; at < numbers.size(); at += 2) {
                         if (numbers[at] <= numbers[at + 1]) {
@@ -106,6 +112,7 @@ double rounding_of_expression(const Device& device, const RuntimeVolume& volume,
         KernelRequest request;
         request.name = "expression_error of element class " + std::to_string(index);
         request.kernel = "kernels/expression_error.comp";
+        request.watches_loops = true;
         request.precision = data.precision();
         request.buffers = data.host_buffers(index);
         data.add_field(request, index);

@@ -33,8 +33,8 @@ public:
     /** Merges the coloured layer of surface number `surface`, counted from 1. beyond() tells where what is wanted is. */
     Wanted merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through);
 
-    /** Depths behind which the layer merged last is wanted, one real a pixel. */
-    const Buffer& beyond() const { return *m_beyond; }
+    /** Depths behind which the layer merged last is wanted, one real a pixel; null if nothing was merged. */
+    const Buffer* beyond() const { return m_beyond.get(); }
 
     /** Puts the transparent layers over the picture. */
     void finish();

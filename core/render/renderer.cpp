@@ -299,7 +299,7 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
         } else {
             wanted = {wanted.n_pixels, 0, layer->height};
         }
-        beyond = &merge_pass.beyond();
+        beyond = merge_pass.beyond();
     }
     frame.counts.work_limit_pixels += wanted.n_pixels;
 }

@@ -315,6 +315,15 @@ std::string instances_text(const KernelRequest& request, const Records& records)
     return text;
 }
 
+/** Behind the kernel's own bindings and those of the records. */
+std::uint32_t watch_binding(const KernelRequest& request, const Records& records) {
+    auto binding = static_cast<std::uint32_t>(request.bindings.size());
+    for (const RecordBuffer* buffer : records.all()) {
+        binding += buffer->n_parts();
+    }
+    return binding;
+}
+
 std::string compose(const Device* device, const KernelRequest& request, const Records& records) {
     assert(device || records.all().empty());
     std::string text = header(request);
@@ -341,7 +350,13 @@ std::string compose(const Device* device, const KernelRequest& request, const Re
     text += instances_text(request, records);
     text += expand_includes(request.text, "(" + request.name + ")", shader_source);
     const std::string_view kernel = request.kernel_text.empty() ? shader_source(request.kernel) : request.kernel_text;
-    return text + expand_includes(kernel, request.kernel, shader_source);
+    if (!request.watches_loops) {
+        return text + expand_includes(kernel, request.kernel, shader_source);
+    }
+    constexpr const char* watched_main = "library/watched_main.glsl";
+    return text + "#define main core_kernel_main\n" + expand_includes(kernel, request.kernel, shader_source) + "\n#undef main\n" +
+           "#define CORE_WATCH_BINDING " + std::to_string(watch_binding(request, records)) + "\n" +
+           expand_includes(shader_source(watched_main), watched_main, shader_source);
 }
 
 /** Descriptors of the record buffers: all parts of all buffers, behind the kernel's own bindings. */
@@ -366,6 +381,9 @@ Kernel make_kernel(const Device& device, const KernelRequest& request) {
         layout.push_back(
             {bound.binding, device.uses_texel_buffers() ? BindingType::texel_buffer : BindingType::storage_buffer});
     }
+    if (request.watches_loops) {
+        layout.push_back({watch_binding(request, records), BindingType::storage_buffer});
+    }
     const auto spirv = compile_shader(compose(&device, request, records), request.name);
     return Kernel(device, spirv, std::move(layout), request.push_constant_bytes, request.name);
 }
@@ -385,10 +403,16 @@ std::string snippet_names(const KernelRequest& request) {
 } // namespace
 
 ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request)
-    : m_kernel(make_kernel(device, request)), m_snippets(snippet_names(request)),
-      m_records(record_bindings(request, Records(request))), m_n_bindings(request.bindings.size()) {}
+    : m_kernel(make_kernel(device, request)), m_name(request.name), m_snippets(snippet_names(request)),
+      m_records(record_bindings(request, Records(request))), m_n_bindings(request.bindings.size()) {
+    if (request.watches_loops) {
+        m_watch.emplace(Watch{watch_binding(request, Records(request)), Buffer(device, sizeof(std::uint32_t))});
+        m_watch->is_cut_short.fill(0);
+    }
+}
 
-template <class Call> void ComposedKernel::naming_snippets(const Call& call) const {
+template <class Call> void ComposedKernel::watched(const Call& call) const {
+    const std::string evaluates = m_snippets.empty() ? "" : " [the kernel evaluates the plugin's " + m_snippets + "; ";
     try {
         call();
     } catch (const Cancelled&) {
@@ -398,19 +422,24 @@ template <class Call> void ComposedKernel::naming_snippets(const Call& call) con
         if (m_snippets.empty()) {
             throw;
         }
-        throw Error(error.place(), error.cause() + " [the kernel evaluates the plugin's " + m_snippets +
-                                       "; elvis check-plugin looks for endless loops there]");
+        throw Error(error.place(), error.cause() + evaluates + "elvis check-plugin looks for endless loops there]");
+    }
+    if (m_watch && m_watch->is_cut_short.read_items<std::uint32_t>(1).front() != 0) {
+        m_watch->is_cut_short.fill(0);
+        throw Error("kernel '" + m_name + "'", "the driver has ended its loops early: nothing of it is to be trusted" +
+                                                   (m_snippets.empty() ? "" : evaluates + "drivers may grant all loops of an invocation "
+                                                                                          "65535 turns, which high orders use up]"));
     }
 }
 
 void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
                               std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
-    naming_snippets([&] { m_kernel.dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
+    watched([&] { m_kernel.dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
 }
 
 void ComposedKernel::dispatch_from(std::uint32_t first_x, std::span<const Buffer* const> bindings,
                                    std::span<const std::byte> push_constants, std::uint32_t groups_x, std::uint32_t groups_y) const {
-    naming_snippets([&] { m_kernel.dispatch_from({first_x, 0, 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
+    watched([&] { m_kernel.dispatch_from({first_x, 0, 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
 }
 
 std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {
@@ -418,6 +447,9 @@ std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bi
     std::vector<BoundBuffer> all = m_records;
     for (std::uint32_t binding = 0; binding < bindings.size(); ++binding) {
         all.push_back({binding, bindings[binding], nullptr, 0});
+    }
+    if (m_watch) {
+        all.push_back({m_watch->binding, &m_watch->is_cut_short, nullptr, 0});
     }
     return all;
 }

@@ -10,6 +10,7 @@
  *   3. fetch functions for every record buffer of host and instances (core/shader/fetch.hpp), and the host's elvis_fetch_NAME
  *   4. the instances, the first one last; then the request's text
  *   5. the kernel's file, whose #includes reach everything below shaders/
+ *   6. if the request watches loops, library/watched_main.glsl
  *
  * An instance is: ELVIS_SHAPE, ELVIS_N_COMPONENTS and ELVIS_HAS_... (FIELD_GRADIENT, MAPPING_JACOBIAN, INVERSE_MAPPING,
  * FIELD_OFFSET, LOCAL_ORIGIN, FIELD_HESSIAN, MAPPING_HESSIAN, INSIDE: 0 or 1); elvis_origin; the fetch macros of its buffers; its
@@ -36,6 +37,7 @@
 #include <core/vulkan/buffer.hpp>
 #include <core/vulkan/kernel.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -75,6 +77,9 @@ struct KernelRequest {
     std::string text;
     /** Whether elvis_field_hessian and elvis_mapping_hessian are called; without it they need not exist. */
     bool with_second_derivatives = false;
+    /** Drivers may end loops early, without a word, once those of one invocation have taken many turns. Then dispatch() throws an Error:
+     * for kernels that do not mark by themselves what cannot be trusted (shaders/library/driver_limit.glsl). */
+    bool watches_loops = false;
     /** Snippets are watched: outputs never written, loops without end (core/shader/poison.hpp), indices out of range
      * (core/shader/index_checks.hpp). */
     bool is_debug_build = false;
@@ -106,14 +111,21 @@ public:
 
 private:
     std::vector<BoundBuffer> bound(std::span<const Buffer* const> bindings) const;
-    /** Runs a call; an Error that it throws, but for Cancelled, is given the names of the snippets. */
-    template <class Call> void naming_snippets(const Call& call) const;
+    /** Dispatches by a call; an Error that it throws, but for Cancelled, is given the names of the snippets. */
+    template <class Call> void watched(const Call& call) const;
 
     Kernel m_kernel;
+    std::string m_name;
     /** The snippets in it, for messages: their texts' names. */
     std::string m_snippets;
     std::vector<BoundBuffer> m_records;
     std::size_t m_n_bindings;
+    /** Only of kernels that are watched: what is not 0 once a loop was ended early. */
+    struct Watch {
+        std::uint32_t binding;
+        Buffer is_cut_short;
+    };
+    std::optional<Watch> m_watch;
 };
 
 /** The complete GLSL text of a request, for messages and tests. */

@@ -23,8 +23,12 @@ constexpr double beyond = 3e38;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/** shaders/kernels/derivative_bounds.comp, which stops where a shape has fewer. */
+constexpr std::uint32_t most_points = 64, points_a_dispatch = 4;
+
 struct Parameters {
     std::uint32_t first, n_elements, component;
+    std::uint32_t first_point, end_point;
 };
 
 /** A row of the record. */
@@ -81,10 +85,13 @@ public:
     /** Fills what the rows of one component lack. */
     void complete(std::uint64_t first, std::uint64_t count, std::uint32_t component, std::uint32_t n_components,
                   std::vector<Row>& rows) const {
-        const Parameters parameters{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), component};
         const std::array<const Buffer*, 1> bindings = {&m_output};
-        m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                          (parameters.n_elements + group_size - 1) / group_size);
+        for (std::uint32_t point = 0; point < most_points; point += points_a_dispatch) {
+            const Parameters parameters{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), component, point,
+                                        point + points_a_dispatch};
+            m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                              (parameters.n_elements + group_size - 1) / group_size);
+        }
         const auto take = [&](const auto& numbers) {
             for (std::uint64_t element = 0; element < count; ++element) {
                 Row& row = rows[element * n_components + component];
@@ -110,6 +117,7 @@ private:
         KernelRequest request;
         request.name = name;
         request.kernel = "kernels/derivative_bounds.comp";
+        request.watches_loops = true;
         request.precision = precision;
         request.instances = {instance};
         request.bindings = {{0, BindingType::storage_buffer}};

@@ -26,6 +26,7 @@ std::vector<float> write_elements(const Device& device, const RuntimeVolume& vol
     KernelRequest request;
     request.name = "linearize of element class " + std::to_string(element_class);
     request.kernel = "kernels/linearize.comp";
+    request.watches_loops = true;
     request.precision = precision;
     request.instances = {instance};
     request.bindings = {{0, BindingType::storage_buffer}};

@@ -25,6 +25,7 @@ std::unique_ptr<RecordBuffer> measure_face_cones(const Device& device, const Run
     KernelRequest request;
     request.name = "face_cones of element class " + std::to_string(element_class);
     request.kernel = "kernels/face_cones.comp";
+    request.watches_loops = true;
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
     request.bindings = {{0, BindingType::storage_buffer}};

@@ -30,6 +30,7 @@ LevelModels::LevelModels(const Device& device, const RuntimeVolume& volume, cons
         KernelRequest request;
         request.name = "level_models of element class " + std::to_string(index);
         request.kernel = "kernels/level_models.comp";
+        request.watches_loops = true;
         request.precision = data.precision();
         data.add_field(request, index, true);
         request.bindings = {{0, BindingType::storage_buffer}};

@@ -132,6 +132,7 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
         KernelRequest request;
         request.name = "level_models of element class " + std::to_string(index);
         request.kernel = "kernels/level_models.comp";
+        request.watches_loops = true;
         request.precision = data.precision();
         data.add_field(request, index, true);
         request.bindings = {{0, BindingType::storage_buffer}};
@@ -143,6 +144,7 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
         levels.cells = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_cells, cell_size);
         request.name = "level_cells of element class " + std::to_string(index);
         request.kernel = "kernels/level_cells.comp";
+        request.watches_loops = true;
         request.bindings.push_back({1, BindingType::storage_buffer});
         request.bindings.push_back({2, BindingType::storage_buffer});
         request.push_constant_bytes = sizeof(CellParameters);

@@ -3,16 +3,18 @@
 // Samples lie in collapsed coordinates at a grid of 4 x 4 x 4 points, where polynomials are steepest near the ends. Second
 // derivatives along each collapsed direction come from the difference to the gradient at a point CORE_STEP further inside. With the
 // steps d_k in xi and the differences g_k of the gradients, the second derivatives are the matrix M with M d_k = g_k.
+//
+// A few points in a dispatch, from the first on: drivers end loops that take many turns, those of an evaluation among them.
 
 #include "library/expand.glsl"
 #include "library/finite.glsl"
 
 layout(local_size_x = 32) in;
-layout(set = 0, binding = 0, std430) writeonly buffer core_output {
+layout(set = 0, binding = 0, std430) buffer core_output {
     // Three an element: sum of second derivatives, sum of slopes, size. 3e38 stands for what is not finite.
     elvis_real core_largest[];
 };
-layout(push_constant) uniform core_parameters { uint core_first, core_n_elements, core_component; };
+layout(push_constant) uniform core_parameters { uint core_first, core_n_elements, core_component, core_first_point, core_end_point; };
 
 #define CORE_STEP elvis_real(0.1LF)
 #if ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL || ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
@@ -40,11 +42,15 @@ void main() {
         return;
     }
     const elvis_real one = elvis_real(1);
-    elvis_real bend = elvis_real(0), slope = elvis_real(0), size = elvis_real(0);
-    bool is_sound = true;
+    const elvis_real beyond = elvis_real(3.0e38LF);
+    const bool is_first = core_first_point == 0u;
+    elvis_real bend = is_first ? elvis_real(0) : core_largest[3u * index];
+    elvis_real slope = is_first ? elvis_real(0) : core_largest[3u * index + 1u];
+    elvis_real size = is_first ? elvis_real(0) : core_largest[3u * index + 2u];
+    bool is_sound = max(max(bend, slope), size) < beyond;
     elvis_vec3 here = elvis_vec3(0), gradient_here = elvis_vec3(0);
     elvis_vec3 step1 = elvis_vec3(1, 0, 0), step2 = elvis_vec3(0, 1, 0), change1 = elvis_vec3(0), change2 = elvis_vec3(0);
-    for (uint turn = 0u; turn < 4u * CORE_N_POINTS; ++turn) {
+    for (uint turn = 4u * core_first_point; turn < 4u * min(core_end_point, CORE_N_POINTS); ++turn) {
         const uint place = turn >> 2, direction = turn & 3u;
         const elvis_vec3 node = elvis_vec3(place & 3u, (place >> 2) & 3u, place >> 4);
         elvis_vec3 eta = node * (elvis_real(2) / elvis_real(3)) - elvis_vec3(1);
@@ -86,7 +92,6 @@ void main() {
         is_sound = is_sound && (direction != 3u || core_is_finite(sum));
         bend = direction == 3u ? max(bend, sum) : bend;
     }
-    const elvis_real beyond = elvis_real(3.0e38LF);
     core_largest[3u * index] = is_sound ? bend : beyond;
     core_largest[3u * index + 1u] = is_sound ? slope : beyond;
     core_largest[3u * index + 2u] = is_sound ? size : beyond;

@@ -7,6 +7,7 @@ layout(local_size_x = 32) in;
 #include "library/cut_frame.glsl"
 #include "library/hierarchy.glsl"
 #include "library/ray_tiles.glsl"
+#include "library/driver_limit.glsl"
 
 // What stands for a leaf: its item, or the node.
 #ifndef CORE_LEAF_WORD
@@ -86,6 +87,12 @@ void main() {
             break;
         }
     }
+    // Then pixels descend from the root.
+    const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_n_tiles >> 31));
+    words[0] = is_cut_short ? CORE_TILE_INNER : words[0];
+    entries[0] = is_cut_short ? -3e38 : entries[0];
+    n_entries = is_cut_short ? 1u : n_entries;
+    n_inner = is_cut_short ? 1u : n_inner;
     const uint first = tile * CORE_TILE_STRIDE;
     if (is_wanted) {
         core_tiles[first] = n_entries | (n_inner > 0u ? CORE_TILE_INNER : 0u);

@@ -6,6 +6,7 @@ layout(local_size_x = 32) in;
 #include "library/precision.glsl"
 #include "library/hierarchy.glsl"
 #include "library/cut_tiles.glsl"
+#include "library/driver_limit.glsl"
 
 layout(std430, set = 0, binding = 0) readonly buffer core_boxes_block { float core_boxes[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer core_output { uint core_tiles[]; };
@@ -58,7 +59,12 @@ void main() {
             break;
         }
     }
+    // Then pixels descend from the root.
+    const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_n_tiles >> 31));
+    if (is_cut_short) {
+        core_tiles[first] = 0u;
+    }
     if (is_wanted) {
-        core_tiles[tile * CORE_TILE_STRIDE] = n_entries;
+        core_tiles[tile * CORE_TILE_STRIDE] = is_cut_short ? 1u : n_entries;
     }
 }

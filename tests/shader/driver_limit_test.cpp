@@ -1,6 +1,8 @@
 // Drivers may end loops that take many turns, without a word: what kernels that draw columns of pixels make of it.
 #include "fixture.hpp"
 
+#include <core/base/error.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <array>
@@ -96,5 +98,44 @@ TEST_CASE("pixels that a driver has cut short are marked, in every row of a colu
         } else {
             WARN(n_short << " of " << columns.marks.size() << " pixels cut short by the driver");
         }
+    }
+}
+
+TEST_CASE("a kernel that is watched fails where a driver has ended its loops, and only there") {
+    const test::CacheFolder cache;
+    const Device device;
+    KernelRequest request;
+    request.name = "long loop";
+    request.kernel = "long_loop";
+    request.kernel_text = R"(
+layout(local_size_x = 1) in;
+layout(std430, set = 0, binding = 0) buffer turns_block { uint n_turns; };
+layout(push_constant) uniform parameters { uint wanted; };
+void main() {
+    n_turns = 0u;
+    for (uint i = 0u; i < wanted; ++i) {
+        n_turns += 1u + n_turns / 100000u;
+    }
+}
+)";
+    request.bindings = {{0, BindingType::storage_buffer}};
+    request.push_constant_bytes = sizeof(std::uint32_t);
+    request.watches_loops = true;
+    const ComposedKernel kernel(device, request);
+    const Buffer turns(device, sizeof(std::uint32_t));
+    const std::array<const Buffer*, 1> bindings{&turns};
+    // The last one sees that a failure is not remembered.
+    for (const std::uint32_t wanted : {1000u, 90'000u, 1000u}) {
+        CAPTURE(wanted);
+        bool has_failed = false;
+        try {
+            kernel.dispatch(bindings, std::as_bytes(std::span(&wanted, 1)), 1);
+        } catch (const Error& error) {
+            has_failed = true;
+            CHECK(std::string(error.what()).find("kernel 'long loop'") != std::string::npos);
+            CHECK(std::string(error.what()).find("ended its loops early") != std::string::npos);
+        }
+        CHECK(has_failed == (turns.read_items<std::uint32_t>(1).front() < wanted));
+        CHECK((wanted > 1000 || !has_failed));
     }
 }
