@@ -17,7 +17,7 @@ struct core_segment {
 };
 #define CORE_ESTIMATED_SEGMENT 0x80000000u
 // core_capacity of them a ray.
-layout(set = 0, binding = 2, std430) writeonly buffer core_segments_block { core_segment core_segments[]; };
+layout(set = 0, binding = 2, std430) buffer core_segments_block { core_segment core_segments[]; };
 // Rays that this dispatch has moved, segments, evaluations, overlaps, failures, estimated segments, breaks of chains, rays whose list is
 // full.
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
@@ -56,7 +56,7 @@ void main() {
     const core_walk_ray ray = core_walk_ray_of(core_chain_ray(column, row, index), elvis_real(core_extent));
     const elvis_real to = core_chain_ray_end(index);
     core_chain chain = core_chain(state.done, state.chain, state.start, state.start_element, state.element,
-                                  is_ray ? state.status : CORE_RAY_ENDS, 0u, false, false, false);
+                                  is_ray ? state.status : CORE_RAY_ENDS, 0u, false, false, false, false);
     bool is_mine;
     bool goes = core_chain_begin(chain, to, CORE_RAY_ENDS, is_mine);
     elvis_real done_error = state.done_error, chain_error = state.chain_error, sum = state.sum;
@@ -88,7 +88,13 @@ void main() {
             const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
             // What was settled before but for rounding does not count.
             const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
-            const bool is_estimated = part.is_estimated || (is_joined && is_done_estimated);
+            // Where the ray has left the element before is somewhere on the way to here.
+            const bool is_uncertain = chain.is_ahead && (chain.n_lost > 1u || part.leave <= chain.at + ray.tolerance);
+            if (is_uncertain && n_segments > 0u && core_capacity > 0u) {
+                core_segments[index * core_capacity + n_segments - 1u].element |= CORE_ESTIMATED_SEGMENT;
+            }
+            const bool is_own_estimated = part.is_estimated || is_uncertain;
+            const bool is_estimated = is_own_estimated || (is_joined && is_done_estimated);
             if (is_segment && core_capacity > 0u) {
                 const uint word = chain.element | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
                 core_segments[index * core_capacity + n_segments] =
@@ -99,7 +105,7 @@ void main() {
             n_made += is_segment ? 1u : 0u;
             n_estimated += is_segment && is_estimated ? 1u : 0u;
             chain.done = is_segment ? until : chain.done;
-            is_done_estimated = is_segment ? part.is_estimated : is_done_estimated || (reach.is_met && part.is_estimated);
+            is_done_estimated = is_segment ? is_own_estimated : is_done_estimated || is_uncertain || (reach.is_met && part.is_estimated);
             done_error = is_segment ? leave_error : done_error;
             chain_error = leave_error;
             is_first = is_first && chain.needs_roughly;

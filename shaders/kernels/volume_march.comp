@@ -92,7 +92,7 @@ void main() {
 
     uint flags = 0u;
     core_chain chain = core_chain(state.done, state.chain, state.start, state.start_element, state.element,
-                                  is_pixel ? state.status : CORE_RAY_ENDS, 0u, false, false, false);
+                                  is_pixel ? state.status : CORE_RAY_ENDS, 0u, false, false, false, false);
     bool is_mine;
     bool goes = core_chain_begin(chain, to, status_at_end, is_mine);
     elvis_real step = state.step;

@@ -31,6 +31,8 @@ struct core_chain {
     bool needs_roughly, needs_element;
     // Where it leaves is known already, roughly.
     bool has_part;
+    // It has been moved ahead, to where the element around it was found.
+    bool is_ahead;
 };
 
 #endif

@@ -179,6 +179,7 @@ core_reach core_chain_reach(core_walk_ray ray, inout core_chain chain, inout cor
 // The next element, where the ray has left this one. `from`: up to where it was settled when it came in.
 void core_chain_go_on(core_walk_ray ray, inout core_chain chain, core_part part, core_reach reach, elvis_real from) {
     bool stays = chain.needs_roughly;
+    chain.is_ahead = chain.is_ahead && stays;
     chain.at = stays ? chain.at : reach.leave;
     const uint next = elvis_fetch_core_links(chain.element - core_first_element, uint(max(part.leave_face, 0)));
     // Elements on both sides of a face that the ray grazes may hand it to and fro.
@@ -205,6 +206,7 @@ void core_chain_help(core_walk_ray ray, inout core_chain chain, inout core_part 
         const uint found = core_find_around(ray, chain.element - core_first_element, probe, other);
         chain.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
         chain.at = probe;
+        chain.is_ahead = true;
         chain.status = chain.element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
     }
     chain.needs_roughly = chain.needs_element = false;
