@@ -16,7 +16,7 @@ shared uint core_taken[CORE_MASKS];
 shared uint core_group_words[CORE_TILE_CAPACITY];
 shared float core_group_entries[CORE_TILE_CAPACITY];
 
-// Of those before `end`.
+// Number of entries before `end` that are taken over.
 uint core_n_taken(uint end) {
     uint n = 0u;
     for (uint i = 0u; i < CORE_MASKS; ++i) {
