@@ -70,6 +70,19 @@ TEST_CASE("ends of segments lie on the elements' boundaries, and nothing is miss
     check(file.path(), GENERATE(Precision::float32, Precision::float64), 60);
 }
 
+TEST_CASE("ends that rounding has blurred are marked as estimates", "[segments]") {
+    // Enough rays that some are led past an edge, and ends there are off by more than is promised.
+    const TemporaryFile file("torus.h5");
+    generate(R"({"generator": 1, "mesh": "torus", "shape": "hexahedron", "elements": [4, 4, 12], "geometry_order": 2, "order": 1,)"
+             R"( "field": "waves"})",
+             file.path());
+    const SegmentAccuracy r =
+        measure_segments(device(), open_volume(file.path()), Volume(read_volume(file.path())), Precision::float32, 10'000, 0, 7);
+    CHECK(r.chord_error > 1e-6);
+    CHECK(r.n_beyond == 0);
+    CHECK(r.counts.estimated < r.n_segments / 40);
+}
+
 TEST_CASE("classes of elements are merged along the ray", "[segments]") {
     const TemporaryFile file("mixed.h5");
     write_volume(file.path(), mixed_volume(3, 1, first_coordinate));
