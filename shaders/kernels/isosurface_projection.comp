@@ -61,7 +61,6 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #include "library/segment_polynomial.glsl"
 #include "library/segment_colleague.glsl"
 
-#define CORE_NO_ELEMENT 0xffffffffu
 // Turns of a pixel, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
 // Parts of a ray in one element.
@@ -101,6 +100,7 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #define CORE_PHASE_PIECE_DONE 5u
 #define CORE_PHASE_PART_DONE 6u
 
+#include "library/nearest_crossing.glsl"
 #include "library/segment_candidate.glsl"
 #include "library/segment_pieces.glsl"
 
@@ -150,17 +150,9 @@ void main() {
     uint polish_turns = 0u;
     elvis_real last_step = CORE_FAR;
 
-    // The nearest crossing so far; of another class, its depth. The nearest place that is undecided.
-    elvis_real best_t = CORE_FAR, best_slack = elvis_real(0), best_x = elvis_real(0), best_y = best_x, best_z = best_x, best_isovalue = best_x;
-    elvis_real normal_x = best_x, normal_y = best_x, normal_z = best_x, best_bend = CORE_FAR, undecided_t = CORE_FAR;
-    uint best_element = CORE_NO_ELEMENT, best_number = CORE_NO_NUMBER;
-    bool best_is_certain = true;
-    const bool was_hit = is_pixel && core_marks[pixel].owner != 0u;
-    if (was_hit) {
-        best_t = core_samples[pixel].depth / stretch - along.reference_distance;
-        best_number = core_samples[pixel].number;
-        best_slack = elvis_real(16) * CORE_ROUNDOFF * core_samples[pixel].depth;
-    }
+    core_nearest nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
+    // The nearest place that is undecided.
+    elvis_real undecided_t = CORE_FAR;
     uint n_evaluations = 0u, n_certified = 0u, n_verified = 0u, n_undecided = 0u, n_crossings = 0u, n_failures = 0u, n_pieces = 0u;
     uint n_degrees = 0u;
 
@@ -172,7 +164,7 @@ void main() {
             const core_node node = core_fetch_node(stack[stack_size]);
             vec2 span = core_box_span(node, ray);
             span.x = max(span.x, float(ray.least_t));
-            span.y = min(span.y, float(best_t + best_slack));
+            span.y = min(span.y, float(core_nearest_end(nearest)));
             const bool is_touched = span.x <= span.y;
             if (is_touched && !node.is_leaf) {
                 const vec2 one = core_box_span(core_fetch_node(node.child), ray), other = core_box_span(core_fetch_node(node.child + 1u), ray);
@@ -348,8 +340,6 @@ void main() {
             const elvis_real slack = walk_ray.tolerance + elvis_real(0.25LF) * half_width;
             const elvis_real outside = max(part_from - root_t, root_t - part_to);
             const bool is_inside = outside <= slack;
-            // As near to a face as rounding moves it, a crossing is certain only if another element has it, too: beyond the face
-            // there may be nothing.
             const bool is_surely_inside = root_t >= part.enter + part.enter_error + slack && root_t <= part.leave - part.leave_error - slack;
             const bool is_behind_start = root_t > ray.least_t + ray.widths_behind * half_width && root_t > ray.least_t;
             const bool is_hit = is_settled && is_confirmed && is_inside && is_behind_start;
@@ -363,26 +353,14 @@ void main() {
             n_undecided += is_undecided ? 1u : 0u;
             undecided_t = is_undecided ? min(undecided_t, from + candidate.t * (to - from)) : is_blurred ? min(undecided_t, root_t) : undecided_t;
 
-            const uint number = elvis_fetch_core_elements(element, 0u);
-            const bool is_same = abs(root_t - best_t) <= max(half_width, best_slack);
-            const bool is_better = is_hit && (is_same ? number < best_number : root_t < best_t);
-            const bool is_shared = is_same && best_element != element;
-            best_is_certain = is_better ? is_surely_inside || is_shared : best_is_certain || (is_hit && is_shared);
             const elvis_vec3 gradient = found.gradient.x * found.frame.row0 + found.gradient.y * found.frame.row1 + found.gradient.z * found.frame.row2;
             const elvis_vec3 point = found.xi + found.q + (root_t - t) * found.w;
-            best_element = is_better ? element : best_element;
-            best_number = is_better ? number : best_number;
-            best_t = is_better ? root_t : best_t;
-            best_slack = is_better ? half_width : best_slack;
-            best_x = is_better ? point.x : best_x;
-            best_y = is_better ? point.y : best_y;
-            best_z = is_better ? point.z : best_z;
-            best_isovalue = is_better ? isovalue : best_isovalue;
-            normal_x = is_better ? gradient.x : normal_x;
-            normal_y = is_better ? gradient.y : normal_y;
-            normal_z = is_better ? gradient.z : normal_z;
             const elvis_real inverse_square = dot(found.frame.row0, found.frame.row0) + dot(found.frame.row1, found.frame.row1) + dot(found.frame.row2, found.frame.row2);
-            best_bend = is_better ? inverse_square * bend_here / length(gradient) : best_bend;
+            core_nearest_take(is_hit,
+                              core_nearest(root_t, half_width, point.x, point.y, point.z, isovalue, gradient.x, gradient.y, gradient.z,
+                                           inverse_square * bend_here / length(gradient), element, elvis_fetch_core_elements(element, 0u),
+                                           is_surely_inside),
+                              nearest);
             const bool is_estimated = core_is_model_estimated(element) || part.is_estimated || CORE_PLAIN == 1;
             flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;
 
@@ -398,12 +376,12 @@ void main() {
                 to = part_from + (elvis_real(piece.index + 1u) / elvis_real(1u << piece.level)) * (part_to - part_from);
                 core_follow_to(follower, from + core_segment_parameter(piece.values) * (to - from));
             }
-            phase = is_last ? CORE_PHASE_PART_DONE : from > best_t + best_slack ? CORE_PHASE_SEEK : CORE_PHASE_SAMPLE;
+            phase = is_last ? CORE_PHASE_PART_DONE : from > core_nearest_end(nearest) ? CORE_PHASE_SEEK : CORE_PHASE_SAMPLE;
         }
         if (phase == CORE_PHASE_PART_DONE) {
             n_parts += 1u;
             const elvis_real resume = part.resume + walk_ray.tolerance;
-            const bool goes_on = part.is_inside && resume < span_end && resume < best_t + best_slack;
+            const bool goes_on = part.is_inside && resume < span_end && resume < core_nearest_end(nearest);
             undecided_t = goes_on && n_parts >= CORE_MOST_PARTS ? min(undecided_t, resume) : undecided_t;
             bool is_begun = false;
             if (goes_on && n_parts < CORE_MOST_PARTS) {
@@ -418,17 +396,10 @@ void main() {
 
     const bool is_cut_short = is_pixel && (phase != CORE_PHASE_SEEK || stack_size > 0u || core_has_driver_given_up(core_surface >> 31));
     flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT | CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
-    const bool is_hit = best_element != CORE_NO_ELEMENT;
-    flags |= undecided_t <= best_t + best_slack && undecided_t < CORE_FAR ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
-    flags |= is_hit ? CORE_FLAG_ISOSURFACE : 0u;
-    flags |= is_hit && !best_is_certain ? CORE_FLAG_UNDECIDED : 0u;
+    flags |= undecided_t <= core_nearest_end(nearest) && undecided_t < CORE_FAR ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
+    flags |= core_nearest_store(nearest, pixel, ray, stretch, along.reference_distance);
     if (is_pixel && flags != 0u) {
         core_marks[pixel].flags |= flags;
-    }
-    if (is_hit) {
-        core_store_crossing(pixel, core_surface, best_isovalue, (best_t + along.reference_distance) * stretch, best_number,
-                            elvis_vec3(normal_x, normal_y, normal_z), ray.direction,
-                            core_place(best_x, best_y, best_z, best_element, CORE_CLASS << CORE_PLACE_FACE_BITS), best_bend);
     }
     const uint all_evaluations = subgroupAdd(n_evaluations), all_certified = subgroupAdd(n_certified), all_verified = subgroupAdd(n_verified);
     const uint all_undecided = subgroupAdd(n_undecided), all_crossings = subgroupAdd(n_crossings), all_failures = subgroupAdd(n_failures);
