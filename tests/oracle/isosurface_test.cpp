@@ -86,7 +86,8 @@ TEST_CASE("isosurfaces of random fields are where the oracle finds them") {
     // Undecided pixels are honest, but few.
     // In float32 coefficients of these rough fields are rounded by more than the tolerance of depth: it is said of one in six.
     CHECK(sums[0].n_flagged < sums[0].n_pixels / 5);
-    // In double precision rounding may move crossings of the roughest of them by more than 1e-12: 33 pixels of 19200.
+    // In double precision rounding may move crossings of the roughest of them by more than 1e-12: 33 pixels of 19200, and ten rays pass
+    // bent elements so closely that only estimates tell.
     CHECK(sums[1].n_flagged < sums[1].n_pixels / 400);
 }
 
