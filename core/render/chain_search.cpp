@@ -129,7 +129,7 @@ ChainSearch::Found ChainSearch::seek(std::size_t index, const ChainRays& rays, s
     }
     for (const RayBox& box : boxes) {
         parameters.first_row = box.first_row;
-        m_kernels[index].seek->dispatch_from(box.first, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
+        m_kernels[index].seek->dispatch_from({box.first, 0}, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
                                              box.end_row - box.first_row);
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);

@@ -151,7 +151,7 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
     std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
     const ComposedKernel& kernel = provide(lighting != nullptr, surface.has_lines());
     if (!lighting) {
-        dispatch_pixels(kernel, bindings, push_constants, n_pixels);
+        dispatch_rows(kernel, bindings, push_constants, layer);
         return;
     }
     const std::array<double, 4>& reference = view.rows[6];
@@ -159,7 +159,7 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
     const Buffer lights(m_device, light_numbers.size() * real_bytes(m_precision));
     write_reals(lights, m_precision, light_numbers);
     bindings.insert(bindings.end(), {&lights, &layer.normals});
-    dispatch_pixels(kernel, bindings, push_constants, n_pixels);
+    dispatch_rows(kernel, bindings, push_constants, layer);
 }
 
 } // namespace elvis

@@ -42,7 +42,10 @@ struct Sharing {
      * colour), and on processors has not been seen to save time.
      */
     bool depths = false;
-    /** What is drawn in several rounds is drawn only in the parts of the picture that still want more. To the bit the same picture. */
+    /**
+     * What is drawn in several rounds is drawn only in the parts of the picture that still want more, and surfaces are merged only in rows in
+     * which the volume can be seen. To the bit the same picture.
+     */
     bool parts = true;
 
     static Sharing none() { return {false, false}; }

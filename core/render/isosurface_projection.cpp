@@ -67,7 +67,7 @@ std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const ListParameters parameters{n_pixels, pixel_groups_x, flags};
-    dispatch_pixels(*m_list_kernel, {&layer.marks, &*m_list, &m_counts}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
+    dispatch_rows(*m_list_kernel, {&layer.marks, &*m_list, &m_counts}, std::as_bytes(std::span(&parameters, 1)), layer);
     m_n_listed = m_counts.read_items<std::uint32_t>(1)[0];
     return m_n_listed;
 }

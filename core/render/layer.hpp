@@ -37,9 +37,16 @@ struct Mark {
     std::uint32_t surface() const { return owner >> 5u; }
 };
 
+/** Rows of pixels from the first on, and before the end. */
+struct PixelRows {
+    std::uint32_t first = 0, end = 0;
+};
+
 /** The buffers of a layer, one record a pixel. */
 struct Layer {
     std::uint32_t width, height;
+    /** In which something may be seen: passes may leave the others as they are. */
+    PixelRows rows;
     Buffer samples;
     /** All zero where nothing was drawn. */
     Buffer marks;
@@ -48,7 +55,7 @@ struct Layer {
     Buffer colors;
 
     Layer(const Device& device, Precision precision, std::uint32_t across, std::uint32_t down)
-        : width(across), height(down), samples(device, n_pixels() * sample_bytes(precision)),
+        : width(across), height(down), rows{0, down}, samples(device, n_pixels() * sample_bytes(precision)),
           marks(device, n_pixels() * sizeof(Mark)), normals(device, 3 * n_pixels() * real_bytes(precision)),
           colors(device, 4 * n_pixels() * real_bytes(precision)) {}
 

@@ -86,7 +86,7 @@ std::vector<RayBox> LiveRays::run(std::uint32_t seeks, std::uint32_t first_eleme
     const std::array<const Buffer*, 3> bindings = {m_states, &*m_ranges, m_has_starts};
     const std::uint32_t end_tile_row = (m_all.end_row + m_tile_height - 1) / m_tile_height;
     if (m_all.area() > 0) {
-        m_kernel.dispatch_from(m_all.first, bindings, std::as_bytes(std::span(&parameters, 1)), m_all.end - m_all.first,
+        m_kernel.dispatch_from({m_all.first, 0}, bindings, std::as_bytes(std::span(&parameters, 1)), m_all.end - m_all.first,
                                end_tile_row - parameters.first_tile_row);
     }
     ranges = m_ranges->read_items<std::uint32_t>(ranges.size());

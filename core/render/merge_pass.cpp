@@ -38,13 +38,14 @@ MergePass::MergePass(const Device& device, Precision precision)
       m_order(storage_kernel(device, precision, "order_layers", 4, sizeof(PixelParameters))),
       m_blend(storage_kernel(device, precision, "blend", 4, sizeof(PixelParameters))), m_counts(device, 3 * sizeof(std::uint32_t)) {}
 
-void MergePass::begin(std::uint32_t width, std::uint32_t height, const Color& background) {
+void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background) {
     if (!m_picture || m_picture->width != width || m_picture->height != height) {
         m_veils.clear();
         m_picture = std::make_unique<Layer>(m_device, m_precision, width, height);
         m_depths = std::make_unique<Buffer>(m_device, m_picture->n_pixels() * real_bytes(m_precision));
         m_beyond = std::make_unique<Buffer>(m_device, m_picture->n_pixels() * real_bytes(m_precision));
     }
+    m_picture->rows = rows;
     m_n_veils = 0;
     m_background = background;
     m_is_empty = true;
@@ -63,13 +64,19 @@ MergePass::Wanted MergePass::merge(const Layer& layer, std::uint32_t surface, bo
                                      channel(2),
                                      channel(3),
                                      layer.width};
-    m_is_empty = false;
     constexpr std::array<std::uint32_t, 3> no_rows = {0, 0xffffffffu, 0};
     m_counts.write_items(std::span<const std::uint32_t>(no_rows));
-    dispatch_pixels(m_merge,
-                    {&layer.samples, &layer.marks, &layer.normals, &layer.colors, &m_picture->samples, &m_picture->marks,
-                     &m_picture->normals, &m_picture->colors, m_depths.get(), m_beyond.get(), &m_counts},
-                    std::as_bytes(std::span(&parameters, 1)), n_pixels);
+    const std::vector<const Buffer*> bindings = {&layer.samples,      &layer.marks,       &layer.normals,      &layer.colors,
+                                                 &m_picture->samples, &m_picture->marks,  &m_picture->normals, &m_picture->colors,
+                                                 m_depths.get(),      m_beyond.get(),     &m_counts};
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
+    if (m_is_empty) {
+        // The background, too.
+        dispatch_pixels(m_merge, bindings, bytes, n_pixels);
+    } else {
+        dispatch_rows(m_merge, bindings, bytes, layer);
+    }
+    m_is_empty = false;
     if (!is_see_through) {
         return {};
     }
@@ -87,12 +94,12 @@ void MergePass::keep(const Layer& layer) {
     const PixelParameters parameters{n_pixels, pixel_groups_x};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
     const Veil& taken = m_veils[m_n_veils];
-    dispatch_pixels(m_take, {&layer.samples, &layer.marks, &layer.colors, &taken.colors, &taken.depths}, bytes, n_pixels);
+    dispatch_rows(m_take, {&layer.samples, &layer.marks, &layer.colors, &taken.colors, &taken.depths}, bytes, layer);
     // Insertion: the new veil moves forward past every one that is farther.
     for (std::size_t i = m_n_veils; i > 0; --i) {
         const Veil& nearer = m_veils[i - 1];
         const Veil& farther = m_veils[i];
-        dispatch_pixels(m_order, {&nearer.colors, &nearer.depths, &farther.colors, &farther.depths}, bytes, n_pixels);
+        dispatch_rows(m_order, {&nearer.colors, &nearer.depths, &farther.colors, &farther.depths}, bytes, layer);
     }
     ++m_n_veils;
 }
@@ -113,8 +120,8 @@ void MergePass::finish() {
     const PixelParameters parameters{n_pixels, pixel_groups_x};
     for (std::size_t i = m_n_veils; i > 0; --i) {
         const Veil& veil = m_veils[i - 1];
-        dispatch_pixels(m_blend, {&veil.colors, &veil.depths, &m_picture->colors, m_depths.get()},
-                        std::as_bytes(std::span(&parameters, 1)), n_pixels);
+        dispatch_rows(m_blend, {&veil.colors, &veil.depths, &m_picture->colors, m_depths.get()},
+                      std::as_bytes(std::span(&parameters, 1)), *m_picture);
     }
 }
 

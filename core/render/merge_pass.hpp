@@ -22,8 +22,8 @@ class MergePass {
 public:
     MergePass(const Device& device, Precision precision);
 
-    /** Starts an empty picture of this size. */
-    void begin(std::uint32_t width, std::uint32_t height, const Color& background);
+    /** Starts an empty picture of this size, in which layers have something in these rows only. */
+    void begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background);
 
     /** Pixels that want to see what of a surface is behind, how many they are and between which rows. */
     struct Wanted {

@@ -5,8 +5,10 @@
 #include <core/render/merge_pass.hpp>
 #include <core/render/occlusion_pass.hpp>
 #include <core/render/pass_set.hpp>
+#include <core/render/picture_rows.hpp>
 #include <core/render/renderer.hpp>
 
+#include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 
 #include <algorithm>
@@ -77,6 +79,7 @@ struct Renderer::Impl {
     void draw_volume(const FrameRequest& request, FrameCounts& counts);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
     CutPlaneGeometry view(const FrameRequest& request, const SurfaceGeometry& geometry) const;
+    PixelRows rows_of(const FrameRequest& request) const;
     double offset_of(const Surface& surface) const { return fields.offset(surface.field); }
     bool is_flat() const { return volume.dimension() == 2; }
 };
@@ -183,6 +186,29 @@ CutPlaneGeometry Renderer::Impl::view(const FrameRequest& request, const Surface
         }
     }
     return cut_plane_geometry(plane, request.camera, request.width, request.height, data.centre());
+}
+
+/** Rows in which surfaces may be seen. */
+PixelRows Renderer::Impl::rows_of(const FrameRequest& request) const {
+    // Bounds that are estimated may be a little too narrow; pixels beside those that are met may have a line, too.
+    constexpr double widening = 1.0 / 64;
+    double margin = 2;
+    bool is_bounded = request.sharing.parts;
+    for (const Surface& surface : request.surfaces) {
+        const auto* wires = std::get_if<WireFrame>(&surface.geometry);
+        margin = std::max(margin, wires ? 2 + wires->width : 0);
+        is_bounded = is_bounded && !surface.outside;
+    }
+    if (!is_bounded) {
+        return {0, request.height};
+    }
+    std::array<double, 6> box = data.bounds();
+    const double wider = widening * diagonal_of(box);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box[axis] -= wider;
+        box[axis + 3] += wider;
+    }
+    return rows_of_box(box, request.camera, request.height, margin);
 }
 
 void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
@@ -351,8 +377,10 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     }
     // A single surface that hides what is behind it needs no merging.
     const bool is_alone = request.surfaces.size() == 1 && !request.surfaces[0].is_see_through() && !request.volume;
+    impl.layer->rows = is_alone ? PixelRows{0, request.height} : impl.rows_of(request);
     if (!is_alone) {
-        impl.merge_pass.begin(request.width, request.height, request.background);
+        impl.merge_pass.begin(request.width, request.height, impl.layer->rows, request.background);
+        frame.counts.spared_pixels += std::uint64_t{request.width} * (request.height - (impl.layer->rows.end - impl.layer->rows.first));
     }
     impl.passes.keep(request);
     impl.color_pass.begin(request.surfaces.size());

@@ -180,7 +180,7 @@ bool VolumePass::march(std::size_t index, const Picture& picture, std::span<cons
     const ComposedKernel& kernel = march_kernel(index);
     for (const RayBox& box : boxes) {
         parameters.first_row = box.first_row;
-        kernel.dispatch_from(box.first, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
+        kernel.dispatch_from({box.first, 0}, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
                              box.end_row - box.first_row);
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
@@ -245,7 +245,7 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
     for (std::size_t i = 0; i < merged.n_veils(); ++i) {
         picture.stops = &merged.veil(i).depths;
         march_all(picture, counts);
-        dispatch_pixels(m_veil, {&states, &merged.veil(i).colors, picture.stops, picture.depths}, bytes, n_pixels);
+        dispatch_rows(m_veil, {&states, &merged.veil(i).colors, picture.stops, picture.depths}, bytes, layer);
     }
     picture.stops = nullptr;
     march_all(picture, counts);

@@ -437,9 +437,9 @@ void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span
     watched([&] { m_kernel.dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
 }
 
-void ComposedKernel::dispatch_from(std::uint32_t first_x, std::span<const Buffer* const> bindings,
+void ComposedKernel::dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings,
                                    std::span<const std::byte> push_constants, std::uint32_t groups_x, std::uint32_t groups_y) const {
-    watched([&] { m_kernel.dispatch_from({first_x, 0, 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
+    watched([&] { m_kernel.dispatch_from({first[0], first[1], 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
 }
 
 std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {

@@ -105,8 +105,8 @@ public:
     /** The kernel's own bindings, in the order 0 .. n-1. */
     void dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;
-    /** Groups from `first_x` on, to which gl_WorkGroupID.x counts up from there. */
-    void dispatch_from(std::uint32_t first_x, std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
+    /** Groups from `first` on along x and y, from which gl_WorkGroupID counts up. */
+    void dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
                        std::uint32_t groups_x, std::uint32_t groups_y) const;
 
 private:
