@@ -166,7 +166,8 @@ void add_render(CLI::App& app) {
     command->add_option("--fov", a->field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
     command->add_option("--orthographic", a->orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
     command->add_option("--background", a->background, "R,G,B or R,G,B,A from 0 to 1");
-    command->add_option("--lighting", a->lighting, "none, or default: a headlight on all surfaces")
+    command->add_option("--lighting", a->lighting,
+                        "none, or default: a headlight on all surfaces; isosurfaces alone have it unless told otherwise")
         ->check(CLI::IsMember({"none", "default"}));
     command->add_option("--annotation", a->annotation, "none, or default: color bars, axes and a title")
         ->check(CLI::IsMember({"none", "default"}));

@@ -223,6 +223,9 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
     }
     if (!arguments.lighting.empty()) {
         scene.lighting = arguments.lighting == "default" ? std::optional(Lighting{}) : std::nullopt;
+    } else if (!scene.lighting && !arguments.isovalues.empty() && arguments.cut_planes.empty() && !arguments.boundary) {
+        // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read.
+        scene.lighting = Lighting{};
     }
     if (!arguments.size.empty()) {
         unsigned width = 0, height = 0;

@@ -6,6 +6,7 @@ layout(local_size_x = 32) in;
 #include "library/precision.glsl"
 #include "library/cut_frame.glsl"
 #include "library/hierarchy.glsl"
+#include "library/cut_horizon.glsl"
 #include "library/cut_tiles.glsl"
 #include "library/driver_limit.glsl"
 
@@ -33,7 +34,7 @@ void main() {
     const core_cut_point p01 = core_cut_pixel(left, last_row), p11 = core_cut_pixel(right, last_row);
 
     // Where the four corner rays meet the plane in front of the eye, the pixels between them meet it inside the quadrilateral of
-    // the four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all.
+    // the four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all, unless it is behind the volume.
     const bool all_hit = p00.is_hit && p10.is_hit && p01.is_hit && p11.is_hit;
     const bool any_hit = p00.is_hit || p10.is_hit || p01.is_hit || p11.is_hit;
     const vec3 shift = vec3(core_reference_in_hierarchy.xyz);
@@ -48,7 +49,8 @@ void main() {
     const vec3 upper = all_hit ? highest + margin : vec3(infinite);
 
     uint stack[CORE_STACK_SIZE];
-    uint stack_size = is_wanted && any_hit ? 1u : 0u;
+    const bool is_seen = all_hit || (any_hit && !core_is_behind_volume(p00, p10, p01, p11));
+    uint stack_size = is_wanted && is_seen ? 1u : 0u;
     stack[0] = 0u;
     uint n_entries = 0u;
     const uint first = tile * CORE_TILE_STRIDE + 1u;

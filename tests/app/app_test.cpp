@@ -66,6 +66,14 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     CHECK(of_levels["isosurface_pixels"].get<int>() > 400);
     CHECK(of_levels["undecided_isosurface_pixels"].get<int>() < 10);
     CHECK(of_levels["excluded_pieces"].get<int>() > 100);
+    std::vector<std::string> pictures;
+    for (const std::string options : {"", "--lighting default", "--lighting none", "--boundary", "--boundary --lighting none"}) {
+        REQUIRE(place.run("render ball.h5 --field sphere --isosurface 0.3 --size 32x32 -o light.png " + options).status == 0);
+        pictures.push_back(read_file(place.path("light.png")));
+    }
+    CHECK(pictures[0] == pictures[1]);
+    CHECK(pictures[0] != pictures[2]);
+    CHECK(pictures[3] == pictures[4]);
 
     for (const std::string precision : {"float32", "float64"}) {
         const Outcome render = place.run("render ball.h5 --field sphere --cut-plane 0,0,1,0 --size 64x64 --precision " +

@@ -70,6 +70,37 @@ TEST_CASE("contours of a circle are right to the pixel at every magnification, o
     }
 }
 
+TEST_CASE("nothing is undecided along the horizon of a plane, far behind the volume") {
+    const TemporaryFile file("horizon.h5");
+    write_volume(file.path(), volume_of(false, 2, [](const Vector& x) { return x.x() * x.y(); }));
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request;
+    request.width = request.height = size;
+    request.camera.eye = {-2, 0.4, 0.9};
+    request.camera.look_at = {0.5, 0.5, 0.6};
+    request.camera.up = {0.1, 0.2, 1};
+    request.camera.field_of_view = 40;
+    Surface plane;
+    plane.geometry = CutPlane{{0, 0, 1, -0.47}};
+    plane.colors.points = {{0, {0, 0, 0}}, {1, {1, 1, 1}}};
+    plane.contours = Contours{{0.2, 0.5}, {}};
+    plane.mesh_lines.emplace();
+    request.surfaces = {plane};
+    for (const Precision precision : {Precision::float64, Precision::float32}) {
+        Renderer renderer(device(), volume, precision);
+        const Frame frame = renderer.render(request);
+        constexpr std::uint32_t undecided = pixel_flag::contour_undecided | pixel_flag::mesh_line_undecided;
+        std::size_t n_undecided = 0, n_lines = 0;
+        for (const std::uint32_t flags : frame.flags) {
+            n_undecided += (flags & undecided) != 0 ? 1 : 0;
+            n_lines += (flags & (pixel_flag::contour | pixel_flag::mesh_line)) != 0 ? 1 : 0;
+        }
+        WARN(n_lines << " pixels with lines, " << n_undecided << " undecided");
+        CHECK(n_lines > size);
+        CHECK(n_undecided <= 2);
+    }
+}
+
 namespace {
 
 // A polynomial of order 6 in x and y.
