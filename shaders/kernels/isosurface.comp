@@ -14,7 +14,7 @@
 //   or little                    the piece is halved
 //
 // until the piece is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
-// pixel is undecided if that cannot be told.
+// pixel is undecided if that cannot be told: library/piece_look.glsl, piece_root.glsl and cell_search.glsl.
 //
 // One evaluation of mapping and field a turn, whatever element and piece a lane is at, so that lanes do not wait for each other.
 

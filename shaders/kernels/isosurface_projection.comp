@@ -12,6 +12,8 @@
 //     E shows that the field crosses in the bracket in which the root was found    or
 //     the field is seen on both sides, or surely keeps its slope within what rounding moves the root.
 //
+// (library/projection_part.glsl, projection_piece.glsl and projection_polish.glsl.)
+//
 // Where neither holds the piece is halved as long as E is more than rounding; then the pixel is undecided.
 //
 // With CORE_PLAIN the method is that of 2006: each part as one polynomial of fixed degree, whose first root is the answer.

@@ -6,6 +6,7 @@
 #define CORE_MOST_EVALUATIONS 96u
 // Times the mapping is linearized anew nearer to the piece before it is halved.
 #define CORE_MAX_MOVES 8u
+// Half of what is looked at at most, in reference coordinates.
 #define CORE_WIDEST elvis_real(0.25LF)
 
 // Half of what is looked at of a field that is flat around the crossing.
@@ -29,9 +30,9 @@ uint core_search_begin(core_level_cell cell, core_cell_part part, out core_searc
     return is_dismissed && (cell.code & CORE_CELL_ESTIMATED) != 0u ? CORE_FLAG_ESTIMATED : 0u;
 }
 
-// What is made of a piece. All false for a search that has none.
+// What is made of a piece.
 struct core_verdict {
-    // Nothing of it lies in the element; or no isovalue is taken in it.
+    // Nothing of it lies in the element; or no isovalue is taken in it. These and the next three are false for a search without a piece.
     bool is_empty, is_excluded;
     // Its root is a crossing, wherever that lies.
     bool is_crossing;
