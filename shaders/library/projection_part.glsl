@@ -5,6 +5,12 @@
 // Parts of a ray in one element.
 #define CORE_MOST_PARTS 16u
 
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_DOUBTS_BEGINNINGS false
+#else
+#define CORE_DOUBTS_BEGINNINGS true
+#endif
+
 // Starts with an element, of which the ray meets the box in `span`.
 void core_search_element(core_ray ray, core_walk_ray walk_ray, uint element, vec2 span, inout core_search search) {
     search.element = element;
@@ -42,8 +48,10 @@ void core_search_part(core_ray ray, core_walk_ray walk_ray, inout core_search se
     const bool is_lost = ending != CORE_PART_OPEN && search.part.has_failed;
     search.n_failures += is_lost ? 1u : 0u;
     search.undecided_t = is_lost ? min(search.undecided_t, search.part.begin) : search.undecided_t;
-    // A part may have been missed.
-    search.undecided_t = ending == CORE_PART_NONE && search.part.is_estimated ? min(search.undecided_t, search.sought_from) : search.undecided_t;
+    // A part may have been missed. In single precision, where rounding takes many turns, the beginning of one has been, too.
+    const bool is_found_late = ending == CORE_PART_FOUND && CORE_DOUBTS_BEGINNINGS;
+    const bool is_doubtful = (ending == CORE_PART_NONE || is_found_late) && search.part.is_estimated && CORE_PLAIN == 0;
+    search.undecided_t = is_doubtful ? min(search.undecided_t, search.sought_from) : search.undecided_t;
     search.phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_PART_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_PART_DONE;
     // Ends are as wrong as that, and a crossing beside them is one all the same; but none is behind the eye.
     search.part_from = max(search.part.enter - search.part.enter_error - walk_ray.tolerance, ray.least_t);
