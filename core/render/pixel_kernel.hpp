@@ -16,7 +16,7 @@ namespace elvis {
 
 /** Large groups: light kernels spend much of their time on starting them. */
 inline constexpr std::uint32_t pixel_group_size = 256;
-/** Groups along x; more pixels go along y, where a device need not allow more than 65535: those of 2^31 pixels. */
+/** Groups along x; more pixels go along y, where a device need not allow more than 65535: those of nearly 2^31 pixels. */
 inline constexpr std::uint32_t pixel_groups_x = 128;
 
 /** Request of kernels/NAME.comp with these bindings from 0. */

@@ -106,8 +106,8 @@ public:
     void dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;
     /** Groups from `first` on along x and y, from which gl_WorkGroupID counts up. */
-    void dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
-                       std::uint32_t groups_x, std::uint32_t groups_y) const;
+    void dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings,
+                       std::span<const std::byte> push_constants, std::uint32_t groups_x, std::uint32_t groups_y) const;
 
 private:
     std::vector<BoundBuffer> bound(std::span<const Buffer* const> bindings) const;

@@ -73,8 +73,9 @@ void main() {
     uint stack_size = 0u, entry = 0u, element = CORE_NO_ELEMENT;
     uint level = 0u, across = 0u, down = 0u, moves = 0u, work = 0u, n_evaluations = 0u;
     elvis_real x = elvis_real(0), y = elvis_real(0), z = elvis_real(0);
+    const elvis_real volume_end = core_volume_end();
     const bool is_behind =
-        !square.all_hit && core_is_square_behind_volume(elvis_real(pixel_column), elvis_real(pixel_row), elvis_real(0.5LF));
+        !square.all_hit && core_is_square_behind_volume(elvis_real(pixel_column), elvis_real(pixel_row), elvis_real(0.5LF), volume_end);
     bool goes_on = square.any_hit && !is_behind;
     while (goes_on && (element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
         work += 1u;
@@ -155,7 +156,7 @@ void main() {
         const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
         const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, curvature);
         const bool is_outside = part.all_hit ? cell.is_outside || is_clear || (cell.is_behind && hides_behind)
-                                             : !part.any_hit || core_is_square_behind_volume(column, row, half_size);
+                                             : !part.any_hit || core_is_square_behind_volume(column, row, half_size, volume_end);
         const bool is_inside = part.all_hit && cell.is_inside;
         const bool moves_on = is_active && !is_outside && part.all_hit && is_far && moves < CORE_MAX_MOVES;
         moves = moves_on ? moves + 1u : 0u;

@@ -49,7 +49,7 @@ void main() {
     const vec3 upper = all_hit ? highest + margin : vec3(infinite);
 
     uint stack[CORE_STACK_SIZE];
-    const bool is_seen = all_hit || (any_hit && !core_is_behind_volume(p00, p10, p01, p11));
+    const bool is_seen = all_hit || (any_hit && !core_is_behind_volume(p00, p10, p01, p11, core_volume_end()));
     uint stack_size = is_wanted && is_seen ? 1u : 0u;
     stack[0] = 0u;
     uint n_entries = 0u;
