@@ -1,4 +1,5 @@
 #include <core/annotation/items.hpp>
+#include <core/base/vector3.hpp>
 
 #include <algorithm>
 #include <array>
@@ -8,17 +9,6 @@
 namespace elvis {
 
 namespace {
-
-Vector3 minus(const Vector3& a, const Vector3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector3 unit(const Vector3& a) {
-    const double length = std::hypot(a[0], a[1], a[2]);
-    return {a[0] / length, a[1] / length, a[2] / length};
-}
 
 /** An axis on the picture: for the point that the camera looks at, the projection's derivative points the same way. */
 struct Axis {

@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/convert/hanging_faces.hpp>
 
 #include <algorithm>
@@ -7,11 +8,6 @@
 namespace elvis {
 
 namespace {
-
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 /** An unpaired face as a map from (u, v): the unit square, the triangle u, v >= 0, u + v <= 1, or the edge 0 <= u <= 1. */
 class OpenFace {
@@ -24,7 +20,7 @@ public:
         for (double u : {0.0, 0.5, 1.0}) {
             for (double v : {0.0, 0.5, 1.0}) {
                 if (is_inside(u, v)) {
-                    const Vector x = at(u, v);
+                    const Vector3 x = at(u, v);
                     for (std::size_t axis = 0; axis < 3; ++axis) {
                         m_lower[axis] = std::min(m_lower[axis], x[axis]);
                         m_upper[axis] = std::max(m_upper[axis], x[axis]);
@@ -41,14 +37,14 @@ public:
         m_centre = is_triangle() ? at(1.0 / 3, 1.0 / 3) : at(0.5, 0.5);
     }
 
-    const Vector& lower() const { return m_lower; }
-    const Vector& upper() const { return m_upper; }
-    const Vector& centre() const { return m_centre; }
+    const Vector3& lower() const { return m_lower; }
+    const Vector3& upper() const { return m_upper; }
+    const Vector3& centre() const { return m_centre; }
     double size() const { return m_size; }
 
     /** Whether a point lies on the face, inside its rim. Gauss-Newton on |x(u, v) - point|^2 with differences for derivatives.
      */
-    bool covers(const Vector& point, double tolerance) const {
+    bool covers(const Vector3& point, double tolerance) const {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (point[axis] < m_lower[axis] || point[axis] > m_upper[axis]) {
                 return false;
@@ -59,10 +55,10 @@ public:
         const double near = std::max(tolerance, 1e-6 * m_size);
         double u = is_triangle() ? 1.0 / 3 : 0.5, v = u;
         for (int iteration = 0; iteration < 20; ++iteration) {
-            const Vector x = at(u, v);
-            const Vector left = difference(point, x);
+            const Vector3 x = at(u, v);
+            const Vector3 left = minus(point, x);
             const bool is_near = dot(left, left) <= near * near;
-            const Vector along_u = difference(at(u + h, v), x), along_v = difference(at(u, v + h), x);
+            const Vector3 along_u = minus(at(u + h, v), x), along_v = minus(at(u, v + h), x);
             const double a = dot(along_u, along_u), b = dot(along_u, along_v), c = dot(along_v, along_v);
             const double determinant = is_edge() ? a : a * c - b * b;
             if (is_near || determinant <= 0) {
@@ -84,7 +80,7 @@ private:
     bool is_edge() const { return m_corners.size() == 2; }
     bool is_inside(double u, double v) const { return u >= 0 && v >= 0 && (is_triangle() ? u + v <= 1 : u <= 1 && v <= 1); }
 
-    Vector at(double u, double v) const {
+    Vector3 at(double u, double v) const {
         std::array<double, 4> weights{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
         if (is_triangle()) {
             weights = {1 - u - v, u, v, 0};
@@ -98,7 +94,7 @@ private:
                 xi[axis] += weights[k] * corner[axis];
             }
         }
-        Vector x{};
+        Vector3 x{};
         m_source->evaluate_mapping(m_element, xi, x);
         return x;
     }
@@ -107,9 +103,9 @@ private:
     std::uint64_t m_element;
     native::Shape m_shape;
     std::span<const int> m_corners;
-    Vector m_lower{};
-    Vector m_upper{};
-    Vector m_centre{};
+    Vector3 m_lower{};
+    Vector3 m_upper{};
+    Vector3 m_centre{};
     double m_size = 0;
 };
 
@@ -135,14 +131,14 @@ public:
     }
 
     /** Faces that may cover a point. */
-    const std::vector<std::uint32_t>& at(const Vector& point) const {
+    const std::vector<std::uint32_t>& at(const Vector3& point) const {
         static const std::vector<std::uint32_t> none;
         const auto found = m_faces.find(hash(cell(point)));
         return found == m_faces.end() ? none : found->second;
     }
 
 private:
-    std::array<std::int64_t, 3> cell(const Vector& x) const {
+    std::array<std::int64_t, 3> cell(const Vector3& x) const {
         std::array<std::int64_t, 3> result;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             result[axis] = static_cast<std::int64_t>(std::floor(x[axis] / m_cell));

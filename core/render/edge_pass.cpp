@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/render/edge_pass.hpp>
 
 #include <core/volume/chebyshev.hpp>
@@ -18,15 +19,6 @@ constexpr double most_chords = 4096;
 /** Share of the distance looked at, before which nothing is drawn. */
 constexpr double nearest_depth = 1e-6;
 
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector3 cross(const Vector3& a, const Vector3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector3 unit(const Vector3& a) {
-    const double length = std::sqrt(dot(a, a));
-    return {a[0] / length, a[1] / length, a[2] / length};
-}
-
 /** A point in the camera's directions: right, top, and along the view from the eye. */
 struct ViewPoint {
     double x, y, z;
@@ -43,8 +35,7 @@ struct PicturePoint {
 class View {
 public:
     View(const Camera& camera, std::uint32_t width, std::uint32_t height) : m_camera(camera), m_width(width), m_height(height) {
-        m_axis =
-            unit({camera.look_at[0] - camera.eye[0], camera.look_at[1] - camera.eye[1], camera.look_at[2] - camera.eye[2]});
+        m_axis = unit(minus(camera.look_at, camera.eye));
         m_right = unit(cross(m_axis, camera.up));
         m_top = cross(m_right, m_axis);
         m_spread = std::tan(camera.field_of_view * std::numbers::pi / 360);

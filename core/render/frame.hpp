@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/render/lighting.hpp>
 #include <core/render/surface.hpp>
 #include <core/render/volume_rendering.hpp>
@@ -16,8 +17,6 @@
 #include <vector>
 
 namespace elvis {
-
-using Vector3 = std::array<double, 3>;
 
 /** See the camera formulas in the scene file's documentation. Angles in degrees, lengths in world units. */
 struct Camera {

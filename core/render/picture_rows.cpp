@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/render/picture_rows.hpp>
 
 #include <algorithm>
@@ -6,20 +7,6 @@
 #include <numbers>
 
 namespace elvis {
-
-namespace {
-
-Vector3 minus(const Vector3& a, const Vector3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector3 cross(const Vector3& a, const Vector3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector3 unit(const Vector3& a) {
-    const double size = std::sqrt(dot(a, a));
-    return {a[0] / size, a[1] / size, a[2] / size};
-}
-
-} // namespace
 
 PixelRows rows_of_box(const std::array<double, 6>& box, const Camera& camera, std::uint32_t height, double margin) {
     const Vector3 axis = unit(minus(camera.look_at, camera.eye)), right = unit(cross(axis, camera.up)),
@@ -33,7 +20,7 @@ PixelRows rows_of_box(const std::array<double, 6>& box, const Camera& camera, st
         const Vector3 from_eye = minus(point, camera.eye);
         const double distance = dot(from_eye, axis), up = dot(from_eye, top);
         // At less than that, rounding of the quotient may count.
-        is_in_front = is_in_front && (camera.orthographic || distance > 1e-6 * std::sqrt(dot(from_eye, from_eye)));
+        is_in_front = is_in_front && (camera.orthographic || distance > 1e-6 * length(from_eye));
         const double v = up / (camera.orthographic ? 0.5 * camera.height : distance * spread);
         // As in cut_plane_geometry().
         const double row = 0.5 * height * (1 - v) - 0.5 - camera.image_shift[1];

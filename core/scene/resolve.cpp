@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 #include <core/scene/resolve.hpp>
 
 #include <algorithm>
@@ -10,22 +11,12 @@ namespace elvis {
 
 namespace {
 
-Vector3 minus(const Vector3& a, const Vector3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vector3& a) { return std::sqrt(dot(a, a)); }
-Vector3 cross(const Vector3& a, const Vector3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector3 scaled(const Vector3& a, double factor) { return {factor * a[0], factor * a[1], factor * a[2]}; }
-
 /** Looking at a plane: its side towards +z, +y or +x, as for reading a map. */
 Vector3 default_direction(std::span<const CutPlane> planes) {
     if (planes.size() != 1) {
-        const Vector3 diagonal = {0.55, 0.45, 0.7};
-        return scaled(diagonal, 1 / length(diagonal));
+        return unit({0.55, 0.45, 0.7});
     }
-    Vector3 normal = {planes[0].plane[0], planes[0].plane[1], planes[0].plane[2]};
-    normal = scaled(normal, 1 / length(normal));
+    const Vector3 normal = unit({planes[0].plane[0], planes[0].plane[1], planes[0].plane[2]});
     const auto largest =
         std::max_element(normal.begin(), normal.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
     return *largest < 0 ? scaled(normal, -1) : normal;
@@ -35,8 +26,7 @@ Vector3 default_direction(std::span<const CutPlane> planes) {
 
 double fitting_distance(const std::array<double, 6>& bounds, const Vector3& look_at, const Vector3& to_eye, const Vector3& up,
                         double field_of_view, double aspect) {
-    const Vector3 right_raw = cross(scaled(to_eye, -1), up);
-    const Vector3 right = scaled(right_raw, 1 / length(right_raw));
+    const Vector3 right = unit(cross(scaled(to_eye, -1), up));
     const Vector3 top = cross(right, scaled(to_eye, -1));
     const double slope = std::tan(0.5 * field_of_view * std::numbers::pi / 180);
     double distance = 0;

@@ -1,6 +1,7 @@
 #include <core/scene/surface_distance.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 #include <core/scene/json_reader.hpp>
 
 #include <cctype>
@@ -37,11 +38,6 @@ std::string along(const Vector3& direction, const Vector3& point) {
 /** |x - point|^2 */
 std::string square(const Vector3& point) {
     return join({"((@x-", number(point[0]), ")^2+(@y-", number(point[1]), ")^2+(@z-", number(point[2]), ")^2)"});
-}
-
-Vector3 unit(const Vector3& a) {
-    const double length = std::hypot(a[0], a[1], a[2]);
-    return {a[0] / length, a[1] / length, a[2] / length};
 }
 
 /** Of x from an axis, from the height along it. Next to the axis the root would have no derivative. */

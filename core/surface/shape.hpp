@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/surface/patch_mesh.hpp>
 #include <core/surface/triangle_mesh.hpp>
 
@@ -13,8 +14,6 @@
 #include <variant>
 
 namespace elvis {
-
-using Vector3 = std::array<double, 3>;
 
 struct Sphere {
     Vector3 center{};

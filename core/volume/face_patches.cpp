@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/volume/chebyshev.hpp>
 #include <core/volume/face_patches.hpp>
 
@@ -13,19 +14,11 @@ namespace elvis {
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector scaled(const Vector& a, double factor) { return {factor * a[0], factor * a[1], factor * a[2]}; }
-double length(const Vector& a) { return std::sqrt(dot(a, a)); }
-
 /** By how much the square is enlarged for what holds near the patch: shaders/library/face_patch.glsl. */
 constexpr double reach = 1.2;
-/** The normal's turn, and the share of the tangents that changes, at which a patch is divided: smaller patches leave fewer pixels to the
- * careful kernel, larger ones make shorter lists; between 0.3 and 0.5 pictures of balls and tori take least time. */
+/** The normal's turn, and the share of the tangents that changes, at which a patch is divided: smaller patches leave fewer
+ * pixels to the careful kernel, larger ones make shorter lists; between 0.3 and 0.5 pictures of balls and tori take least time.
+ */
 constexpr double largest_turn = 0.4;
 
 struct Square {
@@ -42,12 +35,12 @@ struct Square {
 };
 
 /** Coefficients of the face's polynomial on the square, `factor` times enlarged. */
-std::vector<Vector> on_square(const FaceShape& shape, const Square& square, double factor) {
+std::vector<Vector3> on_square(const FaceShape& shape, const Square& square, double factor) {
     const auto size = static_cast<std::size_t>(shape.order + 1);
     const double half = factor * square.half();
     const std::vector<double> along_u = chebyshev_on_interval(shape.order, square.middle(square.i), half);
     const std::vector<double> along_v = chebyshev_on_interval(shape.order, square.middle(square.j), half);
-    std::vector<Vector> between(size * size, Vector{}), result(size * size, Vector{});
+    std::vector<Vector3> between(size * size, Vector3{}), result(size * size, Vector3{});
     for (std::size_t j = 0; j < size; ++j) {
         for (std::size_t i = 0; i < size; ++i) {
             for (std::size_t m = 0; m <= i; ++m) {
@@ -77,25 +70,25 @@ double second_bound(std::size_t n) {
 }
 
 struct Model {
-    Vector x0{}, a{}, b{};
-    Vector to_u{}, to_v{}, to_s{};
+    Vector3 x0{}, a{}, b{};
+    Vector3 to_u{}, to_v{}, to_s{};
     double flat = 0, high = 0;
     double slope_flat = 0, slope_high = 0;
     double bend_flat = 0, bend_high = 0;
     /** Bound of half the second derivative, and of the remainder, of each coordinate. */
-    Vector quadratic{}, remainder{};
+    Vector3 quadratic{}, remainder{};
 
     double turn() const { return std::max(slope_flat, slope_high / std::max(1e-300, std::min(length(a), length(b)))); }
 };
 
 Model model_of(const FaceShape& shape, const Square& square) {
     const auto size = static_cast<std::size_t>(shape.order + 1);
-    const std::vector<Vector> here = on_square(shape, square, 1.0), near = on_square(shape, square, reach);
+    const std::vector<Vector3> here = on_square(shape, square, 1.0), near = on_square(shape, square, reach);
     Model model;
     model.x0 = here[0];
     model.a = here[1];
     model.b = here[size];
-    const Vector normal = cross(model.a, model.b);
+    const Vector3 normal = cross(model.a, model.b);
     const double area = length(normal);
     // Where the tangents are parallel, as at a collapsed edge, nothing is known but the bounds of coordinates.
     const bool is_regular = area > 1e-6 * length(model.a) * length(model.b) && area > 1e-300;
@@ -111,7 +104,7 @@ Model model_of(const FaceShape& shape, const Square& square) {
     for (std::size_t j = 0; j < size; ++j) {
         for (std::size_t i = 0; i < size; ++i) {
             const bool is_linear = i + j <= 1;
-            const Vector& c = here[j * size + i];
+            const Vector3& c = here[j * size + i];
             for (std::size_t axis = 0; axis < 3 && !is_linear; ++axis) {
                 model.remainder[axis] += std::abs(c[axis]);
             }
@@ -120,7 +113,7 @@ Model model_of(const FaceShape& shape, const Square& square) {
                 model.high += std::abs(dot(model.to_s, c));
             }
             // In the coordinates of the enlarged square the model's slopes are `reach` times as large.
-            Vector d = near[j * size + i];
+            Vector3 d = near[j * size + i];
             for (std::size_t axis = 0; axis < 3 && is_linear && i + j == 1; ++axis) {
                 d[axis] -= reach * (i == 1 ? model.a : model.b)[axis];
             }
@@ -145,7 +138,7 @@ std::uint32_t bits(double number) { return std::bit_cast<std::uint32_t>(static_c
 /** A bound, with room for rounding. */
 std::uint32_t bound_bits(double number) { return bits(number * (1 + 1e-5)); }
 
-void append(const Square& square, const FaceShape& shape, std::uint32_t face, int max_level, const Vector& centre,
+void append(const Square& square, const FaceShape& shape, std::uint32_t face, int max_level, const Vector3& centre,
             FacePatches& patches) {
     const Model model = model_of(shape, square);
     if (model.turn() > largest_turn && square.level < max_level) {
@@ -158,11 +151,11 @@ void append(const Square& square, const FaceShape& shape, std::uint32_t face, in
         }
         return;
     }
-    const auto row = [&](const Vector& to) {
-        const Vector from = {model.x0[0] - centre[0], model.x0[1] - centre[1], model.x0[2] - centre[2]};
+    const auto row = [&](const Vector3& to) {
+        const Vector3 from = {model.x0[0] - centre[0], model.x0[1] - centre[1], model.x0[2] - centre[2]};
         return std::array<std::uint32_t, 4>{bits(to[0]), bits(to[1]), bits(to[2]), bits(-dot(to, from))};
     };
-    for (const Vector* to : {&model.to_u, &model.to_v, &model.to_s}) {
+    for (const Vector3* to : {&model.to_u, &model.to_v, &model.to_s}) {
         const auto words = row(*to);
         patches.records.insert(patches.records.end(), words.begin(), words.end());
     }

@@ -91,9 +91,15 @@ def interact(window, chance):
         window.key("h")
         window.key("h")
     else:
+        n_items = len(window.screen()["items"])
         window.click("items/add")
         window.click({"plane": "add/Cut plane", "isosurface": "add/Isosurface", "volume": "add/Volume"}[kind])
-        window.key("ctrl+z")
+        if len(window.screen()["items"]) > n_items:
+            window.key("ctrl+z")
+        else:
+            # A second volume cannot be added, and the menu stays open.
+            window.key("Escape")
+            window.wait_for(lambda screen: "add/Volume" not in screen["places"], "the menu to close", 20)
     window.settle()
 
 

@@ -61,7 +61,7 @@ void change_opacity(Model& model, double opacity) {
 
 const PictureSize size{640, 480};
 
-double distance(const Vector& a, const Vector& b) { return length(minus(a, b)); }
+double distance(const Vector3& a, const Vector3& b) { return length(minus(a, b)); }
 
 } // namespace
 
@@ -122,7 +122,7 @@ TEST_CASE("Rays and projections are inverse") {
         for (int i = 0; i < 100; ++i) {
             const PicturePoint place = {std::uniform_real_distribution<double>(0, 640)(random),
                                         std::uniform_real_distribution<double>(0, 480)(random)};
-            const Vector point = ray_through(shifted, size, place).at(std::uniform_real_distribution<double>(0.1, 20)(random));
+            const Vector3 point = ray_through(shifted, size, place).at(std::uniform_real_distribution<double>(0.1, 20)(random));
             const auto back = project(shifted, size, point);
             REQUIRE(back);
             CHECK((*back)[0] == Approx(place[0]).margin(1e-9));
@@ -139,7 +139,7 @@ TEST_CASE("Zooming keeps what is below the cursor, panning follows it") {
         const ViewAxes axes = axes_of(before);
         const Ray ray = ray_through(before, size, place);
         const double depth = dot(minus(before.look_at, ray.origin), axes.forward) / dot(ray.direction, axes.forward);
-        const Vector point = ray.at(depth);
+        const Vector3 point = ray.at(depth);
         const Camera zoomed_in = zoomed(before, size, place, 0.5);
         const auto after = project(zoomed_in, size, point);
         REQUIRE(after);
@@ -164,7 +164,7 @@ TEST_CASE("Orbiting keeps the distance, and what is looked at in the middle") {
     }
     // A drag to the right turns the front of the volume to the right.
     const Camera before = camera(false), after = orbited(before, size, {20, 0});
-    const Vector front = plus(before.look_at, scaled(axes_of(before).forward, -1));
+    const Vector3 front = plus(before.look_at, scaled(axes_of(before).forward, -1));
     CHECK((*project(after, size, front))[0] > (*project(before, size, front))[0]);
 }
 
@@ -184,14 +184,14 @@ TEST_CASE("A plane's handles move and turn it") {
     REQUIRE(handles.size() == 2);
     const Camera seen = model.camera();
     // Dragged to where it is seen a length along the normal, the plane is there.
-    const Vector there = plus(handles[0].position, scaled(handles[0].direction, 0.7));
+    const Vector3 there = plus(handles[0].position, scaled(handles[0].direction, 0.7));
     const auto from = project(seen, size, handles[0].position), to = project(seen, size, there);
     REQUIRE((from && to));
-    const Vector position = dragged_to(handles[0], seen, size, *from, *to);
+    const Vector3 position = dragged_to(handles[0], seen, size, *from, *to);
     CHECK(distance(position, there) < 1e-9);
     const Scene moved = with_moved_handle(scene, item, facts(), 0, position);
     CHECK(distance(handles_of(moved, item, facts())[0].position, there) < 1e-9);
-    const Vector aside = plus(handles[1].position, {0.3, 0.2, 0.1});
+    const Vector3 aside = plus(handles[1].position, {0.3, 0.2, 0.1});
     const Scene turned_scene = with_moved_handle(scene, item, facts(), 1, aside);
     const Handle after = handles_of(turned_scene, item, facts())[0];
     CHECK(distance(after.direction, unit(minus(aside, handles[0].position))) < 1e-9);
@@ -205,8 +205,9 @@ TEST_CASE("Handles of shapes and lights take them where they go") {
         const std::vector<Handle> handles = handles_of(scene, item, facts());
         REQUIRE_FALSE(handles.empty());
         for (std::size_t i = 0; i < handles.size(); ++i) {
-            const Vector by = handles[i].kind == Handle::Kind::along ? scaled(handles[i].direction, 0.2) : Vector{0.1, 0.2, 0.3};
-            const Vector to = plus(handles[i].position, by);
+            const Vector3 by =
+                handles[i].kind == Handle::Kind::along ? scaled(handles[i].direction, 0.2) : Vector3{0.1, 0.2, 0.3};
+            const Vector3 to = plus(handles[i].position, by);
             CHECK(distance(handles_of(with_moved_handle(scene, item, facts(), i, to), item, facts())[i].position, to) < 1e-9);
         }
     }

@@ -9,6 +9,12 @@ namespace elvis::view {
 
 namespace {
 
+/** By an angle in radians about a unit axis (Rodrigues). */
+Vector3 turned(const Vector3& a, const Vector3& axis, double angle) {
+    const double c = std::cos(angle);
+    return plus(plus(scaled(a, c), scaled(cross(axis, a), std::sin(angle))), scaled(axis, dot(axis, a) * (1 - c)));
+}
+
 double slope(const Camera& camera) { return std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180); }
 
 double distance_of(const Camera& camera) { return length(minus(camera.look_at, camera.eye)); }
@@ -24,7 +30,7 @@ std::array<double, 2> picture_coordinates(const Camera& camera, const PictureSiz
             1 - 2 * (place[1] + camera.image_shift[1]) / size.height};
 }
 
-Camera moved(const Camera& camera, const Vector& by) {
+Camera moved(const Camera& camera, const Vector3& by) {
     Camera result = camera;
     result.eye = plus(camera.eye, by);
     result.look_at = plus(camera.look_at, by);
@@ -44,16 +50,16 @@ ViewAxes axes_of(const Camera& camera) {
 Ray ray_through(const Camera& camera, const PictureSize& size, const PicturePoint& place) {
     const auto [s, v] = picture_coordinates(camera, size, place);
     const ViewAxes axes = axes_of(camera);
-    const Vector across = plus(scaled(axes.right, s), scaled(axes.top, v));
+    const Vector3 across = plus(scaled(axes.right, s), scaled(axes.top, v));
     if (camera.orthographic) {
         return {plus(camera.eye, scaled(across, 0.5 * camera.height)), axes.forward};
     }
     return {camera.eye, unit(plus(axes.forward, scaled(across, slope(camera))))};
 }
 
-std::optional<PicturePoint> project(const Camera& camera, const PictureSize& size, const Vector& point) {
+std::optional<PicturePoint> project(const Camera& camera, const PictureSize& size, const Vector3& point) {
     const ViewAxes axes = axes_of(camera);
-    const Vector relative = minus(point, camera.eye);
+    const Vector3 relative = minus(point, camera.eye);
     const double along = dot(relative, axes.forward);
     if (!camera.orthographic && along <= 1e-9 * distance_of(camera)) {
         return std::nullopt;
@@ -65,7 +71,7 @@ std::optional<PicturePoint> project(const Camera& camera, const PictureSize& siz
                         0.5 * size.height * (1 - v) - camera.image_shift[1]};
 }
 
-double pixel_length(const Camera& camera, const PictureSize& size, const Vector& point) {
+double pixel_length(const Camera& camera, const PictureSize& size, const Vector3& point) {
     const double along = dot(minus(point, camera.eye), axes_of(camera).forward);
     const double height = camera.orthographic ? camera.height : 2 * slope(camera) * std::abs(along);
     return height / size.height;
@@ -75,7 +81,7 @@ Camera orbited(const Camera& camera, const PictureSize& size, const PicturePoint
     const ViewAxes axes = axes_of(camera);
     const double about_top = -std::numbers::pi * drag[0] / size.height;
     const double about_right = -std::numbers::pi * drag[1] / size.height;
-    const auto turn = [&](const Vector& a) { return turned(turned(a, axes.right, about_right), axes.top, about_top); };
+    const auto turn = [&](const Vector3& a) { return turned(turned(a, axes.right, about_right), axes.top, about_top); };
     Camera result = camera;
     result.eye = plus(camera.look_at, turn(minus(camera.eye, camera.look_at)));
     result.up = unit(turn(axes.top));
@@ -100,7 +106,7 @@ Camera zoomed(const Camera& camera, const PictureSize& size, const PicturePoint&
     const ViewAxes axes = axes_of(camera);
     // Everything is scaled about the point under the cursor at the distance of what is looked at.
     const double half = 0.5 * focal_height(camera);
-    const Vector fixed = plus(camera.look_at, plus(scaled(axes.right, s * half), scaled(axes.top, v * half)));
+    const Vector3 fixed = plus(camera.look_at, plus(scaled(axes.right, s * half), scaled(axes.top, v * half)));
     Camera result = camera;
     result.look_at = plus(fixed, scaled(minus(camera.look_at, fixed), factor));
     if (camera.orthographic) {
@@ -122,7 +128,7 @@ Camera with_projection(const Camera& camera, bool orthographic) {
     if (orthographic) {
         result.height = focal_height(camera);
     } else {
-        const Vector to_eye = scaled(axes_of(camera).forward, -1);
+        const Vector3 to_eye = scaled(axes_of(camera).forward, -1);
         result.eye = plus(camera.look_at, scaled(to_eye, 0.5 * camera.height / slope(camera)));
     }
     return result;
@@ -147,7 +153,7 @@ Camera from_standard_view(const Camera& camera, const StandardView& view, const 
 
 Camera fitted(const Camera& camera, const std::array<double, 6>& bounds, double aspect) {
     Camera result = camera;
-    const Vector to_eye = scaled(axes_of(camera).forward, -1);
+    const Vector3 to_eye = scaled(axes_of(camera).forward, -1);
     result.look_at = {0.5 * (bounds[0] + bounds[3]), 0.5 * (bounds[1] + bounds[4]), 0.5 * (bounds[2] + bounds[5])};
     const double distance = fitting_distance(bounds, result.look_at, to_eye, camera.up, camera.field_of_view, aspect);
     result.eye = plus(result.look_at, scaled(to_eye, distance));

@@ -4,8 +4,7 @@
  */
 #pragma once
 
-#include "vectors.hpp"
-
+#include <core/base/vector3.hpp>
 #include <core/render/frame.hpp>
 
 #include <array>
@@ -27,25 +26,25 @@ using PicturePoint = std::array<double, 2>;
 
 /** Unit vectors: along the view, to the right, to the top of the picture. */
 struct ViewAxes {
-    Vector forward, right, top;
+    Vector3 forward, right, top;
 };
 
 ViewAxes axes_of(const Camera& camera);
 
 struct Ray {
-    Vector origin, direction; ///< the latter of unit length
+    Vector3 origin, direction; ///< the latter of unit length
 
-    Vector at(double depth) const { return plus(origin, scaled(direction, depth)); }
+    Vector3 at(double depth) const { return plus(origin, scaled(direction, depth)); }
 };
 
 /** Through a place of the picture, by the formulas of the scene file. */
 Ray ray_through(const Camera& camera, const PictureSize& size, const PicturePoint& place);
 
 /** Where a point is seen; nothing for what lies behind the eye. */
-std::optional<PicturePoint> project(const Camera& camera, const PictureSize& size, const Vector& point);
+std::optional<PicturePoint> project(const Camera& camera, const PictureSize& size, const Vector3& point);
 
 /** World length of a pixel at a point. */
-double pixel_length(const Camera& camera, const PictureSize& size, const Vector& point);
+double pixel_length(const Camera& camera, const PictureSize& size, const Vector3& point);
 
 /** Turns the camera about what it looks at, as if the hand turned the volume: half a turn over the picture's height. */
 Camera orbited(const Camera& camera, const PictureSize& size, const PicturePoint& drag);
@@ -61,7 +60,7 @@ Camera with_projection(const Camera& camera, bool orthographic);
 /** Directions from which people look at things, by name: +x, -x, .. and corner. */
 struct StandardView {
     std::string name;
-    Vector to_eye, up;
+    Vector3 to_eye, up;
 };
 const std::vector<StandardView>& standard_views();
 /** The whole of the bounds from there. */

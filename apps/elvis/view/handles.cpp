@@ -9,34 +9,34 @@ namespace {
 
 constexpr double arrow_length = 0.15; ///< of the volume's diagonal
 
-Vector normal_of(const CutPlane& plane) { return unit({plane.plane[0], plane.plane[1], plane.plane[2]}); }
+Vector3 normal_of(const CutPlane& plane) { return unit({plane.plane[0], plane.plane[1], plane.plane[2]}); }
 
-double side(const CutPlane& plane, const Vector& point) {
-    const Vector normal = {plane.plane[0], plane.plane[1], plane.plane[2]};
+double side(const CutPlane& plane, const Vector3& point) {
+    const Vector3 normal = {plane.plane[0], plane.plane[1], plane.plane[2]};
     return (dot(normal, point) + plane.plane[3]) / length(normal);
 }
 
 /** The point of the plane nearest to the middle of the volume. */
-Vector anchor_of(const CutPlane& plane, const VolumeFacts& volume) {
+Vector3 anchor_of(const CutPlane& plane, const VolumeFacts& volume) {
     const auto& b = volume.bounds;
-    const Vector middle = {0.5 * (b[0] + b[3]), 0.5 * (b[1] + b[4]), 0.5 * (b[2] + b[5])};
+    const Vector3 middle = {0.5 * (b[0] + b[3]), 0.5 * (b[1] + b[4]), 0.5 * (b[2] + b[5])};
     return minus(middle, scaled(normal_of(plane), side(plane, middle)));
 }
 
-CutPlane plane_through(const Vector& point, const Vector& normal) {
+CutPlane plane_through(const Vector3& point, const Vector3& normal) {
     return {{normal[0], normal[1], normal[2], -dot(normal, point)}};
 }
 
 /** A unit vector across another one. */
-Vector across(const Vector& a) {
-    const Vector other = std::abs(a[0]) < 0.5 * length(a) ? Vector{1, 0, 0} : Vector{0, 1, 0};
+Vector3 across(const Vector3& a) {
+    const Vector3 other = std::abs(a[0]) < 0.5 * length(a) ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
     return unit(cross(a, other));
 }
 
 std::vector<Handle> handles_of_plane(const CutPlane& plane, const VolumeFacts& volume) {
-    const Vector anchor = anchor_of(plane, volume);
-    const Vector normal = normal_of(plane);
-    const Vector tip = plus(anchor, scaled(normal, arrow_length * volume.diagonal()));
+    const Vector3 anchor = anchor_of(plane, volume);
+    const Vector3 normal = normal_of(plane);
+    const Vector3 tip = plus(anchor, scaled(normal, arrow_length * volume.diagonal()));
     return {{Handle::Kind::along, anchor, normal, std::nullopt, "Drag: move the plane along its normal", "move"},
             {Handle::Kind::free, tip, {}, anchor, "Drag: turn the plane", "turn"}};
 }
@@ -45,18 +45,18 @@ std::vector<Handle> handles_of_shape(const CutShape& shape) {
     const char* move = "Drag: move it";
     const char* grow = "Drag: change the radius";
     if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-        const Vector out = {1, 0, 0};
+        const Vector3 out = {1, 0, 0};
         return {{Handle::Kind::free, sphere->center, {}, std::nullopt, move, "move"},
                 {Handle::Kind::along, plus(sphere->center, scaled(out, sphere->radius)), out, sphere->center, grow, "radius"}};
     }
     if (const auto* torus = std::get_if<Torus>(&shape)) {
-        const Vector out = across(torus->axis);
+        const Vector3 out = across(torus->axis);
         return {
             {Handle::Kind::free, torus->center, {}, std::nullopt, move, "move"},
             {Handle::Kind::along, plus(torus->center, scaled(out, torus->major_radius)), out, torus->center, grow, "radius"}};
     }
     if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-        const Vector out = across(minus(cylinder->to, cylinder->from));
+        const Vector3 out = across(minus(cylinder->to, cylinder->from));
         return {{Handle::Kind::free, cylinder->from, {}, std::nullopt, "Drag: move this end", "from"},
                 {Handle::Kind::free, cylinder->to, {}, cylinder->from, "Drag: move this end", "to"},
                 {Handle::Kind::along, plus(cylinder->from, scaled(out, cylinder->radius)), out, cylinder->from, grow, "radius"}};
@@ -68,7 +68,7 @@ std::vector<Handle> handles_of_shape(const CutShape& shape) {
     return {};
 }
 
-void move_shape(CutShape& shape, std::size_t handle, const Vector& position) {
+void move_shape(CutShape& shape, std::size_t handle, const Vector3& position) {
     constexpr double least = 1e-9;
     if (auto* sphere = std::get_if<Sphere>(&shape)) {
         if (handle == 0) {
@@ -118,7 +118,7 @@ std::vector<Handle> handles_of(const Scene& scene, const ItemId& item, const Vol
     return {};
 }
 
-Vector dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
+Vector3 dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
                   const PicturePoint& to) {
     if (handle.kind == Handle::Kind::free) {
         const double pixel = pixel_length(camera, size, handle.position);
@@ -130,7 +130,7 @@ Vector dragged_to(const Handle& handle, const Camera& camera, const PictureSize&
     const auto along = [&](const PicturePoint& place) {
         const Ray ray = ray_through(camera, size, place);
         const double b = dot(handle.direction, ray.direction);
-        const Vector between = minus(ray.origin, handle.position);
+        const Vector3 between = minus(ray.origin, handle.position);
         // Seen from its end, a line is too short to be dragged along.
         constexpr double least = 1e-3;
         return (dot(between, handle.direction) - b * dot(between, ray.direction)) / std::max(1 - b * b, least);
@@ -139,7 +139,7 @@ Vector dragged_to(const Handle& handle, const Camera& camera, const PictureSize&
 }
 
 Scene with_moved_handle(const Scene& scene, const ItemId& item, const VolumeFacts& volume, std::size_t handle,
-                        const Vector& position) {
+                        const Vector3& position) {
     Scene result = scene;
     if (item.kind == ItemKind::light) {
         result.lighting->lights[item.index].vector = position;
@@ -150,8 +150,8 @@ Scene with_moved_handle(const Scene& scene, const ItemId& item, const VolumeFact
         if (handle == 0) {
             plane->plane[3] -= side(*plane, position) * length({plane->plane[0], plane->plane[1], plane->plane[2]});
         } else {
-            const Vector anchor = anchor_of(*plane, volume);
-            const Vector normal = minus(position, anchor);
+            const Vector3 anchor = anchor_of(*plane, volume);
+            const Vector3 normal = minus(position, anchor);
             if (length(normal) > 1e-9 * volume.diagonal()) {
                 *plane = plane_through(anchor, unit(normal));
             }

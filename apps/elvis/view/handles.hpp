@@ -18,11 +18,11 @@ struct Handle {
         free   ///< moves in the plane through it that faces the viewer
     };
     Kind kind = Kind::free;
-    Vector position{};
+    Vector3 position{};
     /** Of `along`: unit. */
-    Vector direction{};
+    Vector3 direction{};
     /** A line is drawn to there. */
-    std::optional<Vector> tied_to;
+    std::optional<Vector3> tied_to;
     /** What it does, for people. */
     const char* help = "";
     /** For tests: "move", "turn", "radius". */
@@ -33,11 +33,11 @@ struct Handle {
 std::vector<Handle> handles_of(const Scene& scene, const ItemId& item, const VolumeFacts& volume);
 
 /** Where a handle goes that is dragged from one place of the picture to another. */
-Vector dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
+Vector3 dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
                   const PicturePoint& to);
 
 /** The scene after the handle of that number has been moved to a position. */
 Scene with_moved_handle(const Scene& scene, const ItemId& item, const VolumeFacts& volume, std::size_t handle,
-                        const Vector& position);
+                        const Vector3& position);
 
 } // namespace elvis::view

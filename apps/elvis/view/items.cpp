@@ -1,7 +1,6 @@
 #include "items.hpp"
 
-#include "vectors.hpp"
-
+#include <core/base/vector3.hpp>
 #include <core/scene/color_map.hpp>
 #include <core/scene/resolve.hpp>
 
@@ -84,7 +83,7 @@ template <class T> T copied_after(std::vector<T>& list, std::size_t index) {
     return copy;
 }
 
-Vector middle_of(const VolumeFacts& volume) {
+Vector3 middle_of(const VolumeFacts& volume) {
     const auto& b = volume.bounds;
     return {0.5 * (b[0] + b[3]), 0.5 * (b[1] + b[4]), 0.5 * (b[2] + b[5])};
 }
@@ -95,9 +94,9 @@ double least_extent(const VolumeFacts& volume) {
 }
 
 SurfaceGeometry new_geometry(const VolumeFacts& volume, NewItem item, double value) {
-    const Vector middle = middle_of(volume);
+    const Vector3 middle = middle_of(volume);
     const double extent = least_extent(volume);
-    const Vector along = {0, 0, 0.35 * extent};
+    const Vector3 along = {0, 0, 0.35 * extent};
     switch (item) {
     case NewItem::cut_plane:
         return central_plane(volume.bounds);

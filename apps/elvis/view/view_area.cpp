@@ -77,7 +77,7 @@ void ViewArea::go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by) 
         const std::optional<ItemId> item = model.selection();
         if (item && m_handle) {
             const std::vector<Handle> handles = handles_of(m_before, *item, *model.volume());
-            const Vector position = dragged_to(handles[*m_handle], camera, m_size, m_taken, place);
+            const Vector3 position = dragged_to(handles[*m_handle], camera, m_size, m_taken, place);
             Scene scene = with_moved_handle(m_before, *item, *model.volume(), *m_handle, position);
             scene.camera = model.scene().camera;
             scene.size = model.scene().size;

@@ -1,6 +1,6 @@
 #include "panels.hpp"
 
-#include "../vectors.hpp"
+#include <core/base/vector3.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 bool edit(Ui& ui, CutPlane& plane) {
     const double extent = ui.model().volume()->diagonal();
     bool is_changed = false;
-    Vector normal = {plane.plane[0], plane.plane[1], plane.plane[2]};
+    Vector3 normal = {plane.plane[0], plane.plane[1], plane.plane[2]};
     if (vector(ui, "plane/normal", "Normal", normal, 1, "Direction across the plane, of any length but zero") &&
         length(normal) > 0) {
         // The plane turns about its point nearest to the origin.
@@ -42,7 +42,7 @@ bool edit(Ui& ui, CutPlane& plane) {
     ImGui::SameLine();
     if (button(ui, "plane/view", "view", "Facing the viewer, through what the camera looks at")) {
         const Camera camera = ui.model().camera();
-        const Vector to_eye = scaled(axes_of(camera).forward, -1);
+        const Vector3 to_eye = scaled(axes_of(camera).forward, -1);
         plane.plane = {to_eye[0], to_eye[1], to_eye[2], -dot(to_eye, camera.look_at)};
         is_changed = true;
     }
@@ -169,7 +169,7 @@ bool edit(Ui& ui, ElementSelection& selection) {
     }
     if (selection.box) {
         std::array<double, 6>& box = *selection.box;
-        Vector least = {box[0], box[1], box[2]}, most = {box[3], box[4], box[5]};
+        Vector3 least = {box[0], box[1], box[2]}, most = {box[3], box[4], box[5]};
         const bool has_least = vector(ui, "elements/least", "least", least, volume.diagonal(), "The box's least corner");
         const bool has_most = vector(ui, "elements/most", "largest", most, volume.diagonal(), "The box's largest corner");
         if (has_least || has_most) {
@@ -330,7 +330,7 @@ bool edit_geometry(Ui& ui, SceneSurface& surface) {
 
 bool edit_light(Ui& ui, Light& light) {
     const bool is_point = light.type == Light::Type::point;
-    Vector place = light.vector;
+    Vector3 place = light.vector;
     bool is_changed = false;
     if (vector(ui, "light/place", is_point ? "Place" : "Direction", place, is_point ? ui.model().volume()->diagonal() : 1,
                is_point ? "Where the light is" : "In which the light travels") &&

@@ -1,6 +1,6 @@
 #include "panels.hpp"
 
-#include "../vectors.hpp"
+#include <core/base/vector3.hpp>
 
 #include <cstdio>
 
@@ -93,7 +93,7 @@ void draw_camera(Ui& ui) {
     is_changed = vector(ui, "camera/look at", "Look at", camera.look_at, extent, "What is in the middle of the picture") || is_changed;
     is_changed = vector(ui, "camera/up", "Up", camera.up, 1, "What is up in the picture") || is_changed;
     // A camera that looks nowhere is not taken.
-    const Vector view = minus(camera.look_at, camera.eye);
+    const Vector3 view = minus(camera.look_at, camera.eye);
     if (is_changed && length(view) > 0 && length(cross(view, camera.up)) > 1e-6 * length(view) * length(camera.up)) {
         model.set_camera(camera);
     }
@@ -115,7 +115,7 @@ void draw_picked(Ui& ui) {
         ImGui::SameLine();
         if (button(ui, "point/look at", "Look at it", "Turns the camera towards this point")) {
             Camera camera = ui.model().camera();
-            const Vector by = minus(picked->position, camera.look_at);
+            const Vector3 by = minus(picked->position, camera.look_at);
             camera.look_at = picked->position;
             camera.eye = plus(camera.eye, by);
             ui.model().set_camera(camera);
