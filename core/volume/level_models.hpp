@@ -6,23 +6,39 @@
 
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/volume/device_volume.hpp>
-#include <core/volume/level_set.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace elvis {
 
+/** The number that has the level sets: of the components from `first` to before `end` the only one, or the vector's length. */
+struct LevelComponent {
+    std::uint32_t first = 0, end = 1;
+
+    bool operator==(const LevelComponent&) const = default;
+};
+
+/** Of the field, in one element. */
+struct LevelRange {
+    float lower = 0, upper = 0;
+    /** The bounds are. */
+    bool is_estimated = false;
+};
+
 /**
  * For the field or expression that `data` has selected, with its derivative bounds: a linear model of it in every element with a bound
- * of the remainder (shaders/library/level_model.glsl).
+ * of the remainder (shaders/library/level_model.glsl). No element is marked as estimated if all are.
  */
 class LevelModels {
 public:
     LevelModels(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
-    /** Makes the models of the component, if they are not there yet. */
-    void provide(const LevelComponent& component);
+    /** Makes the models of the component, if they are not there yet. `ranges`, if not null, gets one for each class and element of it if so. */
+    void provide(const LevelComponent& component, std::vector<std::vector<LevelRange>>* ranges = nullptr);
+    /** Of the component that was provided last. */
+    bool is_all_estimated() const { return m_is_all_estimated; }
 
     /** `core_models`; valid as long as this. Of classes with elements. */
     FetchBuffer host_buffer(std::uint32_t element_class) const;
@@ -37,6 +53,7 @@ private:
     const RuntimeVolume& m_volume;
     std::vector<ClassModels> m_classes;
     LevelComponent m_component{0, 0};
+    bool m_is_all_estimated = false;
 };
 
 } // namespace elvis

@@ -13,11 +13,9 @@ namespace {
 /** Elements of one dispatch, or asked for at once: bounds time and memory. */
 constexpr std::uint64_t block = 65536;
 constexpr std::uint32_t group_size = 32;
-/** Of a model, its range included; of a node. */
-constexpr std::uint32_t record_size = 8;
 /** Of a node. */
+constexpr std::uint32_t record_size = 8;
 constexpr std::size_t child_word = 3;
-constexpr std::size_t lower = 5, upper = 6, estimated = 7;
 /** Words of a cell on the device, and of what the kernel says of it: range and box, too. */
 constexpr std::uint32_t cell_size = 24, cell_words = 32;
 constexpr std::size_t cell_slope = 12, cell_error = 16, cell_scale = 17, cell_element = 18, cell_code = 19,
@@ -40,15 +38,10 @@ struct CellParameters {
     std::uint32_t first_component, end_component;
 };
 
-struct Parameters {
-    std::uint32_t first, n_elements;
-    std::uint32_t first_component, end_component;
-};
-
-bool holds_any(const FieldRange& range, std::span<const double> isovalues) {
-    const auto first = std::lower_bound(isovalues.begin(), isovalues.end(), range.lower);
+bool holds_any(double lower, double upper, std::span<const double> isovalues) {
+    const auto first = std::lower_bound(isovalues.begin(), isovalues.end(), lower);
     // A range that is no number, as of an element with such values, says nothing.
-    return !(range.lower <= range.upper) || (first != isovalues.end() && *first <= range.upper);
+    return !(lower <= upper) || (first != isovalues.end() && *first <= upper);
 }
 
 std::vector<std::uint32_t> node_words(const Hierarchy& hierarchy) {
@@ -98,7 +91,9 @@ struct LevelSet::Cells {
     std::size_t size() const { return words.size() / cell_words; }
     std::uint32_t word(std::size_t cell, std::size_t index) const { return words[cell * cell_words + index]; }
     float number(std::size_t cell, std::size_t index) const { return std::bit_cast<float>(word(cell, index)); }
-    FieldRange range(std::size_t cell) const { return {number(cell, cell_range), number(cell, cell_range + 1)}; }
+    bool holds_any(std::size_t cell, std::span<const double> isovalues) const {
+        return elvis::holds_any(number(cell, cell_range), number(cell, cell_range + 1), isovalues);
+    }
     bool is_rough(std::size_t cell) const {
         double slope = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -118,7 +113,7 @@ struct LevelSet::Cells {
 
 LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_volume(volume), m_precision(data.precision()), m_centre(data.centre()),
-      m_classes(volume.classes().size()) {
+      m_models(device, volume, data), m_classes(volume.classes().size()) {
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         const std::uint64_t n_elements = volume.classes()[index].n_elements;
         if (n_elements == 0) {
@@ -128,71 +123,34 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
         // Room for all elements, so that kernels composed with it stay valid.
         levels.nodes =
             std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_elements - 1, record_size);
-        levels.models = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, record_size);
-        KernelRequest request;
-        request.name = "level_models of element class " + std::to_string(index);
-        request.kernel = "kernels/level_models.comp";
-        request.watches_loops = true;
-        request.precision = data.precision();
-        data.add_field(request, index, true);
-        request.bindings = {{0, BindingType::storage_buffer}};
-        request.push_constant_bytes = sizeof(Parameters);
-        levels.model_kernel = std::make_unique<ComposedKernel>(device, request);
         const std::uint64_t n_cells = std::max(n_elements, most_cells);
         levels.cell_nodes =
             std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_cells - 1, record_size);
         levels.cells = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_cells, cell_size);
+        KernelRequest request;
         request.name = "level_cells of element class " + std::to_string(index);
         request.kernel = "kernels/level_cells.comp";
         request.watches_loops = true;
-        request.bindings.push_back({1, BindingType::storage_buffer});
-        request.bindings.push_back({2, BindingType::storage_buffer});
+        request.precision = data.precision();
+        data.add_field(request, index, true);
+        for (std::uint32_t binding = 0; binding <= 2; ++binding) {
+            request.bindings.push_back({binding, BindingType::storage_buffer});
+        }
         request.push_constant_bytes = sizeof(CellParameters);
         levels.cell_kernel = std::make_unique<ComposedKernel>(device, request);
     }
 }
 
-void LevelSet::make_models(const LevelComponent& component) {
-    // Until all are made: that may be cancelled.
-    m_component = {0, 0};
-    m_is_all_estimated = true;
-    std::vector<std::vector<std::uint32_t>> models(m_classes.size());
-    for (std::size_t index = 0; index < m_classes.size(); ++index) {
-        ClassLevels& levels = m_classes[index];
-        const std::uint64_t n_elements = m_volume.classes()[index].n_elements;
-        levels.ranges.clear();
-        levels.is_estimated.clear();
-        const Buffer output(m_device, std::max<std::uint64_t>(std::min(block, n_elements), 1) * record_size * sizeof(float));
-        const std::array<const Buffer*, 1> bindings = {&output};
-        for (std::uint64_t first = 0; first < n_elements; first += block) {
-            const auto count = static_cast<std::uint32_t>(std::min(block, n_elements - first));
-            const Parameters parameters{static_cast<std::uint32_t>(first), count, component.first, component.end};
-            levels.model_kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                                          (count + group_size - 1) / group_size);
-            const auto words = output.read_items<std::uint32_t>(std::size_t{count} * record_size);
-            models[index].insert(models[index].end(), words.begin(), words.end());
-            for (std::size_t at = 0; at < words.size(); at += record_size) {
-                levels.ranges.push_back({std::bit_cast<float>(words[at + lower]), std::bit_cast<float>(words[at + upper])});
-                levels.is_estimated.push_back(words[at + estimated] != 0);
-                m_is_all_estimated = m_is_all_estimated && levels.is_estimated.back();
-            }
-        }
-    }
-    for (std::size_t index = 0; index < m_classes.size(); ++index) {
-        for (std::size_t at = estimated; m_is_all_estimated && at < models[index].size(); at += record_size) {
-            models[index][at] = 0;
-        }
-        if (!models[index].empty()) {
-            m_classes[index].models->write_uints(0, models[index]);
-        }
-    }
-    m_component = component;
-    m_is_chosen = false;
-}
-
 void LevelSet::choose(std::span<const double> isovalues, const LevelComponent& component, bool skips_by_range) {
     if (component != m_component) {
-        make_models(component);
+        m_component = {0, 0};
+        m_is_chosen = false;
+        std::vector<std::vector<LevelRange>> ranges;
+        m_models.provide(component, &ranges);
+        for (std::size_t index = 0; index < m_classes.size(); ++index) {
+            m_classes[index].ranges = std::move(ranges[index]);
+        }
+        m_component = component;
     }
     Choice choice{std::vector<double>(isovalues.begin(), isovalues.end()), skips_by_range};
     if (m_is_chosen && choice == m_choice) {
@@ -213,7 +171,8 @@ void LevelSet::choose(std::span<const double> isovalues, const LevelComponent& c
             all.resize(6 * count);
             m_volume.bounds(info.first_element + first, count, all);
             for (std::uint64_t i = 0; i < count; ++i) {
-                if (!may_skip(levels, first + i) || holds_any(levels.ranges[first + i], m_choice.isovalues)) {
+                const LevelRange& range = levels.ranges[first + i];
+                if (!may_skip(range) || holds_any(range.lower, range.upper, m_choice.isovalues)) {
                     levels.chosen.push_back(static_cast<std::uint32_t>(first + i));
                     const auto box = all.begin() + static_cast<std::ptrdiff_t>(6 * i);
                     levels.boxes.insert(levels.boxes.end(), box, box + 6);
@@ -227,8 +186,8 @@ void LevelSet::choose(std::span<const double> isovalues, const LevelComponent& c
     m_is_chosen = true;
 }
 
-bool LevelSet::may_skip(const ClassLevels& levels, std::uint64_t element) const {
-    return m_choice.skips_by_range && (m_is_all_estimated || !levels.is_estimated[element]);
+bool LevelSet::may_skip(const LevelRange& range) const {
+    return m_choice.skips_by_range && (rests_on_estimates() || !range.is_estimated);
 }
 
 LevelSet::Cells LevelSet::evaluate(const ClassLevels& levels, std::span<const std::uint32_t> elements_and_codes) {
@@ -285,7 +244,7 @@ void LevelSet::make_cells(ClassLevels& levels, elvis_shape shape) {
         const Cells octants = evaluate(levels, wanted);
         Cells divided;
         for (std::size_t i = 0; i < octants.size(); ++i) {
-            if (!may_skip(levels, octants.word(i, cell_element)) || holds_any(octants.range(i), m_choice.isovalues)) {
+            if (!may_skip(levels.ranges[octants.word(i, cell_element)]) || octants.holds_any(i, m_choice.isovalues)) {
                 divided.add(octants, i);
             }
         }
@@ -320,7 +279,7 @@ void LevelSet::write_cells(ClassLevels& levels, std::span<const std::uint32_t> p
         const auto begin = cells.words.begin() + static_cast<std::ptrdiff_t>(i * cell_words);
         records.insert(records.end(), begin, begin + cell_size);
         std::uint32_t* record = &records[records.size() - cell_size];
-        if (levels.is_estimated[element] && !m_is_all_estimated) {
+        if (levels.ranges[element].is_estimated && !rests_on_estimates()) {
             record[cell_code] |= cell_is_estimated;
         }
         if (!is_linear) {
@@ -364,7 +323,7 @@ void LevelSet::provide_element_nodes(std::uint32_t element_class) {
 }
 
 std::vector<FetchBuffer> LevelSet::element_buffers(std::uint32_t element_class) const {
-    return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_models", m_classes[element_class].models.get()}};
+    return {{"core_nodes", m_classes[element_class].nodes.get()}, m_models.host_buffer(element_class)};
 }
 
 std::vector<FetchBuffer> LevelSet::cell_buffers(std::uint32_t element_class) const {

@@ -6,6 +6,7 @@
 
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/volume/device_volume.hpp>
+#include <core/volume/level_models.hpp>
 #include <core/vulkan/buffer.hpp>
 
 #include <array>
@@ -15,13 +16,6 @@
 #include <vector>
 
 namespace elvis {
-
-/** The number that has the level sets: of the components from `first` to before `end` the only one, or the vector's length. */
-struct LevelComponent {
-    std::uint32_t first = 0, end = 1;
-
-    bool operator==(const LevelComponent&) const = default;
-};
 
 /**
  * For the field or expression that `data` has selected, with its derivative bounds: a linear model of it in every element
@@ -45,17 +39,17 @@ public:
     void provide_element_nodes(std::uint32_t element_class);
     /** Elements have been left out, or rays pass them by, on the word of estimates: that is so everywhere, and not flagged by
      * kernels. */
-    bool rests_on_estimates() const { return m_is_all_estimated; }
+    bool rests_on_estimates() const { return m_models.is_all_estimated(); }
     std::uint64_t n_cells(std::uint32_t element_class) const { return m_classes[element_class].n_cells; }
     /** Chosen ones. */
     std::uint64_t n_elements(std::uint32_t element_class) const { return m_classes[element_class].chosen.size(); }
 
 private:
     struct ClassLevels {
-        std::unique_ptr<RecordBuffer> nodes, models, cell_nodes, cells;
-        std::unique_ptr<ComposedKernel> model_kernel, cell_kernel;
-        std::vector<FieldRange> ranges;
-        std::vector<bool> is_estimated;
+        std::unique_ptr<RecordBuffer> nodes, cell_nodes, cells;
+        std::unique_ptr<ComposedKernel> cell_kernel;
+        /** Of all local elements. */
+        std::vector<LevelRange> ranges;
         /** Local elements, and their boxes. */
         std::vector<std::uint32_t> chosen;
         std::vector<double> boxes;
@@ -69,8 +63,7 @@ private:
 
         bool operator==(const Choice&) const = default;
     };
-    void make_models(const LevelComponent& component);
-    bool may_skip(const ClassLevels& levels, std::uint64_t element) const;
+    bool may_skip(const LevelRange& range) const;
     void make_cells(ClassLevels& levels, elvis_shape shape);
     /** `place`: of local elements in what is chosen. */
     void write_cells(ClassLevels& levels, std::span<const std::uint32_t> place, const Cells& cells);
@@ -83,9 +76,9 @@ private:
     const RuntimeVolume& m_volume;
     Precision m_precision;
     std::array<double, 3> m_centre;
+    LevelModels m_models;
     std::vector<ClassLevels> m_classes;
     LevelComponent m_component{0, 0};
-    bool m_is_all_estimated = false;
     Choice m_choice;
     /** Whether all that the choice needs is there: making it may have been cancelled. */
     bool m_is_chosen = false;
