@@ -253,7 +253,10 @@ bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is
     const bool is_last = is_all_inside && end >= part.last;
     // Rounding may say that the ray is out already where it was surely inside.
     const bool is_at_begin = is_exact && clip.to <= begin + error && clip.to >= begin - error && clip.from <= clip.to;
-    const bool is_found = is_at_begin || (is_continued && !is_all_inside && (is_exact || clip.possible_to - clip.sure_to <= ray.tolerance));
+    // Where nothing but the interval ends, the ray may go on.
+    const bool is_cut_off = clip.to_face == CORE_NO_FACE && end < part.last;
+    const bool is_narrow = clip.possible_to - clip.sure_to <= ray.tolerance && !is_cut_off;
+    const bool is_found = is_at_begin || (is_continued && !is_all_inside && (is_exact || is_narrow));
     const elvis_real open_begin = is_continued ? clip.sure_to : begin;
     const elvis_real open_end = is_continued ? clip.possible_to : min(clip.possible_to, elvis_real(0.5LF) * (begin + end));
     // Too short to matter, and not decided: as predicted.
