@@ -13,23 +13,30 @@ struct core_face_entry {
     uint n_evaluations;
 };
 
+// The middle of the face, for `start` 0, or a point near the vertex of it with that number, from 1. False if there are fewer.
+bool core_point_of_face(int face, uint start, out elvis_vec3 point) {
+    const elvis_vec4 constraint = core_face_constraint(face);
+    elvis_vec3 sum = elvis_vec3(0), vertex = elvis_vec3(0);
+    uint n = 0u;
+    for (uint corner = 0u; corner < 8u; ++corner) {
+        const elvis_vec3 at = core_cube_corner(corner);
+        const bool is_vertex = core_is_vertex(at) && dot(constraint.xyz, at) + constraint.w == elvis_real(0);
+        n += is_vertex ? 1u : 0u;
+        sum += is_vertex ? at : elvis_vec3(0);
+        vertex = is_vertex && n == start ? at : vertex;
+    }
+    const elvis_vec3 middle = sum / elvis_real(n);
+    point = start == 0u ? middle : mix(middle, vertex, elvis_real(0.7LF));
+    return start <= n;
+}
+
 // `start`: which of the points, below CORE_FACE_STARTS.
 core_face_entry core_enter_face(core_walk_ray ray, uint element, elvis_real curvature, int face, uint start) {
     const elvis_vec4 constraint = core_face_constraint(face);
-    const elvis_real square = dot(constraint.xyz, constraint.xyz);
-    // The centroid, or a corner of a tetrahedron around it, taken to the face.
-    const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.6LF);
-    const elvis_vec3 way = elvis_vec3((start & 1u) == 0u ? -out_to : out_to, (start & 2u) == 0u ? -out_to : out_to,
-                                      ((start ^ (start >> 1)) & 1u) == 0u ? -out_to : out_to);
-    elvis_real x = CORE_CENTROID.x + way.x, y = CORE_CENTROID.y + way.y, z = CORE_CENTROID.z + way.z;
-    core_project(x, y, z);
-    const elvis_real depth = (dot(constraint.xyz, elvis_vec3(x, y, z)) + constraint.w) / square;
-    x -= depth * constraint.x;
-    y -= depth * constraint.y;
-    z -= depth * constraint.z;
-    core_project(x, y, z);
+    elvis_vec3 first;
+    bool is_over = !core_point_of_face(face, start, first);
+    elvis_real x = first.x, y = first.y, z = first.z;
     core_face_entry entry = core_face_entry(false, elvis_real(0), elvis_real(0), 0u);
-    bool is_over = false;
     while (!is_over && entry.n_evaluations < CORE_FACE_STEPS) {
         elvis_vec3 position;
         elvis_mat3 jacobian;

@@ -48,6 +48,12 @@ elvis_real core_excess(elvis_real x, elvis_real y, elvis_real z) {
 #endif
 }
 
+// All vertices are among the corners of the cube around the shape, 8 of them.
+elvis_vec3 core_cube_corner(uint corner) {
+    return elvis_vec3((corner & 1u) == 0u ? -1 : 1, (corner & 2u) == 0u ? -1 : 1, (corner & 4u) == 0u ? -1 : 1);
+}
+bool core_is_vertex(elvis_vec3 corner) { return core_excess(corner.x, corner.y, corner.z) <= elvis_real(0); }
+
 // A point of the shape near (x, y, z), the point itself if it lies in the shape: where the mapping is evaluated in place of a
 // point outside, because only inside is it known to be one to one.
 void core_project(inout elvis_real x, inout elvis_real y, inout elvis_real z) {

@@ -3,6 +3,7 @@
 #include "box_tree.hpp"
 #include "inversion.hpp"
 
+#include <core/base/bounds.hpp>
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -175,53 +176,83 @@ SegmentAccuracy& SegmentAccuracy::operator+=(const SegmentAccuracy& other) {
     return *this;
 }
 
+struct SegmentMeasure::State {
+    State(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision)
+        : data(device, volume, precision, nullptr), pass(device, volume, selected(data, volume)), enclosures(make_enclosures(model)),
+          tree(enclosures), judged{model, enclosures, tree, convert(Vector3(data.centre())), diagonal_of(data.bounds()),
+                                  (precision == Precision::float64 ? 1e-13 : 1e-6) * diagonal_of(data.bounds()),
+                                  precision == Precision::float64},
+          judges(std::max(1u, std::thread::hardware_concurrency()), SegmentJudge(judged)) {}
+
+    static DeviceVolume& selected(DeviceVolume& data, const RuntimeVolume& volume) {
+        data.select(0, 0, std::vector<double>(volume.fields()[0].n_components, 0.0));
+        return data;
+    }
+
+    DeviceVolume data;
+    SegmentPass pass;
+    std::vector<Enclosure> enclosures;
+    BoxTree tree;
+    Judged judged;
+    std::vector<SegmentJudge> judges;
+    std::size_t n_rays = 0;
+    SegmentCounts counts;
+};
+
+SegmentMeasure::SegmentMeasure(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision)
+    : m_state(std::make_unique<State>(device, volume, model, precision)) {}
+
+SegmentMeasure::~SegmentMeasure() = default;
+
+const DeviceVolume& SegmentMeasure::data() const { return m_state->data; }
+
+void SegmentMeasure::add(std::span<const SegmentRay> rays, std::size_t points_a_ray, unsigned seed) {
+    const std::vector<std::vector<Segment>> lists = m_state->pass.lists(rays, m_state->counts);
+    m_state->n_rays += rays.size();
+    std::atomic<std::size_t> next = 0;
+    std::vector<std::jthread> threads;
+    for (SegmentJudge& judge : m_state->judges)
+        threads.emplace_back([&] {
+            for (std::size_t begin = next.fetch_add(rays_a_turn); begin < rays.size(); begin = next.fetch_add(rays_a_turn)) {
+                std::mt19937 points(static_cast<unsigned>(seed + begin));
+                for (std::size_t k = begin; k < std::min(rays.size(), begin + rays_a_turn); ++k) {
+                    judge.judge(rays[k], lists[k]);
+                    judge.judge_points(rays[k], lists[k], points_a_ray, points);
+                }
+            }
+        });
+}
+
+SegmentAccuracy SegmentMeasure::result() const {
+    SegmentAccuracy result;
+    for (const SegmentJudge& judge : m_state->judges)
+        result += judge.result();
+    result.n_rays = m_state->n_rays;
+    result.counts = m_state->counts;
+    return result;
+}
+
 SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision,
                                  std::size_t n_rays, std::size_t points_a_ray, unsigned seed) {
-    DeviceVolume data(device, volume, precision, nullptr);
-    data.select(0, 0, std::vector<double>(volume.fields()[0].n_components, 0.0));
-    SegmentPass pass(device, volume, data);
-    const std::array<double, 6>& box = data.bounds();
-    const Vector lower(box[0], box[1], box[2]), upper(box[3], box[4], box[5]);
-    const double size = (upper - lower).norm();
-    const bool is_double = precision == Precision::float64;
-    const std::vector<Enclosure> enclosures = make_enclosures(model);
-    const BoxTree tree(enclosures);
-    const Judged judged{model, enclosures, tree, convert(Vector3(data.centre())), size, (is_double ? 1e-13 : 1e-6) * size, is_double};
-    std::vector<SegmentJudge> judges(std::max(1u, std::thread::hardware_concurrency()), SegmentJudge(judged));
-
+    SegmentMeasure measure(device, volume, model, precision);
+    const std::array<double, 6>& box = measure.data().bounds();
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(0, 1);
     std::normal_distribution<double> normal;
-    SegmentAccuracy result;
     for (std::size_t first = 0; first < n_rays; first += rays_a_batch) {
         std::vector<SegmentRay> rays;
         for (std::size_t k = first; k < std::min(n_rays, first + rays_a_batch); ++k) {
             Vector point, direction;
-            for (int i = 0; i < 3; ++i) {
-                point[i] = lower[i] + coordinate(random) * (upper[i] - lower[i]);
-                direction[i] = normal(random);
+            for (std::size_t i = 0; i < 3; ++i) {
+                point[static_cast<Eigen::Index>(i)] = box[i] + coordinate(random) * (box[i + 3] - box[i]);
+                direction[static_cast<Eigen::Index>(i)] = normal(random);
             }
-            const Vector eye = point - 1.5 * size * direction.normalized();
-            rays.push_back(near_centre(convert(eye), convert(point), data.centre(), precision));
+            const Vector eye = point - 1.5 * diagonal_of(box) * direction.normalized();
+            rays.push_back(near_centre(convert(eye), convert(point), measure.data().centre(), precision));
         }
-        const std::vector<std::vector<Segment>> lists = pass.lists(rays, result.counts);
-        result.n_rays += rays.size();
-        std::atomic<std::size_t> next = 0;
-        std::vector<std::jthread> threads;
-        for (SegmentJudge& judge : judges)
-            threads.emplace_back([&] {
-                for (std::size_t begin = next.fetch_add(rays_a_turn); begin < rays.size(); begin = next.fetch_add(rays_a_turn)) {
-                    std::mt19937 points(static_cast<unsigned>(seed + first + begin));
-                    for (std::size_t k = begin; k < std::min(rays.size(), begin + rays_a_turn); ++k) {
-                        judge.judge(rays[k], lists[k]);
-                        judge.judge_points(rays[k], lists[k], points_a_ray, points);
-                    }
-                }
-            });
+        measure.add(rays, points_a_ray, static_cast<unsigned>(seed + first));
     }
-    for (const SegmentJudge& judge : judges)
-        result += judge.result();
-    return result;
+    return measure.result();
 }
 
 } // namespace elvis::oracle

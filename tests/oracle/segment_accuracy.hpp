@@ -8,7 +8,11 @@
 
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/segment_pass.hpp>
+#include <core/volume/device_volume.hpp>
 #include <core/vulkan/device.hpp>
+
+#include <memory>
+#include <span>
 
 namespace elvis::oracle {
 
@@ -30,8 +34,25 @@ struct SegmentAccuracy {
     SegmentAccuracy& operator+=(const SegmentAccuracy& other);
 };
 
-/** Rays through points of the volume's box in directions by chance, judged by as many threads as the machine has cores. `points_a_ray`: for
- *  n_missed and n_invented. */
+/** Rays of one volume, judged by as many threads as the machine has cores. */
+class SegmentMeasure {
+public:
+    /** All must outlive it. */
+    SegmentMeasure(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision);
+    ~SegmentMeasure();
+
+    /** `points_a_ray`, and `seed` of where they are: for n_missed and n_invented. */
+    void add(std::span<const SegmentRay> rays, std::size_t points_a_ray, unsigned seed);
+    /** Of all that were added. */
+    SegmentAccuracy result() const;
+    const DeviceVolume& data() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> m_state;
+};
+
+/** Rays through points of the volume's box in directions by chance. */
 SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision,
                                  std::size_t n_rays, std::size_t points_a_ray, unsigned seed);
 
