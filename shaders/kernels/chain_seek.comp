@@ -44,6 +44,9 @@ layout(push_constant) uniform core_parameters {
 // Turns of a ray, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
 
+// Error of starts that are not found at a face, in tolerances: several times what was seen.
+#define CORE_LATE_ERROR elvis_real(16)
+
 // Whether the ray comes into the element through a face without neighbour, or one that is as near within rounding.
 bool core_enters_chain(core_part part, core_walk_ray ray) {
     const elvis_real since = part.enter - part.anchor;
@@ -212,7 +215,9 @@ void main() {
         best = is_better ? part.enter : best;
         best_element = is_better ? element : best_element;
 #if CORE_MAKES_SEGMENTS
-        best_error = is_better ? part.enter_error : best_error;
+        // Where no face is met it was said too early, by estimates, that the ray is outside.
+        const bool is_late = part.enter_face < 0 && !is_at_eye;
+        best_error = is_better ? (is_late ? CORE_LATE_ERROR * ray.tolerance : part.enter_error) : best_error;
 #endif
         const bool goes_on = ending == CORE_PART_FOUND && !is_start && part.resume < part.last;
         const elvis_real resume = max(part.resume, part.leave) + ray.tolerance;
