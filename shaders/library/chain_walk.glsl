@@ -33,9 +33,10 @@
 #define CORE_ALONG 1e-5
 
 // Goes on from element to element towards the point of the ray at t, until one holds it: its position in the class; or
-// CORE_NO_ELEMENT, and in `other` the element of another class in which to go on, if there is one.
-uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint other) {
+// CORE_NO_ELEMENT, and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
+uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
+    bool has_left = false;
     uint hops = 0u;
     bool is_found = false;
     elvis_real x = CORE_CENTROID.x, y = CORE_CENTROID.y, z = CORE_CENTROID.z;
@@ -64,7 +65,8 @@ uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint ot
         const bool is_own = link != CORE_NO_LINK && link >= core_first_element && link - core_first_element < core_n_elements;
         hops += leaves ? 1u : 0u;
         other = leaves && !is_own ? link : other;
-        is_over = is_found || (leaves && !is_own) || hops >= CORE_MOST_HOPS || !frame.is_sound;
+        has_left = leaves && !is_own;
+        is_over = is_found || has_left || hops >= CORE_MOST_HOPS || !frame.is_sound;
         element = leaves && is_own ? link - core_first_element : element;
         steps = leaves ? 0u : steps;
         elvis_real new_x = next.x, new_y = next.y, new_z = next.z;
@@ -73,6 +75,7 @@ uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint ot
         y = leaves ? CORE_CENTROID.y : new_y;
         z = leaves ? CORE_CENTROID.z : new_z;
     }
+    is_lost = !is_found && !has_left;
 #if ELVIS_HAS_INSIDE
     // Beyond the element's own boundary there is no one to ask.
     is_found = is_found && core_is_within(element, elvis_vec3(x, y, z), elvis_vec3(CORE_ALONG));
@@ -203,7 +206,9 @@ void core_chain_help(core_walk_ray ray, inout core_chain chain, inout core_part 
     if (chain.needs_element) {
         const elvis_real probe = chain.at + elvis_real(4) * exp2(float(min(chain.n_lost - 1u, 30u))) * ray.tolerance;
         uint other;
-        const uint found = core_find_around(ray, chain.element - core_first_element, probe, other);
+        bool is_lost;
+        const uint found = core_find_around(ray, chain.element - core_first_element, probe, other, is_lost);
+        flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
         chain.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
         chain.at = probe;
         chain.is_ahead = true;
