@@ -35,7 +35,8 @@ class LevelModels {
 public:
     LevelModels(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
-    /** Makes the models of the component, if they are not there yet. `ranges`, if not null, gets one for each class and element of it if so. */
+    /** Makes the models of the component, if they are not there yet; `ranges`, if not null, then gets those of all
+     *  elements, by class. */
     void provide(const LevelComponent& component, std::vector<std::vector<LevelRange>>* ranges = nullptr);
     /** Of the component that was provided last. */
     bool is_all_estimated() const { return m_is_all_estimated; }

