@@ -94,13 +94,15 @@ nlohmann::ordered_json run_segments(const Bench& bench) {
                         {"seek_evaluations_a_ray", result.seek_evaluations_a_ray},
                         {"n_overlaps", result.n_overlaps},
                         {"n_failures", result.n_failures},
-                        {"n_breaks", result.n_breaks}});
+                        {"n_breaks", result.n_breaks},
+                        {"n_undecided", result.n_undecided}});
         say(arguments, "%2u^3  %4u^2  %s  %8.1f ms %9.3g U   %llu segments, each %.2f evaluations, and %.2f a ray to begin; "
-                        "%llu overlaps, %llu failures, %llu chains broken\n",
+                        "%llu overlaps, %llu failures, %llu chains broken, %llu rays undecided\n",
                         result.elements_a_side, result.size, precision, result.milliseconds, 1e6 * result.milliseconds / bench.unit,
                         static_cast<unsigned long long>(result.n_segments), result.evaluations_a_segment,
                         result.seek_evaluations_a_ray, static_cast<unsigned long long>(result.n_overlaps),
-                        static_cast<unsigned long long>(result.n_failures), static_cast<unsigned long long>(result.n_breaks));
+                        static_cast<unsigned long long>(result.n_failures), static_cast<unsigned long long>(result.n_breaks),
+                        static_cast<unsigned long long>(result.n_undecided));
     });
     return list;
 }

@@ -62,7 +62,7 @@ struct SegmentsResult {
     std::uint32_t size = 0;
     Precision precision = Precision::float32;
     double milliseconds = 0;
-    std::uint64_t n_segments = 0, n_overlaps = 0, n_failures = 0, n_breaks = 0;
+    std::uint64_t n_segments = 0, n_overlaps = 0, n_failures = 0, n_breaks = 0, n_undecided = 0;
     /** Evaluations of the mapping, on the way and to find where it begins. */
     double evaluations_a_segment = 0, seek_evaluations_a_ray = 0;
 };

@@ -36,6 +36,7 @@ void bench_segments(const Device& device, const PluginRegistry& registry, const 
                     result.n_overlaps = counts.overlaps;
                     result.n_failures = counts.failures;
                     result.n_breaks = counts.breaks;
+                    result.n_undecided = counts.undecided;
                     result.evaluations_a_segment =
                         static_cast<double>(counts.evaluations) / static_cast<double>(counts.segments);
                     result.seek_evaluations_a_ray = static_cast<double>(counts.seek_evaluations) / (static_cast<double>(size) * size);

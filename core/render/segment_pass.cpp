@@ -54,6 +54,9 @@ template <class Call> decltype(auto) with_real(Precision precision, const Call& 
     return precision == Precision::float64 ? call(double{}) : call(float{});
 }
 
+/** Flags of rays of which segments may be missing. */
+constexpr std::uint32_t undecided_flags = pixel_flag::undecided | pixel_flag::work_limit;
+
 /** Adds to the list; what goes on in the same element becomes longer. */
 void append(std::vector<Segment>& list, const Segment& segment) {
     // A part that ended early, where a bound could not be held.
@@ -185,7 +188,7 @@ template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, 
 }
 
 template <class Real>
-void SegmentPass::list_batch(std::span<const SegmentRay> rays, std::vector<Segment>* lists, SegmentCounts& counts) {
+void SegmentPass::list_batch(std::span<const SegmentRay> rays, SegmentList* lists, SegmentCounts& counts) {
     const std::size_t count = rays.size();
     const Buffer given(m_device, 8 * sizeof(Real) * count), states(m_device, sizeof(RayState<Real>) * count);
     const Buffer segments(m_device, sizeof(SegmentRecord<Real>) * count * list_capacity);
@@ -204,20 +207,24 @@ void SegmentPass::list_batch(std::span<const SegmentRay> rays, std::vector<Segme
         has_open = false;
         for (std::size_t ray = 0; ray < count; ++ray) {
             for (std::size_t i = ray * list_capacity; i < ray * list_capacity + ends[ray].n_segments; ++i) {
-                append(lists[ray], {static_cast<double>(records[i].enter), static_cast<double>(records[i].leave),
-                                    static_cast<double>(records[i].error), records[i].element & ~estimated_segment,
-                                    (records[i].element & estimated_segment) != 0});
+                append(lists[ray].segments, {static_cast<double>(records[i].enter), static_cast<double>(records[i].leave),
+                                             static_cast<double>(records[i].error), records[i].element & ~estimated_segment,
+                                             (records[i].element & estimated_segment) != 0});
             }
             ends[ray].n_segments = 0;
+            lists[ray].is_undecided = (ends[ray].flags & undecided_flags) != 0;
             has_open = has_open || ends[ray].status != ray_ends;
         }
         states.write_items(std::span<const RayState<Real>>(ends));
     });
     counts.given_up += has_open ? 1 : 0;
+    for (std::size_t ray = 0; ray < count; ++ray) {
+        counts.undecided += lists[ray].is_undecided ? 1 : 0;
+    }
 }
 
-std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
-                                                      const std::array<double, 2>& wanted) {
+std::vector<SegmentList> SegmentPass::lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
+                                            const std::array<double, 2>& wanted) {
     const double extent = kernels_for(true).search.extent();
     if (m_skipped) {
         m_chains.keep_only(elements_with(wanted));
@@ -242,7 +249,7 @@ std::vector<std::vector<Segment>> SegmentPass::lists(std::span<const SegmentRay>
     } else {
         m_chains.look_from_anywhere();
     }
-    std::vector<std::vector<Segment>> result(rays.size());
+    std::vector<SegmentList> result(rays.size());
     for (std::size_t first = 0; first < rays.size(); first += rays_a_batch) {
         const std::span<const SegmentRay> batch = rays.subspan(first, std::min(rays_a_batch, rays.size() - first));
         with_real(m_precision, [&]<class Real>(Real) { list_batch<Real>(batch, result.data() + first, counts); });
@@ -269,6 +276,7 @@ std::vector<double> SegmentPass::lengths(const CutPlaneGeometry& view, const Vie
             for (const RayState<Real>& state : states.template read_items<RayState<Real>>(count)) {
                 sums.push_back(static_cast<double>(state.sum));
                 counts.given_up += state.status != ray_ends ? 1 : 0;
+                counts.undecided += (state.flags & undecided_flags) != 0 ? 1 : 0;
             }
         });
         return sums;

@@ -41,6 +41,13 @@ struct Segment {
     bool is_estimated = false;
 };
 
+/** Of one ray. */
+struct SegmentList {
+    std::vector<Segment> segments;
+    /** Somewhere it could not be told where the ray enters or leaves an element: segments may be missing. */
+    bool is_undecided = false;
+};
+
 struct SegmentCounts {
     std::uint64_t segments = 0;
     /** Of the mapping, to follow chains of elements and to find where they begin. */
@@ -49,8 +56,8 @@ struct SegmentCounts {
     std::uint64_t overlaps = 0, failures = 0, estimated = 0;
     /** Where a face did not tell the next element. */
     std::uint64_t breaks = 0;
-    /** Rays that were given up. */
-    std::uint64_t given_up = 0;
+    /** Rays that were given up, and those of which segments may be missing. */
+    std::uint64_t given_up = 0, undecided = 0;
     double milliseconds = 0;
 };
 
@@ -68,8 +75,8 @@ public:
                 const std::optional<SkippedField>& skipped = {});
 
     /** The segments of each ray. `wanted`: least and greatest value; only of a pass that skips. */
-    std::vector<std::vector<Segment>> lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
-                                            const std::array<double, 2>& wanted = {-3e38, 3e38});
+    std::vector<SegmentList> lists(std::span<const SegmentRay> rays, SegmentCounts& counts,
+                                   const std::array<double, 2>& wanted = {-3e38, 3e38});
 
     /**
      * For each pixel of a picture, by rows, the sum of the lengths of its ray's segments, along the axis of view; no lists are made. `view`:
@@ -90,7 +97,7 @@ private:
     /** Compiled when first needed. */
     Kernels& kernels_for(bool are_given);
     template <class Take> void run(Kernels& kernels, const Rays& rays, SegmentCounts& counts, const Take& take) const;
-    template <class Real> void list_batch(std::span<const SegmentRay> rays, std::vector<Segment>* lists, SegmentCounts& counts);
+    template <class Real> void list_batch(std::span<const SegmentRay> rays, SegmentList* lists, SegmentCounts& counts);
     std::vector<std::vector<bool>> elements_with(const std::array<double, 2>& wanted) const;
 
     const Device& m_device;

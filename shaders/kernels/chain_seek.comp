@@ -164,6 +164,7 @@ void main() {
         }
         // Bits of the faces through which the ray may come in.
         uint open = 0u, start = 0u;
+        core_face_exit face_exit = core_face_exit(false, elvis_vec3(0), elvis_vec3(0));
         for (int face = 0; face < CORE_N_FACES; ++face) {
             const bool is_open = elvis_fetch_core_links(part.element, uint(face)) == CORE_NO_LINK;
             open |= is_curved && is_open && !core_surely_crosses(part.element, face, along, 1.0) ? 1u << face : 0u;
@@ -171,7 +172,7 @@ void main() {
         while (open != 0u) {
             if (open != 0u) {
                 const int face = findLSB(open);
-                const core_face_entry entry = core_enter_face(ray, part.element, part.curvature, face, start);
+                const core_face_entry entry = core_enter_face(ray, part.element, part.curvature, face, start, face_exit);
                 const uint element = core_first_element + part.element;
                 n_evaluations += entry.n_evaluations;
                 work += 1u;
@@ -188,6 +189,7 @@ void main() {
                 const bool is_only = entry.is_found && core_surely_crosses(part.element, face, along, -1.0);
                 start = is_only ? CORE_FACE_STARTS : start + 1u;
                 open = start < CORE_FACE_STARTS ? open : open & (open - 1u);
+                face_exit.is_found = face_exit.is_found && start < CORE_FACE_STARTS;
                 start = start < CORE_FACE_STARTS ? start : 0u;
             }
             if (open == 0u) {

@@ -64,7 +64,7 @@ TEST_CASE("the parts of rays in a cut ball are its chords") {
     const auto lists = pass.lists(rays, counts);
     double worst = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const double sum = length_of(lists[i]);
+        const double sum = length_of(lists[i].segments);
         // Beside the silhouette a chord depends on its distance from the middle as a square root does.
         worst = chords[i] > 0.05 ? std::max(worst, std::abs(sum - chords[i])) : worst;
     }
@@ -160,7 +160,7 @@ TEST_CASE("volumes of a cut gyroid are those of its parts of rays") {
     const Frame frame = Renderer(device(), volume, precision).render(view.request);
     std::size_t n_wrong = 0;
     for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
-        const double length = length_of(lists[pixel]);
+        const double length = length_of(lists[pixel].segments);
         const bool is_wrong = !(std::abs(frame.color[4 * pixel] - (1 - std::exp(-density * length))) < 1e-3);
         n_wrong += is_wrong ? 1 : 0;
     }
@@ -190,7 +190,7 @@ TEST_CASE("parts of rays in a cut gyroid are where its level set is not positive
     const auto lists = pass.lists(rays, counts);
     std::size_t n_inside = 0, n_wrong = 0, n_parts = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        n_parts += lists[i].size();
+        n_parts += lists[i].segments.size();
         constexpr double step = 0.004;
         for (double t = -6; t < 6; t += step) {
             Vector3 x{};
@@ -199,7 +199,7 @@ TEST_CASE("parts of rays in a cut gyroid are where its level set is not positive
             }
             const double g = level.at(x);
             bool is_in_segment = false;
-            for (const Segment& segment : lists[i]) {
+            for (const Segment& segment : lists[i].segments) {
                 is_in_segment = is_in_segment || (t >= segment.enter && t <= segment.leave);
             }
             n_inside += g <= 0 ? 1 : 0;

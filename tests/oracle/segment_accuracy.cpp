@@ -106,7 +106,7 @@ public:
         }
     }
 
-    void judge_points(const SegmentRay& ray, const std::vector<Segment>& list, std::size_t n_points, std::mt19937& random) {
+    void judge_points(const SegmentRay& ray, const SegmentList& list, std::size_t n_points, std::mt19937& random) {
         std::uniform_real_distribution<double> coordinate(0, 1);
         for (std::size_t point = 0; point < n_points; ++point)
             judge_point(ray, list, (2 * coordinate(random) - 1) * 0.5 * m.size);
@@ -137,10 +137,10 @@ private:
         }
     }
 
-    void judge_point(const SegmentRay& ray, const std::vector<Segment>& list, double t) {
+    void judge_point(const SegmentRay& ray, const SegmentList& list, double t) {
         const Vector x = at(ray, t);
         bool is_near_end = false, is_in_segment = false;
-        for (const Segment& segment : list) {
+        for (const Segment& segment : list.segments) {
             const double margin = 10 * m.promise + segment.error;
             is_near_end = is_near_end || std::abs(t - segment.enter) < margin || std::abs(t - segment.leave) < margin;
             is_in_segment = is_in_segment || (t > segment.enter && t < segment.leave);
@@ -154,7 +154,7 @@ private:
                 is_doubtful = is_doubtful || std::abs(solution.excess) < (m.is_double ? 1e-9 : 1e-4);
             }
         ++m_result.n_points;
-        m_result.n_missed += is_inside && !is_doubtful && !is_in_segment;
+        m_result.n_missed += is_inside && !is_doubtful && !is_in_segment && !list.is_undecided;
         m_result.n_invented += !is_inside && !is_doubtful && is_in_segment;
     }
 
@@ -207,7 +207,7 @@ SegmentMeasure::~SegmentMeasure() = default;
 const DeviceVolume& SegmentMeasure::data() const { return m_state->data; }
 
 void SegmentMeasure::add(std::span<const SegmentRay> rays, std::size_t points_a_ray, unsigned seed) {
-    const std::vector<std::vector<Segment>> lists = m_state->pass.lists(rays, m_state->counts);
+    const std::vector<SegmentList> lists = m_state->pass.lists(rays, m_state->counts);
     m_state->n_rays += rays.size();
     std::atomic<std::size_t> next = 0;
     std::vector<std::jthread> threads;
@@ -216,7 +216,7 @@ void SegmentMeasure::add(std::span<const SegmentRay> rays, std::size_t points_a_
             for (std::size_t begin = next.fetch_add(rays_a_turn); begin < rays.size(); begin = next.fetch_add(rays_a_turn)) {
                 std::mt19937 points(static_cast<unsigned>(seed + begin));
                 for (std::size_t k = begin; k < std::min(rays.size(), begin + rays_a_turn); ++k) {
-                    judge.judge(rays[k], lists[k]);
+                    judge.judge(rays[k], lists[k].segments);
                     judge.judge_points(rays[k], lists[k], points_a_ray, points);
                 }
             }

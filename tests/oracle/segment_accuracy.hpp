@@ -24,7 +24,10 @@ struct SegmentAccuracy {
     std::size_t n_beyond = 0;
     /** Consecutive segments that almost share a parameter, but not exactly. */
     std::size_t n_almost_joined = 0;
-    /** Points by chance that lie in an element but in no segment, and the other way round; not nearer to an end than the promise. */
+    /**
+     * Points by chance that lie in an element but in no segment, though the ray is not said to be undecided, and points that
+     * lie in a segment but in no element; not nearer to an end than the promise.
+     */
     std::size_t n_points = 0, n_missed = 0, n_invented = 0;
     /** Segments whose ends could not be computed. */
     std::size_t n_unsolved = 0;
