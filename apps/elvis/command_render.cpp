@@ -167,7 +167,7 @@ void add_render(CLI::App& app) {
     command->add_option("--orthographic", a->orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
     command->add_option("--background", a->background, "R,G,B or R,G,B,A from 0 to 1");
     command->add_option("--lighting", a->lighting,
-                        "none, or default: a headlight on all surfaces; isosurfaces alone have it unless told otherwise")
+                        "none, or default: a headlight on all surfaces; isosurfaces alone of a volume have it unless told otherwise")
         ->check(CLI::IsMember({"none", "default"}));
     command->add_option("--annotation", a->annotation, "none, or default: color bars, axes and a title")
         ->check(CLI::IsMember({"none", "default"}));

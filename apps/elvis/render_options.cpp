@@ -223,8 +223,8 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
     }
     if (!arguments.lighting.empty()) {
         scene.lighting = arguments.lighting == "default" ? std::optional(Lighting{}) : std::nullopt;
-    } else if (!scene.lighting && !arguments.isovalues.empty() && arguments.cut_planes.empty() && !arguments.boundary) {
-        // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read.
+    } else if (!is_scene(arguments.input) && !arguments.isovalues.empty() && arguments.cut_planes.empty() && !arguments.boundary) {
+        // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read. A scene says what it wants.
         scene.lighting = Lighting{};
     }
     if (!arguments.size.empty()) {

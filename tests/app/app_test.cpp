@@ -74,6 +74,9 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     CHECK(pictures[0] == pictures[1]);
     CHECK(pictures[0] != pictures[2]);
     CHECK(pictures[3] == pictures[4]);
+    place.write("unlit.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "field": "sphere", "lighting": "none"})");
+    REQUIRE(place.run("render unlit.json --isosurface 0.3 --size 32x32 -o light.png").status == 0);
+    CHECK(read_file(place.path("light.png")) == pictures[2]);
 
     for (const std::string precision : {"float32", "float64"}) {
         const Outcome render = place.run("render ball.h5 --field sphere --cut-plane 0,0,1,0 --size 64x64 --precision " +
