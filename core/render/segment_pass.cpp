@@ -54,8 +54,10 @@ template <class Call> decltype(auto) with_real(Precision precision, const Call& 
     return precision == Precision::float64 ? call(double{}) : call(float{});
 }
 
-/** Flags of rays of which segments may be missing. */
-constexpr std::uint32_t undecided_flags = pixel_flag::undecided | pixel_flag::work_limit;
+/** Whether segments may be missing of a ray that has been followed as far as it was. */
+template <class Real> bool is_undecided(const RayState<Real>& state) {
+    return state.status != ray_ends || (state.flags & (pixel_flag::undecided | pixel_flag::work_limit)) != 0;
+}
 
 /** Adds to the list; what goes on in the same element becomes longer. */
 void append(std::vector<Segment>& list, const Segment& segment) {
@@ -212,7 +214,7 @@ void SegmentPass::list_batch(std::span<const SegmentRay> rays, SegmentList* list
                                              (records[i].element & estimated_segment) != 0});
             }
             ends[ray].n_segments = 0;
-            lists[ray].is_undecided = (ends[ray].flags & undecided_flags) != 0;
+            lists[ray].is_undecided = is_undecided(ends[ray]);
             has_open = has_open || ends[ray].status != ray_ends;
         }
         states.write_items(std::span<const RayState<Real>>(ends));
@@ -276,7 +278,7 @@ std::vector<double> SegmentPass::lengths(const CutPlaneGeometry& view, const Vie
             for (const RayState<Real>& state : states.template read_items<RayState<Real>>(count)) {
                 sums.push_back(static_cast<double>(state.sum));
                 counts.given_up += state.status != ray_ends ? 1 : 0;
-                counts.undecided += (state.flags & undecided_flags) != 0 ? 1 : 0;
+                counts.undecided += is_undecided(state) ? 1 : 0;
             }
         });
         return sums;

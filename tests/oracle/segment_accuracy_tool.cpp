@@ -20,15 +20,16 @@ bool measure(const Device& device, const std::string& name, const std::string& p
         const bool is_single = precision == Precision::float32;
         const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
         std::printf("%-18s %s %zu rays, %zu segments: ends %.2g, chords %.2g of the box, %zu beyond; %zu joints, %zu almost; "
-                    "%zu points: "
-                    "missed %zu, invented %zu; unsolved %zu; overlaps %llu, failures %llu, estimated %llu; undecided rays "
-                    "%llu; %.2f evaluations\n",
+                    "%zu points: missed %zu, invented %zu; unsolved %zu; overlaps %llu, failures %llu, estimated %llu; "
+                    "undecided rays %llu; %.2f evaluations\n",
                     name.c_str(), is_single ? "float32" : "float64", r.n_rays, r.n_segments, r.end_error, r.chord_error,
                     r.n_beyond, r.n_joints, r.n_almost_joined, r.n_points, r.n_missed, r.n_invented, r.n_unsolved,
                     count(r.counts.overlaps), count(r.counts.failures), count(r.counts.estimated), count(r.counts.undecided),
                     static_cast<double>(r.counts.evaluations) / static_cast<double>(r.n_segments));
         std::fflush(stdout);
-        is_good = is_good && r.n_beyond == 0 && r.n_missed == 0 && r.n_invented == 0;
+        // What undecided rays miss is excused, so they must be few: 50 and 2 of 91,000 are the most that were seen, in a torus of tetrahedra.
+        const std::size_t most_undecided = n_rays / (is_single ? 1000 : 10000);
+        is_good = is_good && r.n_beyond == 0 && r.n_missed == 0 && r.n_invented == 0 && r.counts.undecided <= most_undecided;
     }
     return is_good;
 }

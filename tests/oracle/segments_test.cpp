@@ -28,6 +28,8 @@ void check(const std::string& path, Precision precision, std::size_t n_rays) {
     CHECK(r.counts.failures <= r.n_segments / 1000);
     CHECK(r.n_beyond == 0);
     CHECK(r.n_almost_joined == 0);
+    // Nothing is excused.
+    CHECK(r.counts.undecided == 0);
 }
 
 // The segments of rays along x at (y, z), relative to the world's origin.
