@@ -45,7 +45,7 @@ nlohmann::ordered_json run_combined(const Bench& bench) {
     const BenchArguments& arguments = bench.arguments;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     const std::uint32_t size = arguments.names_sizes ? arguments.sizes.front() : 1024;
-    bench_combined(bench.device, bench.registry, bench.folder, arguments.volume, size, [&](const CombinedRow& row) {
+    bench_combined(bench.device, bench.registry, bench.folder, arguments.volume, arguments.isovalue, size, [&](const CombinedRow& row) {
         list.push_back({{"name", row.name},
                         {"milliseconds", row.milliseconds},
                         {"wall_milliseconds", row.wall_milliseconds},

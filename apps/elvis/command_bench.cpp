@@ -125,8 +125,8 @@ void add_bench(CLI::App& app) {
     command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->add_option("--volume", arguments->volume, "A native volume for the suites projection and interface, in place of the waves, and volume-convergence");
-    command->add_option("--isovalue", arguments->isovalue, "Of the suite projection; by default the middle of the field's range");
+    command->add_option("--volume", arguments->volume, "A native volume for the suites projection, combined and interface, in place of the waves, and volume-convergence");
+    command->add_option("--isovalue", arguments->isovalue, "Of the suites projection, by default the middle of the field's range, and combined, at 0.6 of it");
     command->add_option("--integrators", arguments->integrators, "Of the suite volume: riemann, trapezoid, categories, adaptive-trapezoid, exact")
         ->delimiter(',');
     command->add_option("--output", arguments->output, "Folder for CSV files and plots of the suites surfaces, projection and volume-convergence");

@@ -20,7 +20,8 @@ struct Part {
 };
 
 /** Seen along a diagonal, so that the whole of it fits; the plane is across the first axis, through the middle. */
-std::vector<Part> parts_of(const std::array<double, 6>& bounds, const FieldRange& range, FrameRequest& request) {
+std::vector<Part> parts_of(const std::array<double, 6>& bounds, const FieldRange& range, std::optional<double> isovalue,
+                           FrameRequest& request) {
     Vector3 middle{}, side{};
     double diagonal = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -47,7 +48,7 @@ std::vector<Part> parts_of(const std::array<double, 6>& bounds, const FieldRange
     }
     plane.mesh_lines.emplace();
     Isosurfaces isosurfaces;
-    isosurfaces.values = {lower + 0.6 * width};
+    isosurfaces.values = {isovalue.value_or(lower + 0.6 * width)};
     VolumeRendering volume;
     volume.transfer.color = {{lower, {0.2, 0.3, 0.9}}, {lower + width, {0.8, 0.1, 0.1}}};
     volume.transfer.density = {{lower, 0}, {lower + width, 6 / diagonal}};
@@ -72,7 +73,7 @@ CombinedRow measure(Renderer& renderer, const FrameRequest& request, const std::
 } // namespace
 
 void bench_combined(const Device& device, const PluginRegistry& registry, const BenchFolder& folder, const std::string& volume,
-                    std::uint32_t size, const std::function<void(const CombinedRow&)>& report) {
+                    std::optional<double> isovalue, std::uint32_t size, const std::function<void(const CombinedRow&)>& report) {
     const RuntimeVolume opened =
         volume.empty() ? waves_volume(registry, folder, 16, 3) : RuntimeVolume(registry.runtime_for(volume), volume);
     Renderer renderer(device, opened, Precision::float32);
@@ -80,7 +81,7 @@ void bench_combined(const Device& device, const PluginRegistry& registry, const 
     request.width = request.height = size;
     request.background = {1, 1, 1, 1};
     request.with_buffers = false;
-    const std::vector<Part> parts = parts_of(renderer.bounds(), renderer.field_range({}, 0), request);
+    const std::vector<Part> parts = parts_of(renderer.bounds(), renderer.field_range({}, 0), isovalue, request);
     CombinedRow sum;
     sum.name = "sum of the parts";
     FrameRequest all = request;

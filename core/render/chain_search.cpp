@@ -15,7 +15,7 @@ constexpr std::uint32_t group_size = 32;
 enum Count : std::size_t { seeking, evaluations, n_counts };
 
 struct TilesParameters {
-    std::uint32_t tiles_a_row, n_tiles;
+    std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
 };
 
 struct SeekParameters {
@@ -82,7 +82,7 @@ void ChainSearch::compile() {
             KernelRequest tiles = request(range, "ray_tiles");
             tiles.defines.emplace_back("CORE_TESTS_STARTS", "1");
             tiles.instances = {m_data.instance(range.element_class)};
-            add_storage_buffers(tiles, 3);
+            add_storage_buffers(tiles, 2);
             tiles.push_constant_bytes = sizeof(TilesParameters);
             kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
         }
@@ -95,7 +95,8 @@ void ChainSearch::compile() {
 }
 
 void ChainSearch::list_starts(const ChainRays& rays) {
-    const TilesParameters parameters{tiles_a_row(rays.width), tiles_a_row(rays.width) * divided_up(rays.height, tile_height)};
+    const std::uint32_t n_tiles = tiles_a_row(rays.width) * divided_up(rays.height, tile_height);
+    const TilesParameters parameters{tiles_a_row(rays.width), n_tiles, 0, n_tiles};
     const std::uint64_t bytes = std::uint64_t{parameters.n_tiles} * tile_stride * sizeof(std::uint32_t);
     const std::uint64_t flag_bytes = std::uint64_t{parameters.n_tiles} * sizeof(std::uint32_t);
     if (!m_has_starts || m_has_starts->bytes() != flag_bytes) {
@@ -110,7 +111,7 @@ void ChainSearch::list_starts(const ChainRays& rays) {
             kernels.lists.emplace(m_device, bytes);
         }
         if (m_chains.n_starts(m_ranges[index].element_class) > 0) {
-            const std::array<const Buffer*, 4> bindings = {&rays.frame, &*kernels.lists, &m_counts, &*m_has_starts};
+            const std::array<const Buffer*, 3> bindings = {&rays.frame, &*kernels.lists, &*m_has_starts};
             kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(parameters.n_tiles, group_size));
         }
     }

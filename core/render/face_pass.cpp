@@ -16,11 +16,11 @@ constexpr std::uint32_t group_size = 32;
 constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
 /** Those of the careful kernel: each may take a hundred times as long. */
 constexpr std::uint32_t careful_pixels_a_dispatch = 1u << 15;
-/** Evaluations, steps, failures; pixels left to the careful kernel, and tiles with inner nodes. */
-constexpr std::size_t n_counts = n_pass_counts + 2;
+/** Evaluations, steps, failures; pixels left to the careful kernel. */
+constexpr std::size_t n_counts = n_pass_counts + 1;
 
 struct TilesParameters {
-    std::uint32_t tiles_a_row, n_tiles;
+    std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
 };
 
 struct Parameters {
@@ -62,7 +62,7 @@ const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draw
 }
 
 FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet& faces)
-    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_listed(device),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
@@ -75,7 +75,8 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         request.precision = m_precision;
         request.buffers = {{"core_nodes", own.nodes.get()}};
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
-                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
+                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                           {"CORE_LISTS_TILES", "1"}};
         request.name = "ray_tiles";
         request.kernel = "kernels/ray_tiles.comp";
         request.bindings = {
@@ -91,7 +92,7 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         if (own.is_polynomial) {
             request.defines.emplace_back("CORE_FACE_ORDER", std::to_string(own.order));
         }
-        for (std::uint32_t binding = 3; binding <= 8; ++binding) {
+        for (std::uint32_t binding = 3; binding <= 9; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
         }
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
@@ -113,18 +114,20 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
     const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const Buffer& list = provide(m_list, m_device, std::uint64_t{layer.width} * layer.height * sizeof(std::uint32_t));
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
+    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     // The last one is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     const Buffer& places = target.places ? *target.places : layer.normals;
-    const std::array<const Buffer*, 9> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
-                                                   &tiles,   &list,          &beyond,        &places};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
         m_counts.fill(0);
-        const TilesParameters of_tiles{tiles_a_row, n_tiles};
-        const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &tiles, &m_counts};
-        kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));
+        const Buffer& listed = m_listed.begin(n_tiles);
+        const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
+                                                        &tiles,   &list,          &beyond,        &places,   &listed};
+        const TilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row};
+        const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &tiles, &listed};
+        kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)),
+                                divided_up(of_tiles.end_tile - of_tiles.first_tile, group_size));
         Parameters parameters{layer.width,
                               layer.height,
                               tiles_a_row,
@@ -136,21 +139,16 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                               target.beyond ? 1u : 0u,
                               target.wants_normals ? 1u : 0u,
                               target.places ? 1u : 0u};
-        const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts + 1];
-        const auto draw_tiles = [&](Draws what) {
-            const ComposedKernel& kernel = kernels.provide(m_device, what);
-            for (std::uint32_t row = wanted.first; row < wanted.end; row += rows_a_dispatch) {
-                parameters.first = row;
-                kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
-                                std::min(rows_a_dispatch, wanted.end - row));
+        const auto draw_tiles = [&](Draws what, const TileList::Part& part) {
+            for (std::uint32_t done = 0; done < part.count; done += tiles_a_dispatch) {
+                parameters.first = part.first + done;
+                kernels.provide(m_device, what)
+                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), std::min(tiles_a_dispatch, part.count - done));
             }
         };
-        if (n_deep_tiles < n_tiles) {
-            draw_tiles(Draws::pixels);
-        }
-        if (n_deep_tiles > 0) {
-            draw_tiles(Draws::deep_pixels);
-        }
+        const TileList::Parts parts = m_listed.read();
+        draw_tiles(Draws::pixels, parts.shallow);
+        draw_tiles(Draws::deep_pixels, parts.deep);
         const std::uint32_t n_careful = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts];
         for (std::uint32_t first = 0; first < n_careful; first += careful_pixels_a_dispatch) {
             parameters.first = first;

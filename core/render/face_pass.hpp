@@ -7,6 +7,7 @@
 #include <core/render/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
 #include <core/render/layer.hpp>
+#include <core/render/tile_list.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/face_set.hpp>
 
@@ -47,6 +48,7 @@ private:
     Precision m_precision;
     std::uint32_t m_tile_width;
     std::vector<ClassKernels> m_kernels;
+    TileList m_listed;
     Buffer m_frame;
     Buffer m_counts;
     /** Kept from frame to frame. */

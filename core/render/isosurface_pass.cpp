@@ -18,17 +18,17 @@ constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
 /** Of m_counts. */
-enum Count : std::size_t { evaluations, excluded, outside, undecided, inner_tiles, crossings, n_counts };
+enum Count : std::size_t { evaluations, excluded, outside, undecided, crossings, n_counts };
 
 struct TilesParameters {
-    std::uint32_t tiles_a_row, n_tiles;
+    std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
     std::uint32_t n_isovalues;
 };
 
 struct Parameters {
     std::uint32_t width, height;
     std::uint32_t tiles_a_row;
-    std::uint32_t first_tile_row;
+    std::uint32_t first_listed;
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
     std::uint32_t n_isovalues;
@@ -58,12 +58,13 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
         if (role == Role::tiles) {
             own.name = "isosurface_tiles";
             own.kernel = "kernels/ray_tiles.comp";
+            own.defines.emplace_back("CORE_LISTS_TILES", "1");
             own.push_constant_bytes = sizeof(TilesParameters);
         } else {
             own.name = "isosurface";
             own.kernel = "kernels/isosurface.comp";
             own.defines.emplace_back("CORE_DESCENDS", role == Role::deep_pixels ? "1" : "0");
-            for (std::uint32_t binding = 4; binding <= 9; ++binding) {
+            for (std::uint32_t binding = 4; binding <= 10; ++binding) {
                 own.bindings.push_back({binding, BindingType::storage_buffer});
             }
             own.push_constant_bytes = sizeof(Parameters);
@@ -77,7 +78,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
       m_extent(static_cast<float>(diagonal_of(data.bounds()))), m_level_set(device, volume, data), m_projection(device),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_listed(device), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
@@ -165,21 +166,22 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
     const TileRows wanted = target.tile_rows(tile_height);
     const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
+    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
-    const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts,     &layer.marks,
-                                                    &tiles,   &*m_isovalues,  &beyond,        target.places, &*m_bending};
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
         if (m_level_set.n_cells(kernels.element_class) == 0) {
             continue;
         }
         m_counts.fill(0);
-        const TilesParameters of_tiles{tiles_a_row, n_tiles, static_cast<std::uint32_t>(m_values.size())};
-        const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &m_counts, &*m_isovalues};
+        const Buffer& listed = m_listed.begin(n_tiles);
+        const TilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row,
+                                       static_cast<std::uint32_t>(m_values.size())};
+        const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &listed, &*m_isovalues};
         kernels.provide(m_device, Role::tiles, m_values.size() == 1)
-            .dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)), divided_up(n_tiles, group_size));
+            .dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)),
+                      divided_up(of_tiles.end_tile - of_tiles.first_tile, group_size));
         Parameters parameters{layer.width,
                               layer.height,
                               tiles_a_row,
@@ -190,21 +192,20 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                               static_cast<std::uint32_t>(m_values.size()),
                               target.beyond ? 1u : 0u,
                               m_extent};
-        const std::uint32_t n_deep_tiles = m_counts.read_items<std::uint32_t>(n_counts)[inner_tiles];
-        const auto draw_tiles = [&](Role role) {
-            const ComposedKernel& kernel = kernels.provide(m_device, role, m_values.size() == 1);
-            for (std::uint32_t row = wanted.first; row < wanted.end; row += rows_a_dispatch) {
-                parameters.first_tile_row = row;
-                kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
-                                std::min(rows_a_dispatch, wanted.end - row) * (tile_height / rows_an_invocation));
+        const std::array<const Buffer*, 11> bindings = {&m_frame,       &layer.samples, &layer.normals, &m_counts,
+                                                        &layer.marks,   &tiles,         &*m_isovalues,  &beyond,
+                                                        target.places,  &*m_bending,    &listed};
+        const auto draw_tiles = [&](Role role, const TileList::Part& part) {
+            for (std::uint32_t done = 0; done < part.count; done += tiles_a_dispatch) {
+                parameters.first_listed = part.first + done;
+                kernels.provide(m_device, role, m_values.size() == 1)
+                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), std::min(tiles_a_dispatch, part.count - done),
+                              tile_height / rows_an_invocation);
             }
         };
-        if (n_deep_tiles < n_tiles) {
-            draw_tiles(Role::pixels);
-        }
-        if (n_deep_tiles > 0) {
-            draw_tiles(Role::deep_pixels);
-        }
+        const TileList::Parts parts = m_listed.read();
+        draw_tiles(Role::pixels, parts.shallow);
+        draw_tiles(Role::deep_pixels, parts.deep);
         const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
         counts.field_evaluations += found[evaluations];
         counts.excluded_pieces += found[excluded] + found[outside];

@@ -8,6 +8,7 @@
 #include <core/render/frame.hpp>
 #include <core/render/isosurface_projection.hpp>
 #include <core/render/layer.hpp>
+#include <core/render/tile_list.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/level_set.hpp>
 
@@ -69,6 +70,7 @@ private:
     std::uint32_t m_degree = 0;
     std::vector<ClassKernels> m_kernels;
     IsosurfaceProjection m_projection;
+    TileList m_listed;
     Buffer m_frame;
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;

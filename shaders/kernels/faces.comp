@@ -27,19 +27,19 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "library/face_surface.glsl"
 #include "library/distrust_column.glsl"
 #include "library/inside.glsl"
+#define CORE_LISTED_BINDING 9
+#include "library/listed_tile.glsl"
 
 #define CORE_STEPS 8u
 // Turns and patches of one pixel: a tile's pixels together stay below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
 
 void main() {
-    const uint column = gl_WorkGroupID.x * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
-    const uint tile_row = core_first + gl_WorkGroupID.y;
-    const uint first_row = tile_row * CORE_TILE_HEIGHT;
-    const uint list = (gl_WorkGroupID.x + tile_row * core_tiles_per_row) * CORE_TILE_STRIDE;
-    const uint header = core_tiles[list];
-    const bool is_mine = (header & CORE_TILE_INNER) != 0u == (CORE_DESCENDS == 1);
-    const uint n_listed = is_mine ? header & ~CORE_TILE_INNER : 0u;
+    const uint tile = core_listed_tile(core_first);
+    const uint column = tile % core_tiles_per_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
+    const uint first_row = tile / core_tiles_per_row * CORE_TILE_HEIGHT;
+    const uint list = tile * CORE_TILE_STRIDE;
+    const uint n_listed = core_tiles[list] & ~CORE_TILE_INNER;
     const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     const core_cut_column along = core_cut_begin(elvis_real(column));
     uint n_all_steps = 0u, n_evaluations = 0u;

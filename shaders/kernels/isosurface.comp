@@ -35,7 +35,7 @@ layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint cor
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_tiles_per_row;
-    uint core_first_tile_row;
+    uint core_first_listed;
     // Counted from 1; 0 is no surface.
     uint core_surface;
     uint core_first_component;
@@ -46,6 +46,8 @@ layout(push_constant) uniform core_parameters {
     float core_extent;
 };
 
+#define CORE_LISTED_BINDING 10
+#include "library/listed_tile.glsl"
 #include "library/isovalues.glsl"
 #include "library/look_beyond.glsl"
 #include "library/distrust_column.glsl"
@@ -85,13 +87,12 @@ uint core_blur_of(core_nearest nearest, core_ray ray, elvis_real stretch) {
 }
 
 void main() {
-    const uint column = gl_WorkGroupID.x * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
-    const uint first_row = (core_first_tile_row * (CORE_TILE_HEIGHT / CORE_ROWS) + gl_WorkGroupID.y) * CORE_ROWS;
-    const uint list = (gl_WorkGroupID.x + first_row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
-    const uint header = core_tiles[list];
-    const bool is_mine = (header & CORE_TILE_INNER) != 0u == (CORE_DESCENDS == 1);
+    const uint tile = core_listed_tile(core_first_listed);
+    const uint first_column = tile % core_tiles_per_row * CORE_TILE_WIDTH, column = first_column + gl_LocalInvocationID.x;
+    const uint first_row = tile / core_tiles_per_row * CORE_TILE_HEIGHT + gl_WorkGroupID.y * CORE_ROWS;
+    const uint list = tile * CORE_TILE_STRIDE;
     core_begin_isovalues();
-    const uint n_listed = core_take_cells(list, is_mine ? header & ~CORE_TILE_INNER : 0u, gl_WorkGroupID.x * CORE_TILE_WIDTH, first_row);
+    const uint n_listed = core_take_cells(list, core_tiles[list] & ~CORE_TILE_INNER, first_column, first_row);
     const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_ROWS, core_size.y) : first_row;
     const core_cut_column along = core_cut_begin(elvis_real(column));
     uint n_evaluations = 0u, n_excluded = 0u, n_outside = 0u, n_undecided = 0u, n_crossings = 0u;
@@ -200,7 +201,7 @@ void main() {
             atomicAdd(core_counts[1], excluded);
             atomicAdd(core_counts[2], outside);
             atomicAdd(core_counts[3], undecided);
-            atomicAdd(core_counts[5], crossings);
+            atomicAdd(core_counts[4], crossings);
         }
     }
 }

@@ -15,18 +15,22 @@ layout(local_size_x = 32) in;
 #endif
 
 layout(std430, set = 0, binding = 1) writeonly buffer core_output { uint core_tiles[]; };
-// Number 4: tiles with inner nodes.
-layout(std430, set = 0, binding = 2) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_constants {
     uint core_tiles_per_row;
+    // Of the whole picture; and those that lists are wanted of.
     uint core_n_tiles;
+    uint core_first_tile, core_end_tile;
 #ifdef CORE_TESTS_LEVELS
     uint core_n_isovalues;
 #endif
 };
+#ifdef CORE_LISTS_TILES
+// Tiles whose lists are not empty: how many with leaves only, and how many others; the former, and from the end the latter.
+layout(std430, set = 0, binding = 2) buffer core_listed_block { uint core_listed[]; };
+#endif
 #ifdef CORE_TESTS_STARTS
 // Not 0 for tiles with a list, in this class or another.
-layout(std430, set = 0, binding = 3) buffer core_has_starts_block { uint core_has_starts[]; };
+layout(std430, set = 0, binding = 2) buffer core_has_starts_block { uint core_has_starts[]; };
 #endif
 
 #include "library/tile_beam.glsl"
@@ -40,8 +44,8 @@ bool core_leaf_is_met(uint item, core_beam beam, vec2 span) { return true; }
 #endif
 
 void main() {
-    const uint tile = gl_GlobalInvocationID.x;
-    const bool is_wanted = tile < core_n_tiles;
+    const uint tile = core_first_tile + gl_GlobalInvocationID.x;
+    const bool is_wanted = tile < core_end_tile;
     const core_beam beam = core_tile_beam(elvis_real((tile % core_tiles_per_row) * CORE_TILE_WIDTH),
                                           elvis_real((tile / core_tiles_per_row) * CORE_TILE_HEIGHT), CORE_TILE_WIDTH,
                                           CORE_TILE_HEIGHT);
@@ -88,7 +92,7 @@ void main() {
         }
     }
     // Then pixels descend from the root.
-    const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_n_tiles >> 31));
+    const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_end_tile >> 31));
     words[0] = is_cut_short ? CORE_TILE_INNER : words[0];
     entries[0] = is_cut_short ? -3e38 : entries[0];
     n_entries = is_cut_short ? 1u : n_entries;
@@ -104,8 +108,11 @@ void main() {
         core_tiles[first + 1u + 2u * i] = words[i];
         core_tiles[first + 2u + 2u * i] = floatBitsToUint(entries[i]);
     }
-    const uint all_inner = subgroupAdd(n_inner > 0u ? 1u : 0u);
-    if (subgroupElect()) {
-        atomicAdd(core_counts[4], all_inner);
+#ifdef CORE_LISTS_TILES
+    if (n_entries > 0u) {
+        const uint part = n_inner > 0u ? 1u : 0u;
+        const uint place = atomicAdd(core_listed[part], 1u);
+        core_listed[part == 0u ? 2u + place : 1u + core_n_tiles - place] = tile;
     }
+#endif
 }

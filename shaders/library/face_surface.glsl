@@ -17,7 +17,7 @@ layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_p
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_tiles_per_row;
-    // Row of tiles, or place in the list.
+    // Where in the list of tiles, or of pixels, the dispatch begins.
     uint core_first;
     // Counted from 1; 0 is no surface.
     uint core_surface;

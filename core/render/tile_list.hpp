@@ -1,0 +1,44 @@
+/**
+ * @file tile_list.hpp
+ * Which tiles of a picture are to be drawn.
+ */
+#pragma once
+
+#include <core/vulkan/buffer.hpp>
+#include <core/vulkan/device.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace elvis {
+
+/**
+ * Tiles that see something, as kernels/ray_tiles.comp finds them with CORE_LISTS_TILES: kernels go through an empty tile as long as
+ * through a full one on devices where many pixels share each instruction, so these alone are drawn.
+ */
+class TileList {
+public:
+    /** Tiles from `first` on in the list, in no order, as kernels read them (shaders/library/listed_tile.glsl). */
+    struct Part {
+        std::uint32_t first, count;
+    };
+    struct Parts {
+        /** Those whose lists hold leaves only, and those with inner nodes. */
+        Part shallow, deep;
+    };
+
+    explicit TileList(const Device& device) : m_device(device) {}
+
+    /** An empty list, for so many tiles. It is good until the next one. */
+    const Buffer& begin(std::uint32_t n_tiles);
+    /** What the list holds since begin(). */
+    Parts read() const;
+    const Buffer& buffer() const { return *m_buffer; }
+
+private:
+    const Device& m_device;
+    std::uint32_t m_n_tiles = 0;
+    std::optional<Buffer> m_buffer;
+};
+
+} // namespace elvis
