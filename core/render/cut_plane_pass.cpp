@@ -15,7 +15,7 @@ constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;
 /**
  * Pixels of one dispatch: bounds its time, so that no driver's time limit is met. Software drivers give each thread one share
- * of consecutive groups: in a dispatch of few rows all shares have about the same to do.
+ * of consecutive groups: in a dispatch of few tiles all shares have about the same to do.
  */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
 
@@ -25,7 +25,7 @@ struct TilesParameters {
 
 struct PixelsParameters {
     std::uint32_t width, height;
-    std::uint32_t first_tile_row;
+    std::uint32_t first_listed;
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
     std::uint32_t is_discontinuous;
@@ -58,7 +58,7 @@ CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, co
                            const KernelEdit& edit)
     : m_device(device), m_data(data), m_precision(data.precision()), m_with_lines(with_lines),
       // Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes.
-      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_listed(device),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
     compile(volume, data, edit);
@@ -84,7 +84,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.defines = tile_size;
         request.name = "cut_tiles";
         request.kernel = "kernels/cut_tiles.comp";
-        request.bindings = bindings(2);
+        request.bindings = bindings(3);
         request.push_constant_bytes = sizeof(TilesParameters);
         ClassKernels kernels;
         kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
@@ -96,7 +96,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "kernels/cut_plane.comp";
-        request.bindings = bindings(m_with_lines ? 6 : 5);
+        request.bindings = bindings(7);
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(m_device, request);
         if (m_with_lines) {
@@ -170,20 +170,26 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
         kernels.tile_nodes.reset();
         kernels.tile_nodes.emplace(m_device, bytes);
     }
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
     const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows};
-    const std::array<const Buffer*, 2> tiles_bindings = {&m_frame, &*kernels.tile_nodes};
+    const Buffer& listed = m_listed.begin(tiles.n_tiles);
+    const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &*kernels.tile_nodes, &listed};
     kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)), divided_up(tiles.n_tiles, tiles_group_size));
-    std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &*kernels.tile_nodes, &m_counts, &layer.marks};
-    if (m_with_lines) {
-        bindings.push_back(&*m_isovalues);
-    }
-    for (std::uint32_t first_row = 0; first_row < tile_rows; first_row += rows_a_dispatch) {
-        const PixelsParameters pixels{layer.width,       layer.height,    first_row,
-                                      surface,           component.first(), component.end(),
-                                      component.is_discontinuous ? 1u : 0u, n_isovalues};
-        kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
-                                 std::min(rows_a_dispatch, tile_rows - first_row));
+    // Isovalues are not read without lines: anything of reals.
+    const Buffer& isovalues = m_with_lines ? *m_isovalues : layer.samples;
+    const std::array<const Buffer*, 7> bindings = {&m_frame,   &layer.samples, &*kernels.tile_nodes, &m_counts, &layer.marks,
+                                                   &isovalues, &listed};
+    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
+    const TileList::Part part = m_listed.read().shallow;
+    for (std::uint32_t done = 0; done < part.count; done += tiles_a_dispatch) {
+        const PixelsParameters pixels{layer.width,
+                                      layer.height,
+                                      part.first + done,
+                                      surface,
+                                      component.first(),
+                                      component.end(),
+                                      component.is_discontinuous ? 1u : 0u,
+                                      n_isovalues};
+        kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), std::min(tiles_a_dispatch, part.count - done));
     }
 }
 

@@ -9,6 +9,7 @@
 #include <core/render/layer.hpp>
 #include <core/render/line_request.hpp>
 #include <core/render/outside_pass.hpp>
+#include <core/render/tile_list.hpp>
 #include <core/volume/device_volume.hpp>
 
 #include <functional>
@@ -58,6 +59,7 @@ private:
     std::uint32_t m_tile_width;
     std::vector<ClassKernels> m_kernels;
     std::optional<ComposedKernel> m_list_pixels;
+    TileList m_listed;
     Buffer m_frame;
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;

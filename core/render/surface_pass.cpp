@@ -25,12 +25,12 @@ constexpr std::uint32_t most_rounds = 256;
 constexpr double most_error_along_ray = 3e-5;
 
 struct TilesParameters {
-    std::uint32_t tiles_a_row, n_tiles, n_parts;
+    std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile, n_parts;
 };
 
 struct PixelsParameters {
     std::uint32_t width, height;
-    std::uint32_t first_tile_row;
+    std::uint32_t first_listed;
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
     std::uint32_t is_discontinuous;
@@ -62,7 +62,7 @@ void provide(const Device& device, std::optional<Buffer>& buffer, std::uint64_t 
 } // namespace
 
 SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_device(device), m_data(data), m_precision(data.precision()),
+    : m_device(device), m_data(data), m_precision(data.precision()), m_listed(device),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_hit_counts(device, sizeof(std::uint32_t)), m_counts(device, (n_pass_counts + 1) * sizeof(std::uint32_t)),
       m_nothing(device, 4 * sizeof(double)) {
@@ -77,7 +77,8 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
                            {"CORE_TILE_HEIGHT", std::to_string(surface_tile_height) + "u"}};
         request.name = "surface_tiles";
         request.kernel = "kernels/surface_tiles.comp";
-        request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
+        request.bindings = {
+            {0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(TilesParameters);
         ClassKernels kernels;
         kernels.tiles = std::make_unique<ComposedKernel>(device, request);
@@ -87,7 +88,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         data.add_field(request, index);
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
         request.bindings = {{0, BindingType::uniform_buffer}};
-        for (std::uint32_t binding = 1; binding <= 7; ++binding) {
+        for (std::uint32_t binding = 1; binding <= 8; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
         }
         request.push_constant_bytes = sizeof(PixelsParameters);
@@ -124,15 +125,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                                                         &target.layer.marks,
                                                         &m_hit_counts,
                                                         target.beyond != nullptr ? target.beyond : &m_nothing};
-    const std::array<const Buffer*, 2> tiles_bindings = {&*m_boxes, &*m_tiles};
-    const std::array<const Buffer*, 8> pixels_bindings = {&m_frame,
-                                                          &target.layer.samples,
-                                                          &*m_tiles,
-                                                          &m_counts,
-                                                          &target.layer.marks,
-                                                          &*m_hits,
-                                                          &target.layer.normals,
-                                                          target.places != nullptr ? target.places : &target.layer.normals};
+    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (tile_width * surface_tile_height);
     std::uint32_t n_found_before = 0;
     for (std::uint32_t round = 0; round < most_rounds; ++round) {
         m_hit_counts.fill(0);
@@ -146,21 +139,35 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
             break;
         }
         for (const ClassKernels& kernels : m_kernels) {
-            const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows, solver.n_parts()};
+            const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows, wanted.first * tiles_a_row,
+                                        wanted.end * tiles_a_row, solver.n_parts()};
+            const Buffer& listed = m_listed.begin(tiles.n_tiles);
+            const std::array<const Buffer*, 3> tiles_bindings = {&*m_boxes, &*m_tiles, &listed};
             kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
-                                    divided_up(tiles.n_tiles, tiles_group_size));
-            for (std::uint32_t first_row = wanted.first; first_row < wanted.end; first_row += rows_a_dispatch) {
+                                    divided_up(tiles.end_tile - tiles.first_tile, tiles_group_size));
+            const std::array<const Buffer*, 9> pixels_bindings = {&m_frame,
+                                                                  &target.layer.samples,
+                                                                  &*m_tiles,
+                                                                  &m_counts,
+                                                                  &target.layer.marks,
+                                                                  &*m_hits,
+                                                                  &target.layer.normals,
+                                                                  target.places != nullptr ? target.places
+                                                                                           : &target.layer.normals,
+                                                                  &listed};
+            const TileList::Part part = m_listed.read().shallow;
+            for (std::uint32_t done = 0; done < part.count; done += tiles_a_dispatch) {
                 const PixelsParameters pixels{width,
                                               height,
-                                              first_row,
+                                              part.first + done,
                                               surface,
                                               component.first(),
                                               component.end(),
                                               component.is_discontinuous ? 1u : 0u,
                                               static_cast<float>(most_error),
                                               target.places != nullptr ? 1u : 0u};
-                kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)), tiles_a_row,
-                                         std::min(rows_a_dispatch, wanted.end - first_row));
+                kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)),
+                                         std::min(tiles_a_dispatch, part.count - done));
             }
         }
         if (shows_outside) {

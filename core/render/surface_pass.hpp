@@ -12,6 +12,7 @@
 #include <core/render/layer.hpp>
 #include <core/render/outside_pass.hpp>
 #include <core/render/surface_solver.hpp>
+#include <core/render/tile_list.hpp>
 #include <core/volume/device_volume.hpp>
 
 #include <memory>
@@ -49,6 +50,7 @@ private:
     const DeviceVolume& m_data;
     Precision m_precision;
     std::vector<ClassKernels> m_kernels;
+    TileList m_listed;
     Buffer m_frame;
     Buffer m_hit_counts;
     Buffer m_counts;

@@ -6,7 +6,7 @@ namespace elvis {
 
 namespace {
 
-/** In front of the tiles, the numbers of both parts: shaders/kernels/ray_tiles.comp. */
+/** In front of the tiles, the numbers of both parts: shaders/library/list_tile.glsl. */
 constexpr std::uint32_t n_header_words = 2;
 
 } // namespace

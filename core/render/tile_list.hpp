@@ -13,8 +13,8 @@
 namespace elvis {
 
 /**
- * Tiles that see something, as kernels/ray_tiles.comp finds them with CORE_LISTS_TILES: kernels go through an empty tile as long as
- * through a full one on devices where many pixels share each instruction, so these alone are drawn.
+ * Tiles that see something, as kernels put them there (shaders/library/list_tile.glsl): where many pixels share each
+ * instruction, kernels go through an empty tile as long as through a full one, so these alone are drawn.
  */
 class TileList {
 public:
@@ -23,7 +23,7 @@ public:
         std::uint32_t first, count;
     };
     struct Parts {
-        /** Those whose lists hold leaves only, and those with inner nodes. */
+        /** Of kernels/ray_tiles.comp: those whose lists hold leaves only, and those with inner nodes. Others have one part. */
         Part shallow, deep;
     };
 

@@ -21,7 +21,7 @@ layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
-    uint core_first_tile_row;
+    uint core_first_listed;
     // Counted from 1; 0 is no surface.
     uint core_surface;
     // Components of the field: the only one, or all that make up the length of the vector.
@@ -32,10 +32,10 @@ layout(push_constant) uniform core_parameters {
     uint core_n_isovalues;
 };
 
-uint core_first_entry() {
-    const uint tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
-    return (gl_WorkGroupID.x + (core_first_tile_row + gl_WorkGroupID.y) * tiles_a_row) * CORE_TILE_STRIDE + 1u;
-}
+#define CORE_LISTED_BINDING 6
+#include "library/listed_tile.glsl"
+
+uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE_STRIDE + 1u; }
 
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
@@ -80,8 +80,9 @@ core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, e
 #endif
 
 void main() {
-    const uint column = gl_WorkGroupID.x * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
-    const uint first_row = (core_first_tile_row + gl_WorkGroupID.y) * CORE_TILE_HEIGHT;
+    const uint tile = core_listed_tile(core_first_listed), tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    const uint column = tile % tiles_a_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
+    const uint first_row = tile / tiles_a_row * CORE_TILE_HEIGHT;
     const uint n_entries = core_tiles[core_first_entry() - 1u];
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u;

@@ -9,6 +9,8 @@ layout(local_size_x = 32) in;
 #include "library/cut_horizon.glsl"
 #include "library/cut_tiles.glsl"
 #include "library/driver_limit.glsl"
+#define CORE_LISTED_BINDING 2
+#include "library/list_tile.glsl"
 
 layout(std430, set = 0, binding = 1) writeonly buffer core_output {
     uint core_tiles[];
@@ -81,5 +83,8 @@ void main() {
     }
     if (is_wanted) {
         core_tiles[tile * CORE_TILE_STRIDE] = is_cut_short ? 1u : n_entries;
+    }
+    if (is_cut_short || n_entries > 0u) {
+        core_list_tile(tile, 0u, core_n_tiles);
     }
 }

@@ -25,8 +25,8 @@ layout(push_constant) uniform core_constants {
 #endif
 };
 #ifdef CORE_LISTS_TILES
-// Tiles whose lists are not empty: how many with leaves only, and how many others; the former, and from the end the latter.
-layout(std430, set = 0, binding = 2) buffer core_listed_block { uint core_listed[]; };
+#define CORE_LISTED_BINDING 2
+#include "library/list_tile.glsl"
 #endif
 #ifdef CORE_TESTS_STARTS
 // Not 0 for tiles with a list, in this class or another.
@@ -110,9 +110,7 @@ void main() {
     }
 #ifdef CORE_LISTS_TILES
     if (n_entries > 0u) {
-        const uint part = n_inner > 0u ? 1u : 0u;
-        const uint place = atomicAdd(core_listed[part], 1u);
-        core_listed[part == 0u ? 2u + place : 1u + core_n_tiles - place] = tile;
+        core_list_tile(tile, n_inner > 0u ? 1u : 0u, core_n_tiles);
     }
 #endif
 }

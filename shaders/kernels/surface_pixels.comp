@@ -25,7 +25,7 @@ layout(set = 0, binding = 6, std430) readonly buffer core_normals_block { elvis_
 layout(set = 0, binding = 7, std430) writeonly buffer core_places_block { core_place core_places[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
-    uint core_first_tile_row;
+    uint core_first_listed;
     // Counted from 1; 0 is no surface.
     uint core_surface;
     // Components of the field: the only one, or all that make up the length of the vector.
@@ -38,10 +38,10 @@ layout(push_constant) uniform core_parameters {
     uint core_wants_places;
 };
 
-uint core_first_entry() {
-    const uint tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
-    return (gl_WorkGroupID.x + (core_first_tile_row + gl_WorkGroupID.y) * tiles_a_row) * CORE_TILE_STRIDE + 1u;
-}
+#define CORE_LISTED_BINDING 8
+#include "library/listed_tile.glsl"
+
+uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE_STRIDE + 1u; }
 
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
@@ -67,8 +67,9 @@ uint core_next_row(uint column, uint row, uint end_row) {
 }
 
 void main() {
-    const uint column = gl_WorkGroupID.x * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
-    const uint first_row = (core_first_tile_row + gl_WorkGroupID.y) * CORE_TILE_HEIGHT;
+    const uint tile = core_listed_tile(core_first_listed), tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    const uint column = tile % tiles_a_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
+    const uint first_row = tile / tiles_a_row * CORE_TILE_HEIGHT;
     const uint n_entries = core_tiles[core_first_entry() - 1u];
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u, n_found = 0u;

@@ -7,20 +7,24 @@ layout(local_size_x = 32) in;
 #include "library/hierarchy.glsl"
 #include "library/cut_tiles.glsl"
 #include "library/driver_limit.glsl"
+#define CORE_LISTED_BINDING 2
+#include "library/list_tile.glsl"
 
 layout(std430, set = 0, binding = 0) readonly buffer core_boxes_block { float core_boxes[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer core_output { uint core_tiles[]; };
 
 layout(push_constant) uniform core_constants {
     uint core_tiles_per_row;
+    // Of the whole picture; and those that are wanted.
     uint core_n_tiles;
+    uint core_first_tile, core_end_tile;
     // Boxes of a tile, one below the other.
     uint core_n_parts;
 };
 
 void main() {
-    const uint tile = gl_GlobalInvocationID.x;
-    const bool is_wanted = tile < core_n_tiles;
+    const uint tile = core_first_tile + gl_GlobalInvocationID.x;
+    const bool is_wanted = tile < core_end_tile;
     const float infinite = 3e38;
     float low_x = infinite, low_y = infinite, low_z = infinite, high_x = -infinite, high_y = -infinite, high_z = -infinite;
     for (uint i = 0u; i < (is_wanted ? core_n_parts : 0u); ++i) {
@@ -66,5 +70,8 @@ void main() {
     }
     if (is_wanted) {
         core_tiles[tile * CORE_TILE_STRIDE] = is_cut_short ? 1u : n_entries;
+    }
+    if (is_cut_short || n_entries > 0u) {
+        core_list_tile(tile, 0u, core_n_tiles);
     }
 }

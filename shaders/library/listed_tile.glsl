@@ -1,4 +1,4 @@
-// The tile that a work group draws, of those that see something (kernels/ray_tiles.comp). The kernel brings CORE_LISTED_BINDING.
+// The tile that a work group draws, of those that see something (library/list_tile.glsl). The kernel brings CORE_LISTED_BINDING.
 
 layout(set = 0, binding = CORE_LISTED_BINDING, std430) readonly buffer core_listed_block { uint core_listed[]; };
 
