@@ -21,7 +21,7 @@ struct TilesParameters {
 struct SeekParameters {
     std::uint32_t width, height;
     std::uint32_t tiles_a_row;
-    std::uint32_t first_row;
+    std::uint32_t first_group;
     std::uint32_t first_element;
     std::uint32_t zero;
     float extent;
@@ -88,7 +88,7 @@ void ChainSearch::compile() {
         }
         KernelRequest seek = request(range, "chain_seek");
         seek.instances = {m_data.instance(range.element_class)};
-        add_storage_buffers(seek, m_are_given ? 4 : 3);
+        add_storage_buffers(seek, 4);
         seek.push_constant_bytes = sizeof(SeekParameters);
         kernels.seek = std::make_unique<ComposedKernel>(m_device, seek);
     }
@@ -117,21 +117,24 @@ void ChainSearch::list_starts(const ChainRays& rays) {
     }
 }
 
-ChainSearch::Found ChainSearch::seek(std::size_t index, const ChainRays& rays, std::span<const RayBox> boxes) {
+ChainSearch::Found ChainSearch::seek(std::size_t index, const ChainRays& rays, const RayGroups& groups) {
     if (m_chains.n_starts(m_ranges[index].element_class) == 0) {
         return {};
     }
     m_counts.fill(0);
     SeekParameters parameters{rays.width, rays.height, tiles_a_row(rays.width), 0, m_ranges[index].first_element, 0, m_extent};
     // No lists are read where rays are given: anything.
-    std::vector<const Buffer*> bindings = {&rays.frame, &rays.states, m_are_given ? &m_counts : &*m_kernels[index].lists, &m_counts};
+    const std::array<const Buffer*, 5> bindings = {&rays.frame, &rays.states,
+                                                   m_are_given ? &m_counts : &*m_kernels[index].lists, &m_counts,
+                                                   m_are_given ? rays.given : groups.list};
+    const auto dispatch = [&](std::uint32_t first, std::uint32_t count) {
+        parameters.first_group = first;
+        m_kernels[index].seek->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
+    };
     if (m_are_given) {
-        bindings.push_back(rays.given);
-    }
-    for (const RayBox& box : boxes) {
-        parameters.first_row = box.first_row;
-        m_kernels[index].seek->dispatch_from({box.first, 0}, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
-                                             box.end_row - box.first_row);
+        dispatch(0, tiles_a_row(rays.width));
+    } else {
+        groups.in_parts(dispatch);
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     return {found[seeking] > 0, found[evaluations]};

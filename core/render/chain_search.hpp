@@ -64,8 +64,9 @@ public:
         bool is_seeking = false;
         std::uint32_t evaluations = 0;
     };
-    /** The nearest start in elements of ranges()[index] of each ray that looks for one, in these boxes. */
-    Found seek(std::size_t index, const ChainRays& rays, std::span<const RayBox> boxes);
+    /** The nearest start in elements of ranges()[index] of each ray that looks for one: of those given, which are one row, or
+     * in these groups. */
+    Found seek(std::size_t index, const ChainRays& rays, const RayGroups& groups);
 
 private:
     struct Kernels {

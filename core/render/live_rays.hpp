@@ -8,51 +8,63 @@
 #include <core/vulkan/buffer.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
-#include <span>
-#include <vector>
 
 namespace elvis {
 
-/** A box of a picture: tiles from `first` to before `end` across, and rows of pixels. */
-struct RayBox {
-    std::uint32_t first = 0, end = 0, first_row = 0, end_row = 0;
+/**
+ * Rays of pixels, in groups: as many neighbours in a row of pixels as a tile is wide. `list` holds the number of each group,
+ * row * tiles_a_row + tile.
+ */
+struct RayGroups {
+    const Buffer* list = nullptr;
+    std::uint32_t count = 0;
 
-    std::uint64_t area() const { return std::uint64_t{end - first} * (end_row - first_row); }
+    /** Calls `dispatch` with parts of the list that a device can take at once, as their first place and their number. */
+    void in_parts(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const;
 };
 
-/**
- * Boxes that hold all that is in the ranges, `first, end` for each row of tiles (first >= end: nothing). Neighbours become one where
- * that takes in at most `most_waste` times what they hold.
- */
-std::vector<RayBox> boxes_of(std::span<const std::uint32_t> ranges, std::uint32_t tile_height, std::uint32_t height, double most_waste);
+/** All groups of a picture, by ascending number. */
+class AllRayGroups {
+public:
+    /** Good until the next call. */
+    RayGroups of(const Device& device, std::uint32_t tiles_a_row, std::uint32_t height);
+
+private:
+    std::optional<Buffer> m_list;
+};
 
 class LiveRays {
 public:
     LiveRays(const Device& device, Precision precision, std::uint32_t tile_width, std::uint32_t tile_height);
 
-    /** A picture of this size, of which all rays look for a start. `states`: a core_volume_state a pixel; `has_starts`: a word a tile, 0
-     * where rays can start in nothing. Both must outlive what follows. */
+    /** A picture of this size, of which all rays look for a start. `states`: a core_volume_state a pixel; `has_starts`: a word
+     * a tile, 0 where rays can start in nothing. Both must outlive what follows. */
     void begin(const Buffer& states, const Buffer& has_starts, std::uint32_t width, std::uint32_t height);
-    /** Of the rays that look for a start. Those that can find none end. */
-    std::vector<RayBox> seeking();
-    /** Of those that go on in these elements. Rays that have looked for a start in vain end. */
-    std::vector<RayBox> going(std::uint32_t first_element, std::uint32_t n_elements);
+    /** All groups of the picture. */
+    RayGroups all() const { return m_all; }
+    /** Groups in which rays look for a start, in no order. Those that can find none end. Good until the next call. */
+    RayGroups seeking();
+    /** Of those that go on in these elements, likewise. Rays that have looked for a start in vain end. */
+    RayGroups going(std::uint32_t first_element, std::uint32_t n_elements);
 
 private:
     struct Parameters;
-    std::vector<RayBox> run(std::uint32_t seeks, std::uint32_t first_element, std::uint32_t n_elements);
+    RayGroups run(std::uint32_t seeks, std::uint32_t first_element, std::uint32_t n_elements);
 
     const Device& m_device;
     std::uint32_t m_tile_width, m_tile_height;
-    double m_most_waste;
     ComposedKernel m_kernel;
-    std::optional<Buffer> m_ranges;
+    Buffer m_counts;
+    AllRayGroups m_all_groups;
+    RayGroups m_all;
+    /** Groups whose rays have not all ended; seeking() makes the next of these lists from the last one. */
+    RayGroups m_open;
+    std::optional<Buffer> m_live, m_open_lists[2];
+    std::size_t m_next_open = 0;
     const Buffer *m_states = nullptr, *m_has_starts = nullptr;
     std::uint32_t m_width = 0, m_height = 0;
-    /** Holds all rays that have not ended. */
-    RayBox m_all;
-    bool m_is_first = true;
 };
 
 } // namespace elvis

@@ -151,14 +151,15 @@ std::vector<std::vector<bool>> SegmentPass::elements_with(const std::array<doubl
 /** Until all rays are at their end; calls `take` where lists are full, and at the end. */
 template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, SegmentCounts& counts, const Take& take) const {
     const std::uint32_t tiles_a_row = kernels.search.tiles_a_row(rays.chain.width);
-    const std::array<RayBox, 1> whole = {RayBox{0, tiles_a_row, 0, rays.chain.height}};
+    AllRayGroups all;
+    const RayGroups groups = rays.chain.given ? RayGroups{} : all.of(m_device, tiles_a_row, rays.chain.height);
     bool is_open = true;
     for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
         const DeviceTimer timer(m_device);
         is_open = false;
         bool is_full = false;
         for (std::size_t index = 0; index < kernels.march.size(); ++index) {
-            const ChainSearch::Found found = kernels.search.seek(index, rays.chain, whole);
+            const ChainSearch::Found found = kernels.search.seek(index, rays.chain, groups);
             counts.seek_evaluations += found.evaluations;
             is_open = is_open || found.is_seeking;
         }

@@ -23,7 +23,7 @@ enum FinishCount : std::size_t { volume_pixels };
 
 struct MarchParameters {
     std::uint32_t width, height;
-    std::uint32_t first_row;
+    std::uint32_t first_group;
     std::uint32_t first_element, n_elements;
     std::uint32_t first_component, end_component;
     std::uint32_t n_breakpoints;
@@ -146,7 +146,7 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
         request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
         request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
         request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
-        for (std::uint32_t binding = 1; binding <= 6; ++binding) {
+        for (std::uint32_t binding = 1; binding <= 7; ++binding) {
             request.bindings.push_back({binding, BindingType::storage_buffer});
         }
         request.push_constant_bytes = sizeof(MarchParameters);
@@ -155,7 +155,7 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
     return *kernel;
 }
 
-bool VolumePass::march(std::size_t index, const Picture& picture, std::span<const RayBox> boxes, FrameCounts& counts) {
+bool VolumePass::march(std::size_t index, const Picture& picture, const RayGroups& groups, FrameCounts& counts) {
     m_counts.fill(0);
     MarchParameters parameters{picture.layer.width,
                                picture.layer.height,
@@ -176,13 +176,13 @@ bool VolumePass::march(std::size_t index, const Picture& picture, std::span<cons
     // What is not there is not read: anything of reals.
     const Buffer& depths = picture.depths ? *picture.depths : picture.layer.normals;
     const Buffer& stops = picture.stops ? *picture.stops : picture.layer.normals;
-    const std::array<const Buffer*, 7> bindings = {&m_frame, &*m_states, &depths, &*m_breakpoints, &*m_pieces, &m_counts, &stops};
+    const std::array<const Buffer*, 8> bindings = {&m_frame,   &*m_states, &depths, &*m_breakpoints,
+                                                   &*m_pieces, &m_counts,  &stops,  groups.list};
     const ComposedKernel& kernel = march_kernel(index);
-    for (const RayBox& box : boxes) {
-        parameters.first_row = box.first_row;
-        kernel.dispatch_from({box.first, 0}, bindings, std::as_bytes(std::span(&parameters, 1)), box.end - box.first,
-                             box.end_row - box.first_row);
-    }
+    groups.in_parts([&](std::uint32_t first, std::uint32_t count) {
+        parameters.first_group = first;
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
+    });
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.field_evaluations += found[evaluations];
     counts.mapping_evaluations += found[mappings];
@@ -195,16 +195,9 @@ bool VolumePass::march(std::size_t index, const Picture& picture, std::span<cons
 }
 
 void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
-    const std::uint32_t width = picture.layer.width, height = picture.layer.height;
-    const std::array<RayBox, 1> whole = {RayBox{0, m_search.tiles_a_row(width), 0, height}};
-    const auto spare = [&](const std::vector<RayBox>& live) {
-        std::uint64_t tiles = whole[0].area();
-        for (const RayBox& box : live) {
-            tiles -= box.area();
-        }
-        counts.spared_pixels += tiles * m_search.tile_width();
-    };
-    std::vector<RayBox> live(whole.begin(), whole.end());
+    const RayGroups all = m_live.all();
+    RayGroups live = all;
+    const auto spare = [&] { counts.spared_pixels += std::uint64_t{all.count - live.count} * m_search.tile_width(); };
     bool is_open = true;
     for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
         bool is_seeking = false;
@@ -212,7 +205,7 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
             live = m_live.seeking();
         }
         for (std::size_t index = 0; index < m_march.size(); ++index) {
-            spare(live);
+            spare();
             const ChainSearch::Found found = m_search.seek(index, picture.rays, live);
             counts.mapping_evaluations += found.evaluations;
             is_seeking = is_seeking || found.is_seeking;
@@ -223,7 +216,7 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
                 const ChainSearch::Range& range = m_search.ranges()[index];
                 live = m_live.going(range.first_element, range.n_elements);
             }
-            spare(live);
+            spare();
             is_open = march(index, picture, live, counts) || is_open;
         }
     }

@@ -23,7 +23,8 @@ layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_tiles_per_row;
-    uint core_first_row;
+    // In the list of groups; not read where rays are given.
+    uint core_first_group;
     // Among all elements of the volume.
     uint core_first_element;
     uint core_zero;
@@ -31,7 +32,12 @@ layout(push_constant) uniform core_parameters {
     float core_extent;
 };
 
+#if CORE_RAYS_ARE_GIVEN
 #define CORE_RAYS_BINDING 4
+#else
+#define CORE_GROUPS_BINDING 4
+#include "library/ray_group.glsl"
+#endif
 #include "library/chain_ray.glsl"
 #include "library/driver_limit.glsl"
 #include "library/ray_part.glsl"
@@ -68,15 +74,20 @@ bool core_enters_chain(core_part part, core_walk_ray ray) {
 }
 
 void main() {
-    const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
-    const bool is_pixel = column < core_size.x && row < core_size.y;
+#if CORE_RAYS_ARE_GIVEN
+    const uint column = gl_GlobalInvocationID.x, row = 0u;
+#else
+    const uvec2 place = core_group_pixel(core_first_group, core_size.x);
+    const uint column = place.x, row = place.y;
+#endif
+    const bool is_pixel = column < core_size.x;
     const uint pixel = is_pixel ? row * core_size.x + column : 0u;
     const CORE_STATE state = core_states[pixel];
     const bool is_mine = is_pixel && (state.status == CORE_RAY_SEEKS || state.status == CORE_RAY_HAS_SOUGHT);
 #if CORE_RAYS_ARE_GIVEN
     const uint n_listed = 1u;
 #else
-    const uint list = (gl_WorkGroupID.x + row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
+    const uint list = (column / CORE_TILE_WIDTH + row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
     const uint n_listed = core_tiles[is_pixel ? list : 0u] & ~CORE_TILE_INNER;
 #endif
     const uint n_entries = is_mine ? n_listed : 0u;

@@ -23,7 +23,8 @@ layout(set = 0, binding = 4, std430) readonly buffer core_pieces_block { elvis_v
 layout(set = 0, binding = 5, std430) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
-    uint core_first_row;
+    // In the list of groups.
+    uint core_first_group;
     uint core_first_element, core_n_elements;
     uint core_first_component, core_end_component;
     uint core_n_breakpoints;
@@ -38,6 +39,8 @@ layout(push_constant) uniform core_parameters {
 };
 
 #define CORE_CENTRE core_reference.xyz
+#define CORE_GROUPS_BINDING 7
+#include "library/ray_group.glsl"
 #include "library/driver_limit.glsl"
 #include "library/ray_part.glsl"
 #include "library/walk_ray.glsl"
@@ -73,8 +76,9 @@ layout(push_constant) uniform core_parameters {
 #define CORE_OPAQUE 0.125
 
 void main() {
-    const uint column = gl_GlobalInvocationID.x, row = core_first_row + gl_WorkGroupID.y;
-    const bool is_pixel = column < core_size.x && row < core_size.y;
+    const uvec2 place = core_group_pixel(core_first_group, core_size.x);
+    const uint column = place.x, row = place.y;
+    const bool is_pixel = column < core_size.x;
     const uint pixel = is_pixel ? row * core_size.x + column : 0u;
     core_volume_state state = core_states[pixel];
     const core_cut_column along = core_cut_begin(elvis_real(column));
