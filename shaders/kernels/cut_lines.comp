@@ -155,7 +155,7 @@ void main() {
         const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
         const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
         const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, curvature);
-        const bool is_outside = part.all_hit ? cell.is_outside || is_clear || (cell.is_behind && hides_behind)
+        const bool is_outside = part.all_hit ? cell.is_outside || cell.is_grazed || is_clear || (cell.is_behind && hides_behind)
                                              : !part.any_hit || core_is_square_behind_volume(column, row, half_size, volume_end);
         const bool is_inside = part.all_hit && cell.is_inside;
         const bool moves_on = is_active && !is_outside && part.all_hit && is_far && moves < CORE_MAX_MOVES;

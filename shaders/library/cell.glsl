@@ -30,6 +30,8 @@ struct core_cell {
 #endif
     // The surface lies in a face of the element, which is on the far side.
     bool is_behind;
+    // The surface touches the element along an edge at most, within rounding, and does not show it.
+    bool is_grazed;
     // By how much at least the corners violate a face together, or leave the surface's own one, as predicted; negative if they do
     // not.
     elvis_real clearance;
@@ -45,6 +47,12 @@ struct core_cell {
 
 #define CORE_NO_FACE -1
 
+// What a surface that touches an element along an edge only is known by: of the faces that it crosses in the cell, the mean of how far
+// the cell's corners are beyond them, each over its change in the cell, is nowhere negative, but it is in the element. What rounding
+// hides of the element is an eighth of the cell at most.
+#define CORE_GRAZE_ROUNDING elvis_real(4)
+#define CORE_GRAZE_SPAN elvis_real(64)
+
 // What the faces of the element say about the region of `cell` around xi. `xi_error`: rounding of the corners' coordinates.
 // `own_face`: the face in which the surface lies by definition; CORE_NO_FACE if it is any surface, which then has this normal.
 void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, elvis_vec3 plane_normal, elvis_vec3 direction,
@@ -55,6 +63,8 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
     cell.is_inside = true;
     cell.is_outside = cell.is_behind = false;
     cell.clearance = -CORE_UNKNOWN;
+    elvis_real beyond0 = elvis_real(0), beyond1 = elvis_real(0), beyond2 = elvis_real(0), beyond3 = elvis_real(0), blur = elvis_real(0);
+    bool is_wide = own_face < 0;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
         const elvis_real here = dot(constraint.xyz, xi) + constraint.w;
@@ -73,6 +83,15 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         cell.is_inside = cell.is_inside && (lies_in || highest <= elvis_real(0));
         cell.is_outside = cell.is_outside || (!lies_in && lowest > elvis_real(0));
         const elvis_real rounding = dot(abs(constraint.xyz), xi_error);
+        const elvis_real span = highest - lowest - elvis_real(2) * slack;
+        const bool is_straddled = !lies_in && lowest <= elvis_real(0) && highest >= elvis_real(0);
+        const elvis_real weight = is_straddled ? elvis_real(1) / span : elvis_real(0);
+        is_wide = is_wide && (!is_straddled || span >= CORE_GRAZE_SPAN * rounding);
+        beyond0 += weight * g0;
+        beyond1 += weight * g1;
+        beyond2 += weight * g2;
+        beyond3 += weight * g3;
+        blur += weight * rounding;
         const elvis_real above = min(min(g0, g1), min(g2, g3)) - rounding, below = -max(max(g0, g1), max(g2, g3)) - rounding;
         // A surface that is the element's own face runs neither beyond nor before it.
         const elvis_real clearance = lies_in ? (own_face >= 0 ? max(above, below) : -CORE_UNKNOWN) : above;
@@ -86,6 +105,9 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         is_outside2 = is_outside2 || (!lies_in && g2 > slack);
         is_outside3 = is_outside3 || (!lies_in && g3 > slack);
     }
+    const bool is_exact = region.beyond <= elvis_real(4) * max(max(xi_error.x, xi_error.y), xi_error.z);
+    cell.is_grazed = is_wide && is_exact && blur > elvis_real(0) &&
+                     min(min(beyond0, beyond1), min(beyond2, beyond3)) >= -CORE_GRAZE_ROUNDING * blur;
     cell.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
                       (is_outside0 || is_outside1 || is_outside2 || is_outside3);
 #if ELVIS_HAS_INSIDE
@@ -134,6 +156,7 @@ core_cell core_cell_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvi
     cell.is_inside = cell.is_inside && is_sound;
     cell.is_outside = cell.is_outside && is_sound;
     cell.is_crossed = cell.is_crossed && is_sound;
+    cell.is_grazed = cell.is_grazed && is_sound;
     return cell;
 }
 

@@ -157,4 +157,51 @@ TEST_CASE("a plane in faces shows their edges as mesh lines, and nothing else") 
     CHECK(frame.counts.undecided_mesh_line_pixels == 0);
 }
 
+TEST_CASE("elements that touch a plane along an edge only are not asked for its lines") {
+    // Of the tetrahedra around an edge in the plane some have no face in it.
+    const auto stretched = [](const Vector& x) -> Vector { return {x.x(), x.y(), x.z() * plane_z / 0.5}; };
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(Shape::tetrahedron, 1), space_of(Shape::tetrahedron, 2),
+                                      compose(cube(Shape::tetrahedron, 4), stretched),
+                                      [](const Vector& x) { return x.x() * x.x() + x.y() * x.y(); }));
+    const TemporaryFile file("edges.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    for (const Precision precision : {Precision::float64, Precision::float32}) {
+        Renderer renderer(device(), volume, precision);
+        for (const double magnification : {0.8, 100.0, 1e4}) {
+            FrameRequest request = view_around({0.5L, 0.5L}, magnification, 100);
+            request.camera.image_shift = {0.31, 0.17};
+            request.surfaces[0].mesh_lines.emplace();
+            request.surfaces[0].contours = Contours{{0.2, 0.5, 0.7}, {}};
+            const Frame frame = renderer.render(request);
+            // Lines of the cubes; those of tetrahedra are more.
+            std::size_t missed = 0;
+            for (std::uint32_t row = 0; row < frame.height; ++row) {
+                for (std::uint32_t column = 0; column < frame.width; ++column) {
+                    const Square square = square_of(request, column, row);
+                    const auto [low, high] = std::minmax({square[0][1], square[1][1], square[2][1], square[3][1]});
+                    const auto [left, right] = std::minmax({square[0][0], square[1][0], square[2][0], square[3][0]});
+                    const bool is_in = left >= 0 && right <= 1 && low >= 0 && high <= 1;
+                    const bool is_told = (frame.flags[std::size_t{row} * frame.width + column] &
+                                          (pixel_flag::mesh_line | pixel_flag::mesh_line_undecided)) != 0;
+                    missed += is_in && !is_told && (has_quarter(low, high) || has_quarter(left, right)) ? 1 : 0;
+                }
+            }
+            const FrameCounts& counts = frame.counts;
+            WARN("magnified " << magnification << ": " << counts.field_evaluations << " evaluations for " << counts.refined_pixels
+                              << " pixels; contours " << counts.contour_pixels << ", " << counts.undecided_contour_pixels
+                              << " undecided; mesh lines " << counts.mesh_line_pixels << ", " << counts.undecided_mesh_line_pixels
+                              << " undecided, " << missed << " missed");
+            CHECK(missed == 0);
+            CHECK(counts.mesh_line_pixels + counts.undecided_mesh_line_pixels >= 200);
+            if (magnification < 1) {
+                CHECK(counts.contour_pixels > 50);
+                CHECK(counts.undecided_contour_pixels <= 1);
+                CHECK(counts.field_evaluations < 12 * counts.refined_pixels);
+            }
+        }
+    }
+}
+
 } // namespace elvis::oracle
