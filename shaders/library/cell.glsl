@@ -47,10 +47,10 @@ struct core_cell {
 
 #define CORE_NO_FACE -1
 
-// What a surface that touches an element along an edge only is known by: of the faces that it crosses in the cell, the mean of how far
-// the cell's corners are beyond them, each over its change in the cell, is nowhere negative, but it is in the element. What rounding
-// hides of the element is an eighth of the cell at most.
-#define CORE_GRAZE_ROUNDING elvis_real(4)
+// What a surface that touches an element along an edge only is known by: of the two or more faces that it crosses in the cell, the mean of
+// how far the cell's corners are beyond them, each over its change in the cell, is nowhere negative but for rounding. In the element it is
+// negative. One face is no edge: along the border of the volume there may be no other element to tell its line. Where the cell is
+// not wider than this many times the rounding, at extreme magnification, it stays open.
 #define CORE_GRAZE_SPAN elvis_real(64)
 
 // What the faces of the element say about the region of `cell` around xi. `xi_error`: rounding of the corners' coordinates.
@@ -65,6 +65,7 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
     cell.clearance = -CORE_UNKNOWN;
     elvis_real beyond0 = elvis_real(0), beyond1 = elvis_real(0), beyond2 = elvis_real(0), beyond3 = elvis_real(0), blur = elvis_real(0);
     bool is_wide = own_face < 0;
+    uint n_straddled = 0u;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
         const elvis_real here = dot(constraint.xyz, xi) + constraint.w;
@@ -92,6 +93,7 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         beyond2 += weight * g2;
         beyond3 += weight * g3;
         blur += weight * rounding;
+        n_straddled += is_straddled ? 1u : 0u;
         const elvis_real above = min(min(g0, g1), min(g2, g3)) - rounding, below = -max(max(g0, g1), max(g2, g3)) - rounding;
         // A surface that is the element's own face runs neither beyond nor before it.
         const elvis_real clearance = lies_in ? (own_face >= 0 ? max(above, below) : -CORE_UNKNOWN) : above;
@@ -106,8 +108,7 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         is_outside3 = is_outside3 || (!lies_in && g3 > slack);
     }
     const bool is_exact = region.beyond <= elvis_real(4) * max(max(xi_error.x, xi_error.y), xi_error.z);
-    cell.is_grazed = is_wide && is_exact && blur > elvis_real(0) &&
-                     min(min(beyond0, beyond1), min(beyond2, beyond3)) >= -CORE_GRAZE_ROUNDING * blur;
+    cell.is_grazed = is_wide && is_exact && n_straddled >= 2u && min(min(beyond0, beyond1), min(beyond2, beyond3)) >= -blur;
     cell.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
                       (is_outside0 || is_outside1 || is_outside2 || is_outside3);
 #if ELVIS_HAS_INSIDE

@@ -204,4 +204,36 @@ TEST_CASE("elements that touch a plane along an edge only are not asked for its 
     }
 }
 
+TEST_CASE("the border of the volume along pixels' borders is told, or undecided, on both sides") {
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 1), cube(Shape::hexahedron, 2),
+                                      [](const Vector& x) { return x.x(); }));
+    const TemporaryFile file("border.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    // Pixels are 1/32 wide, and x = 1 is between the columns 47 and 48.
+    constexpr std::uint32_t size = 64, last_in = 47;
+    FrameRequest request;
+    request.width = request.height = size;
+    request.camera.orthographic = true;
+    request.camera.height = 2;
+    request.camera.eye = {0.5, 0.5, 3};
+    request.camera.look_at = {0.5, 0.5, 0};
+    request.camera.up = {0, 1, 0};
+    Surface surface;
+    surface.geometry = CutPlane{{0, 0, 1, -plane_z}};
+    surface.colors.points = {{0, {0, 0, 0}}, {1, {1, 1, 1}}};
+    surface.mesh_lines.emplace();
+    request.surfaces = {surface};
+    for (const Precision precision : {Precision::float64, Precision::float32}) {
+        Renderer renderer(device(), volume, precision);
+        const Frame frame = renderer.render(request);
+        for (const std::uint32_t column : {last_in, last_in + 1}) {
+            for (std::uint32_t row = 20; row < 44; ++row) {
+                CHECK((frame.flags[std::size_t{row} * size + column] & (pixel_flag::mesh_line | pixel_flag::mesh_line_undecided)) != 0);
+            }
+        }
+    }
+}
+
 } // namespace elvis::oracle
