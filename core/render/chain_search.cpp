@@ -1,5 +1,6 @@
-#include <core/render/chain_search.hpp>
 #include <core/base/bounds.hpp>
+#include <core/render/chain_search.hpp>
+#include <core/render/provide_buffer.hpp>
 
 #include <algorithm>
 #include <array>
@@ -99,17 +100,10 @@ void ChainSearch::list_starts(const ChainRays& rays) {
     const TilesParameters parameters{tiles_a_row(rays.width), n_tiles, 0, n_tiles};
     const std::uint64_t bytes = std::uint64_t{parameters.n_tiles} * tile_stride * sizeof(std::uint32_t);
     const std::uint64_t flag_bytes = std::uint64_t{parameters.n_tiles} * sizeof(std::uint32_t);
-    if (!m_has_starts || m_has_starts->bytes() != flag_bytes) {
-        m_has_starts.reset();
-        m_has_starts.emplace(m_device, flag_bytes);
-    }
-    m_has_starts->fill(0);
+    provide_buffer(m_has_starts, m_device, flag_bytes).fill(0);
     for (std::size_t index = 0; index < m_ranges.size(); ++index) {
         Kernels& kernels = m_kernels[index];
-        if (!kernels.lists || kernels.lists->bytes() != bytes) {
-            kernels.lists.reset();
-            kernels.lists.emplace(m_device, bytes);
-        }
+        provide_buffer(kernels.lists, m_device, bytes);
         if (m_chains.n_starts(m_ranges[index].element_class) > 0) {
             const std::array<const Buffer*, 3> bindings = {&rays.frame, &*kernels.lists, &*m_has_starts};
             kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(parameters.n_tiles, group_size));

@@ -1,5 +1,7 @@
 #include <core/render/cut_plane_pass.hpp>
+#include <core/render/in_parts.hpp>
 #include <core/render/pixel_kernel.hpp>
+#include <core/render/provide_buffer.hpp>
 #include <core/render/real_array.hpp>
 
 #include <algorithm>
@@ -165,11 +167,7 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
     const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
-    const std::uint64_t bytes = std::uint64_t{tiles_a_row} * tile_rows * tile_stride * sizeof(std::uint32_t);
-    if (!kernels.tile_nodes || kernels.tile_nodes->bytes() != bytes) {
-        kernels.tile_nodes.reset();
-        kernels.tile_nodes.emplace(m_device, bytes);
-    }
+    provide_buffer(kernels.tile_nodes, m_device, std::uint64_t{tiles_a_row} * tile_rows * tile_stride * sizeof(std::uint32_t));
     const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows};
     const Buffer& listed = m_listed.begin(tiles.n_tiles);
     const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &*kernels.tile_nodes, &listed};
@@ -180,17 +178,17 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
                                                    &isovalues, &listed};
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     const TileList::Part part = m_listed.read().shallow;
-    for (std::uint32_t done = 0; done < part.count; done += tiles_a_dispatch) {
+    in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
         const PixelsParameters pixels{layer.width,
                                       layer.height,
-                                      part.first + done,
+                                      part.first + first,
                                       surface,
                                       component.first(),
                                       component.end(),
                                       component.is_discontinuous ? 1u : 0u,
                                       n_isovalues};
-        kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), std::min(tiles_a_dispatch, part.count - done));
-    }
+        kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), count);
+    });
 }
 
 void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent& component, const LineRequest& lines,
@@ -198,10 +196,7 @@ void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent&
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    if (!m_list || m_list->bytes() != n_pixels * sizeof(std::uint32_t)) {
-        m_list.reset();
-        m_list.emplace(m_device, n_pixels * sizeof(std::uint32_t));
-    }
+    provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
     const Buffer n_listed_buffer(m_device, sizeof(std::uint32_t));
     n_listed_buffer.fill(0);
     const ListParameters list{n_pixels, pixel_groups_x, layer.width, tiles_a_row};

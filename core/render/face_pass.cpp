@@ -1,4 +1,6 @@
 #include <core/render/face_pass.hpp>
+#include <core/render/in_parts.hpp>
+#include <core/render/provide_buffer.hpp>
 #include <core/render/real_array.hpp>
 
 #include <algorithm>
@@ -36,15 +38,6 @@ struct Parameters {
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
-/** Makes the buffer anew if it is of another size. */
-Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::uint64_t bytes) {
-    if (!buffer || buffer->bytes() != bytes) {
-        buffer.reset();
-        buffer.emplace(device, bytes);
-    }
-    return *buffer;
-}
 
 } // namespace
 
@@ -111,8 +104,8 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
     const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
     const TileRows wanted = target.tile_rows(tile_height);
-    const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
-    const Buffer& list = provide(m_list, m_device, std::uint64_t{layer.width} * layer.height * sizeof(std::uint32_t));
+    const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+    const Buffer& list = provide_buffer(m_list, m_device, std::uint64_t{layer.width} * layer.height * sizeof(std::uint32_t));
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     // The last one is not read without depths: anything of reals.
@@ -140,22 +133,20 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                               target.wants_normals ? 1u : 0u,
                               target.places ? 1u : 0u};
         const auto draw_tiles = [&](Draws what, const TileList::Part& part) {
-            for (std::uint32_t done = 0; done < part.count; done += tiles_a_dispatch) {
-                parameters.first = part.first + done;
-                kernels.provide(m_device, what)
-                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), std::min(tiles_a_dispatch, part.count - done));
-            }
+            in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+                parameters.first = part.first + first;
+                kernels.provide(m_device, what).dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
+            });
         };
         const TileList::Parts parts = m_listed.read();
         draw_tiles(Draws::pixels, parts.shallow);
         draw_tiles(Draws::deep_pixels, parts.deep);
         const std::uint32_t n_careful = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts];
-        for (std::uint32_t first = 0; first < n_careful; first += careful_pixels_a_dispatch) {
+        in_parts(n_careful, careful_pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
             parameters.first = first;
             kernels.provide(m_device, Draws::careful)
-                .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                          divided_up(std::min(careful_pixels_a_dispatch, n_careful - first), group_size));
-        }
+                .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+        });
         const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
         counts.field_evaluations += found[0];
         counts.newton_iterations += found[1];

@@ -1,5 +1,7 @@
-#include <core/render/isosurface_pass.hpp>
 #include <core/base/bounds.hpp>
+#include <core/render/in_parts.hpp>
+#include <core/render/isosurface_pass.hpp>
+#include <core/render/provide_buffer.hpp>
 #include <core/render/real_array.hpp>
 
 #include <algorithm>
@@ -37,15 +39,6 @@ struct Parameters {
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
-/** Makes the buffer anew if it is of another size. */
-const Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::uint64_t bytes) {
-    if (!buffer || buffer->bytes() != bytes) {
-        buffer.reset();
-        buffer.emplace(device, bytes);
-    }
-    return *buffer;
-}
 
 } // namespace
 
@@ -131,8 +124,8 @@ void IsosurfacePass::choose(const Isosurfaces& wanted, double offset, const Show
 void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
                           FrameCounts& counts) {
     const Layer& layer = target.layer;
-    const Buffer& bending = provide(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
-    const Buffer& isovalues = provide(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
+    const Buffer& bending = provide_buffer(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
+    const Buffer& isovalues = provide_buffer(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
     write_reals(isovalues, m_precision, m_values);
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     if (m_level_set.rests_on_estimates()) {
@@ -165,7 +158,7 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
     const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
     const TileRows wanted = target.tile_rows(tile_height);
-    const Buffer& tiles = provide(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+    const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
@@ -196,12 +189,11 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                                                         &layer.marks,   &tiles,         &*m_isovalues,  &beyond,
                                                         target.places,  &*m_bending,    &listed};
         const auto draw_tiles = [&](Role role, const TileList::Part& part) {
-            for (std::uint32_t done = 0; done < part.count; done += tiles_a_dispatch) {
-                parameters.first_listed = part.first + done;
+            in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+                parameters.first_listed = part.first + first;
                 kernels.provide(m_device, role, m_values.size() == 1)
-                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), std::min(tiles_a_dispatch, part.count - done),
-                              tile_height / rows_an_invocation);
-            }
+                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / rows_an_invocation);
+            });
         };
         const TileList::Parts parts = m_listed.read();
         draw_tiles(Role::pixels, parts.shallow);

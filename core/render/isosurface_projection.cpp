@@ -1,5 +1,6 @@
 #include <core/render/isosurface_projection.hpp>
 #include <core/render/pixel_kernel.hpp>
+#include <core/render/provide_buffer.hpp>
 #include <core/segment/tables.hpp>
 
 #include <algorithm>
@@ -59,11 +60,7 @@ std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags
                                    {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer},
                                    sizeof(ListParameters)));
     }
-    const std::uint64_t bytes = layer.n_pixels() * sizeof(std::uint32_t);
-    if (!m_list || m_list->bytes() != bytes) {
-        m_list.reset();
-        m_list.emplace(m_device, bytes);
-    }
+    provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const ListParameters parameters{n_pixels, pixel_groups_x, flags};

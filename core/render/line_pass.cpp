@@ -1,4 +1,5 @@
 #include <core/render/line_pass.hpp>
+#include <core/render/provide_buffer.hpp>
 #include <core/render/real_array.hpp>
 
 #include <algorithm>
@@ -42,13 +43,6 @@ struct ListedParameters {
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
-void provide_buffer(const Device& device, std::optional<Buffer>& buffer, std::uint64_t bytes) {
-    if (!buffer || buffer->bytes() != bytes) {
-        buffer.reset();
-        buffer.emplace(device, bytes);
-    }
-}
 
 /** One uniform buffer, then storage buffers. */
 std::vector<BindingLayout> bindings_up_to(std::uint32_t last) {
@@ -205,9 +199,9 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
     write_reals(m_frame, m_data.precision(), std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     m_counts.fill(0);
     // A buffer cannot be empty.
-    provide_buffer(m_device, m_isovalues, std::max<std::uint64_t>(n_isovalues, 1) * real_bytes(m_data.precision()));
+    provide_buffer(m_isovalues, m_device, std::max<std::uint64_t>(n_isovalues, 1) * real_bytes(m_data.precision()));
     write_reals(*m_isovalues, m_data.precision(), lines.isovalues);
-    provide_buffer(m_device, m_list, layer.n_pixels() * sizeof(std::uint32_t));
+    provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
 
     std::vector<const Buffer*> bindings = {&m_frame,     &layer.samples, &layer.normals, &m_counts,
                                            &layer.marks, &*m_isovalues,  target.places,  &*m_list};
@@ -236,8 +230,8 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
     counts.refined_pixels += n_listed;
     // Each class may leave a pixel open.
     const std::uint64_t list_bytes = kernels.size() * layer.n_pixels() * sizeof(std::uint32_t);
-    provide_buffer(m_device, m_open, list_bytes);
-    provide_buffer(m_device, m_still_open, list_bytes);
+    provide_buffer(m_open, m_device, list_bytes);
+    provide_buffer(m_still_open, m_device, list_bytes);
     const auto of_lists = [&](const Buffer& from, const Buffer& to) -> std::vector<const Buffer*> {
         if (m_faces) {
             return {&m_frame,      &layer.samples, &layer.normals, &m_counts, &layer.marks,

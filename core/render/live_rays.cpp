@@ -1,5 +1,7 @@
+#include <core/render/in_parts.hpp>
 #include <core/render/live_rays.hpp>
 #include <core/render/pixel_kernel.hpp>
+#include <core/render/provide_buffer.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,8 +22,8 @@ namespace {
 
 /** What all devices take in one direction. */
 constexpr std::uint32_t groups_a_dispatch = 1u << 15;
-/** Groups of rays that an invocation of the kernel looks at: CORE_GROUPS. */
-constexpr std::uint32_t groups_an_invocation = 16;
+/** Groups of rays that a work group of the kernel looks at: CORE_GROUPS. */
+constexpr std::uint32_t groups_a_work_group = 16;
 /** Of m_counts. */
 enum Count : std::size_t { live, open, n_counts };
 
@@ -30,25 +32,14 @@ KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::ui
     KernelRequest request = pixel_kernel("live_rays", precision, {buffer, buffer, buffer, buffer, buffer, buffer}, push_bytes);
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                       {"CORE_GROUPS", std::to_string(groups_an_invocation) + "u"}};
+                       {"CORE_GROUPS", std::to_string(groups_a_work_group) + "u"}};
     return request;
-}
-
-/** Makes the buffer anew if it is of another size. */
-Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::uint64_t bytes) {
-    if (!buffer || buffer->bytes() != bytes) {
-        buffer.reset();
-        buffer.emplace(device, bytes);
-    }
-    return *buffer;
 }
 
 } // namespace
 
 void RayGroups::in_parts(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const {
-    for (std::uint32_t first = 0; first < count; first += groups_a_dispatch) {
-        dispatch(first, std::min(groups_a_dispatch, count - first));
-    }
+    elvis::in_parts(count, groups_a_dispatch, dispatch);
 }
 
 RayGroups AllRayGroups::of(const Device& device, std::uint32_t tiles_a_row, std::uint32_t height) {
@@ -56,7 +47,7 @@ RayGroups AllRayGroups::of(const Device& device, std::uint32_t tiles_a_row, std:
     if (!m_list || m_list->bytes() != bytes) {
         std::vector<std::uint32_t> all(std::size_t{tiles_a_row} * height);
         std::iota(all.begin(), all.end(), 0u);
-        provide(m_list, device, bytes).write_items(std::span<const std::uint32_t>(all));
+        provide_buffer(m_list, device, bytes).write_items(std::span<const std::uint32_t>(all));
     }
     return {&*m_list, tiles_a_row * height};
 }
@@ -74,7 +65,7 @@ void LiveRays::begin(const Buffer& states, const Buffer& has_starts, std::uint32
     m_all = m_all_groups.of(m_device, (width + m_tile_width - 1) / m_tile_width, height);
     m_open = m_all;
     for (std::optional<Buffer>* list : {&m_live, &m_open_lists[0], &m_open_lists[1]}) {
-        provide(*list, m_device, m_all.list->bytes());
+        provide_buffer(*list, m_device, m_all.list->bytes());
     }
 }
 
@@ -85,7 +76,7 @@ RayGroups LiveRays::run(std::uint32_t seeks, std::uint32_t first_element, std::u
     m_open.in_parts([&](std::uint32_t first, std::uint32_t count) {
         const Parameters parameters{m_width, m_height, first, count, seeks, first_element, n_elements};
         m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                          (count + groups_an_invocation - 1) / groups_an_invocation);
+                          (count + groups_a_work_group - 1) / groups_a_work_group);
     });
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     if (seeks != 0) {

@@ -1,5 +1,7 @@
 #include <core/base/bounds.hpp>
+#include <core/render/in_parts.hpp>
 #include <core/render/pixel_kernel.hpp>
+#include <core/render/provide_buffer.hpp>
 #include <core/render/real_array.hpp>
 #include <core/render/surface_pass.hpp>
 
@@ -52,13 +54,6 @@ std::array<double, 6> box_of(const CutShape& shape, const std::array<double, 6>&
     return box;
 }
 
-void provide(const Device& device, std::optional<Buffer>& buffer, std::uint64_t bytes) {
-    if (!buffer || buffer->bytes() != bytes) {
-        buffer.reset();
-        buffer.emplace(device, bytes);
-    }
-}
-
 } // namespace
 
 SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
@@ -98,10 +93,10 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
 }
 
 void SurfacePass::provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t n_parts) {
-    provide(m_device, m_hits, 2 * n_pixels * real_bytes(m_precision));
-    provide(m_device, m_bending, n_pixels * real_bytes(m_precision));
-    provide(m_device, m_boxes, n_tiles * n_parts * 6 * sizeof(float));
-    provide(m_device, m_tiles, n_tiles * tile_stride * sizeof(std::uint32_t));
+    provide_buffer(m_hits, m_device, 2 * n_pixels * real_bytes(m_precision));
+    provide_buffer(m_bending, m_device, n_pixels * real_bytes(m_precision));
+    provide_buffer(m_boxes, m_device, n_tiles * n_parts * 6 * sizeof(float));
+    provide_buffer(m_tiles, m_device, n_tiles * tile_stride * sizeof(std::uint32_t));
 }
 
 void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
@@ -156,19 +151,18 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                                                                                            : &target.layer.normals,
                                                                   &listed};
             const TileList::Part part = m_listed.read().shallow;
-            for (std::uint32_t done = 0; done < part.count; done += tiles_a_dispatch) {
+            in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 const PixelsParameters pixels{width,
                                               height,
-                                              part.first + done,
+                                              part.first + first,
                                               surface,
                                               component.first(),
                                               component.end(),
                                               component.is_discontinuous ? 1u : 0u,
                                               static_cast<float>(most_error),
                                               target.places != nullptr ? 1u : 0u};
-                kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)),
-                                         std::min(tiles_a_dispatch, part.count - done));
-            }
+                kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)), count);
+            });
         }
         if (shows_outside) {
             if (!m_outside) {

@@ -1,3 +1,4 @@
+#include <core/render/provide_buffer.hpp>
 #include <core/render/tile_list.hpp>
 
 #include <vector>
@@ -13,13 +14,10 @@ constexpr std::uint32_t n_header_words = 2;
 
 const Buffer& TileList::begin(std::uint32_t n_tiles) {
     const std::uint64_t bytes = (std::uint64_t{n_header_words} + n_tiles) * sizeof(std::uint32_t);
-    if (!m_buffer || m_buffer->bytes() != bytes) {
-        m_buffer.reset();
-        m_buffer.emplace(m_device, bytes);
-    }
     m_n_tiles = n_tiles;
-    m_buffer->fill(0);
-    return *m_buffer;
+    Buffer& buffer = provide_buffer(m_buffer, m_device, bytes);
+    buffer.fill(0);
+    return buffer;
 }
 
 TileList::Parts TileList::read() const {

@@ -1,4 +1,5 @@
 #include <core/render/pixel_kernel.hpp>
+#include <core/render/provide_buffer.hpp>
 #include <core/render/real_array.hpp>
 #include <core/render/volume_pass.hpp>
 #include <core/segment/tables.hpp>
@@ -41,15 +42,6 @@ struct PixelParameters {
 
 /** Bytes of one core_volume_state. */
 std::size_t state_bytes(Precision precision) { return 9 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
-
-/** Makes the buffer anew if it is of another size. */
-const Buffer& provide(std::optional<Buffer>& buffer, const Device& device, std::uint64_t bytes) {
-    if (!buffer || buffer->bytes() != bytes) {
-        buffer.reset();
-        buffer.emplace(device, bytes);
-    }
-    return *buffer;
-}
 
 double largest(const std::array<double, 3>& numbers) {
     return std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
@@ -125,8 +117,8 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
                                              piece.rgb_slope[0], piece.rgb_slope[1], piece.rgb_slope[2], above};
         pieces.insert(pieces.end(), rows.begin(), rows.end());
     }
-    write_reals(provide(m_breakpoints, m_device, values.size() * real_bytes(m_precision)), m_precision, values);
-    write_reals(provide(m_pieces, m_device, pieces.size() * real_bytes(m_precision)), m_precision, pieces);
+    write_reals(provide_buffer(m_breakpoints, m_device, values.size() * real_bytes(m_precision)), m_precision, values);
+    write_reals(provide_buffer(m_pieces, m_device, pieces.size() * real_bytes(m_precision)), m_precision, pieces);
     m_wanted = wanted;
     m_component = component;
     m_models.provide({component.first(), component.end()});
@@ -225,7 +217,7 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
 void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
                       FrameCounts& counts) {
     const Layer& layer = merged.picture();
-    const Buffer& states = provide(m_states, m_device, layer.n_pixels() * state_bytes(m_precision));
+    const Buffer& states = provide_buffer(m_states, m_device, layer.n_pixels() * state_bytes(m_precision));
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     m_chains.look_from(start);
     Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live};

@@ -1,0 +1,19 @@
+/**
+ * @file in_parts.hpp
+ * Work of many items, in dispatches of bounded time.
+ */
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace elvis {
+
+/** Calls `dispatch(first, number)` for consecutive parts of `count` items, each of at most `most`. */
+template <class Dispatch> void in_parts(std::uint32_t count, std::uint32_t most, const Dispatch& dispatch) {
+    for (std::uint32_t first = 0; first < count; first += most) {
+        dispatch(first, std::min(most, count - first));
+    }
+}
+
+} // namespace elvis
