@@ -61,8 +61,8 @@ nlohmann::ordered_json run_accuracy(const BenchArguments& arguments, bool& is_go
         const oracle::IsosurfaceComparison& comparison = study.comparisons[i];
         list.push_back(to_json(comparison, options.precisions[i]));
         say(arguments, "%s, %llu fields: %s\n%s\n", options.precisions[i] == Precision::float64 ? "float64" : "float32",
-            static_cast<unsigned long long>(study.n_fields), oracle::holds(comparison, options.precisions[i]) ? "good" : "WRONG",
-            oracle::to_text(comparison).c_str());
+            static_cast<unsigned long long>(study.n_fields),
+            oracle::holds(comparison, options.precisions[i]) ? "good" : "WRONG", oracle::to_text(comparison).c_str());
     }
     const oracle::FinderComparison& finders = study.finders;
     say(arguments,
@@ -94,8 +94,9 @@ nlohmann::ordered_json run_accuracy(const BenchArguments& arguments, bool& is_go
 #else
 
 nlohmann::ordered_json run_accuracy(const BenchArguments&, bool&) {
-    throw Error("elvis bench accuracy", "this build has no exact renderer to compare with, which comes with the tests: configure with "
-                                        "-DELVIS_BUILD_TESTS=ON");
+    throw Error("elvis bench accuracy",
+                "this build has no exact renderer to compare with, which comes with the tests: configure with "
+                "-DELVIS_BUILD_TESTS=ON");
 }
 
 #endif

@@ -1,6 +1,7 @@
 /**
  * @file bench_suites.hpp
- * The suites of `elvis bench`. Each prints a line for every figure as it comes, unless the answer is JSON, and returns all of them.
+ * The suites of `elvis bench`. Each prints a line for every figure as it comes, unless the answer is JSON, and returns all of
+ * them.
  */
 #pragma once
 

@@ -32,15 +32,17 @@ nlohmann::ordered_json to_json(const SurfaceResult& result) {
 nlohmann::ordered_json run_surface(const Bench& bench, BenchView view) {
     const BenchArguments& arguments = bench.arguments;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    bench_surface(bench.device, bench.registry, bench.folder, view, arguments.elements, arguments.orders, arguments.sizes, bench.unit,
-                  [&](const SurfaceResult& result) {
-        list.push_back(to_json(result));
-        say(arguments, "%2u^3  p%-2u %4u^2  %8.1f ms %9.3g U  %5.2f of the prototype   wall %7.1f ms   a pixel: %.2f values, %.2f "
-            "steps   bytes: field x %.2f, geometry x %.2f, hierarchy %.0f an element\n",
-            result.elements_a_side, result.order, result.size, result.milliseconds, 1e6 * result.milliseconds / bench.unit,
-            result.ratio_to_prototype, result.wall_milliseconds, result.evaluations_a_pixel, result.newton_steps_a_pixel,
-            result.field_overhead, result.geometry_overhead, result.hierarchy_bytes_an_element);
-    });
+    bench_surface(
+        bench.device, bench.registry, bench.folder, view, arguments.elements, arguments.orders, arguments.sizes, bench.unit,
+        [&](const SurfaceResult& result) {
+            list.push_back(to_json(result));
+            say(arguments,
+                "%2u^3  p%-2u %4u^2  %8.1f ms %9.3g U  %5.2f of the prototype   wall %7.1f ms   a pixel: %.2f values, %.2f "
+                "steps   bytes: field x %.2f, geometry x %.2f, hierarchy %.0f an element\n",
+                result.elements_a_side, result.order, result.size, result.milliseconds, 1e6 * result.milliseconds / bench.unit,
+                result.ratio_to_prototype, result.wall_milliseconds, result.evaluations_a_pixel, result.newton_steps_a_pixel,
+                result.field_overhead, result.geometry_overhead, result.hierarchy_bytes_an_element);
+        });
     return list;
 }
 
@@ -78,14 +80,16 @@ nlohmann::ordered_json run_surfaces(const Bench& bench) {
                         {"geometry_bytes", row.memory.geometry_bytes},
                         {"hierarchy_bytes", row.memory.hierarchy_bytes},
                         {"device_bytes", row.device_bytes}});
-        say(arguments, "by %-12s %-18s %6llu elements p%-2u %4u^2 limit %u %s  %8.1f ms %9.3g U  %6.1f MB  %7llu contour pixels, "
-                "%llu undecided\n",
-                row.series.c_str(), row.surface.c_str(), static_cast<unsigned long long>(row.n_elements), row.order, row.size,
-                row.subdivisions, row.precision == Precision::float64 ? "float64" : "float32", row.milliseconds, row.units,
-                1e-6 * static_cast<double>(row.device_bytes), static_cast<unsigned long long>(row.contour_pixels),
-                static_cast<unsigned long long>(row.undecided_pixels));
+        say(arguments,
+            "by %-12s %-18s %6llu elements p%-2u %4u^2 limit %u %s  %8.1f ms %9.3g U  %6.1f MB  %7llu contour pixels, "
+            "%llu undecided\n",
+            row.series.c_str(), row.surface.c_str(), static_cast<unsigned long long>(row.n_elements), row.order, row.size,
+            row.subdivisions, row.precision == Precision::float64 ? "float64" : "float32", row.milliseconds, row.units,
+            1e-6 * static_cast<double>(row.device_bytes), static_cast<unsigned long long>(row.contour_pixels),
+            static_cast<unsigned long long>(row.undecided_pixels));
     };
-    const std::vector<SurfacesRow> rows = bench_surfaces(bench.device, bench.registry, bench.folder, options, bench.unit, report);
+    const std::vector<SurfacesRow> rows =
+        bench_surfaces(bench.device, bench.registry, bench.folder, options, bench.unit, report);
     if (!arguments.output.empty()) {
         write_surfaces(arguments.output, rows);
     }
@@ -101,32 +105,34 @@ nlohmann::ordered_json run_projection(const Bench& bench) {
     options.order = arguments.names_orders ? arguments.orders.front() : options.order;
     options.size = arguments.names_sizes ? arguments.sizes.front() : options.size;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    const std::vector<ProjectionRow> rows = bench_projection(bench.device, bench.registry, bench.folder, options, [&](const ProjectionRow& row) {
-        list.push_back({{"method", name_of(row.method)},
-                        {"degree", row.degree},
-                        {"mean_degree", row.mean_degree},
-                        {"evaluations_a_segment", row.evaluations_a_segment},
-                        {"segments", row.n_segments},
-                        {"verified_segments", row.n_verified},
-                        {"certified_segments", row.n_certified},
-                        {"projected_pixels", row.n_projected_pixels},
-                        {"hit_pixels", row.n_hits},
-                        {"missing_pixels", row.n_missing},
-                        {"other_pixels", row.n_other},
-                        {"undecided_pixels", row.n_undecided},
-                        {"mean_depth_error", row.mean_depth_error},
-                        {"largest_depth_error", row.largest_depth_error},
-                        {"mean_normal_error", row.mean_normal_error},
-                        {"largest_normal_error", row.largest_normal_error},
-                        {"milliseconds", row.milliseconds}});
-        say(arguments, "%-9s degree %2u (mean %4.1f)  %5.1f evaluations a segment  %6llu hits, %llu missing, %llu other, %llu "
-                        "undecided  depth %.1e (%.1e)  normal %.1e (%.1e)  %8.1f ms\n",
-                        name_of(row.method), row.degree, row.mean_degree, row.evaluations_a_segment,
-                        static_cast<unsigned long long>(row.n_hits), static_cast<unsigned long long>(row.n_missing),
-                        static_cast<unsigned long long>(row.n_other), static_cast<unsigned long long>(row.n_undecided),
-                        row.mean_depth_error, row.largest_depth_error, row.mean_normal_error, row.largest_normal_error,
-                        row.milliseconds);
-    });
+    const std::vector<ProjectionRow> rows =
+        bench_projection(bench.device, bench.registry, bench.folder, options, [&](const ProjectionRow& row) {
+            list.push_back({{"method", name_of(row.method)},
+                            {"degree", row.degree},
+                            {"mean_degree", row.mean_degree},
+                            {"evaluations_a_segment", row.evaluations_a_segment},
+                            {"segments", row.n_segments},
+                            {"verified_segments", row.n_verified},
+                            {"certified_segments", row.n_certified},
+                            {"projected_pixels", row.n_projected_pixels},
+                            {"hit_pixels", row.n_hits},
+                            {"missing_pixels", row.n_missing},
+                            {"other_pixels", row.n_other},
+                            {"undecided_pixels", row.n_undecided},
+                            {"mean_depth_error", row.mean_depth_error},
+                            {"largest_depth_error", row.largest_depth_error},
+                            {"mean_normal_error", row.mean_normal_error},
+                            {"largest_normal_error", row.largest_normal_error},
+                            {"milliseconds", row.milliseconds}});
+            say(arguments,
+                "%-9s degree %2u (mean %4.1f)  %5.1f evaluations a segment  %6llu hits, %llu missing, %llu other, %llu "
+                "undecided  depth %.1e (%.1e)  normal %.1e (%.1e)  %8.1f ms\n",
+                name_of(row.method), row.degree, row.mean_degree, row.evaluations_a_segment,
+                static_cast<unsigned long long>(row.n_hits), static_cast<unsigned long long>(row.n_missing),
+                static_cast<unsigned long long>(row.n_other), static_cast<unsigned long long>(row.n_undecided),
+                row.mean_depth_error, row.largest_depth_error, row.mean_normal_error, row.largest_normal_error,
+                row.milliseconds);
+        });
     if (!arguments.output.empty()) {
         write_projection(arguments.output, rows);
     }
@@ -140,15 +146,19 @@ nlohmann::ordered_json run_interface(const Bench& bench) {
     options.size = arguments.names_sizes ? arguments.sizes.front() : options.size;
     const InterfaceResult result = bench_interface(bench.device, bench.registry, bench.folder, options);
     const double of_least = result.plugin.least / result.by_hand.least;
-    const auto time = [](const InterfaceResult::Time& of) { return nlohmann::ordered_json{{"least", of.least}, {"median", of.median}}; };
+    const auto time = [](const InterfaceResult::Time& of) {
+        return nlohmann::ordered_json{{"least", of.least}, {"median", of.median}};
+    };
     say(bench.arguments,
-        "%llu elements, %s, %u^2, %llu pixels: plugin %.2f ms (median %.2f), by hand %.2f ms (median %.2f); plugin over by hand %.3f, of "
+        "%llu elements, %s, %u^2, %llu pixels: plugin %.2f ms (median %.2f), by hand %.2f ms (median %.2f); plugin over by "
+        "hand %.3f, of "
         "the least %.3f\n"
         "%llu pixels show other elements, values differ by %.1e of their range; Newton steps %llu and %llu\n",
         static_cast<unsigned long long>(result.n_elements), result.field.c_str(), result.size,
         static_cast<unsigned long long>(result.hit_pixels), result.plugin.least, result.plugin.median, result.by_hand.least,
-        result.by_hand.median, result.ratio, of_least, static_cast<unsigned long long>(result.other_pixels), result.largest_difference,
-        static_cast<unsigned long long>(result.plugin_newton_steps), static_cast<unsigned long long>(result.by_hand_newton_steps));
+        result.by_hand.median, result.ratio, of_least, static_cast<unsigned long long>(result.other_pixels),
+        result.largest_difference, static_cast<unsigned long long>(result.plugin_newton_steps),
+        static_cast<unsigned long long>(result.by_hand_newton_steps));
     return {{"n_elements", result.n_elements},
             {"field", result.field},
             {"size", result.size},

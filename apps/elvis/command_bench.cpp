@@ -112,7 +112,8 @@ void add_bench(CLI::App& app) {
     }
     command
         ->add_option("suite", arguments->suite,
-                     "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, surfaces, projection, "
+                     "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, "
+                     "surfaces, projection, "
                      "combined, volume-convergence, interface or accuracy")
         ->check(CLI::IsMember(std::move(suites)))
         ->default_val("all");
@@ -125,19 +126,33 @@ void add_bench(CLI::App& app) {
     command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->add_option("--volume", arguments->volume, "A native volume for the suites projection, combined and interface, in place of the waves, and volume-convergence");
-    command->add_option("--isovalue", arguments->isovalue, "Of the suites projection, by default the middle of the field's range, and combined, at 0.6 of it");
-    command->add_option("--integrators", arguments->integrators, "Of the suite volume: riemann, trapezoid, categories, adaptive-trapezoid, exact")
+    command->add_option(
+        "--volume", arguments->volume,
+        "A native volume for the suites projection, combined and interface, in place of the waves, and volume-convergence");
+    command->add_option("--isovalue", arguments->isovalue,
+                        "Of the suites projection, by default the middle of the field's range, and combined, at 0.6 of it");
+    command
+        ->add_option("--integrators", arguments->integrators,
+                     "Of the suite volume: riemann, trapezoid, categories, adaptive-trapezoid, exact")
         ->delimiter(',');
-    command->add_option("--output", arguments->output, "Folder for CSV files and plots of the suites surfaces, projection and volume-convergence");
+    command->add_option("--output", arguments->output,
+                        "Folder for CSV files and plots of the suites surfaces, projection and volume-convergence");
     BenchArguments::Accuracy& accuracy = arguments->accuracy;
-    command->add_option("--count", accuracy.count, "Of the suite accuracy: number of random fields")->check(CLI::PositiveNumber)->capture_default_str();
+    command->add_option("--count", accuracy.count, "Of the suite accuracy: number of random fields")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command->add_option("--seed", accuracy.seed, "Of its first field; the others follow")->capture_default_str();
-    command->add_option("--size", accuracy.size, "Side of its pictures in pixels")->check(CLI::PositiveNumber)->capture_default_str();
-    command->add_option("--precision", accuracy.precisions, "Of its pictures: float32, float64 or both; none: the exact renderer alone")
+    command->add_option("--size", accuracy.size, "Side of its pictures in pixels")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command
+        ->add_option("--precision", accuracy.precisions,
+                     "Of its pictures: float32, float64 or both; none: the exact renderer alone")
         ->delimiter(',')
         ->check(CLI::IsMember({"float32", "float64", "none"}));
-    command->add_option("--finder-stride", accuracy.finder_stride, "The exact renderer's ways are compared on every so many rays; 0: not at all")
+    command
+        ->add_option("--finder-stride", accuracy.finder_stride,
+                     "The exact renderer's ways are compared on every so many rays; 0: not at all")
         ->capture_default_str();
     command->add_option("--method", accuracy.method, "How its crossings are found")
         ->check(CLI::IsMember({"interval", "bernstein", "companion"}))

@@ -122,8 +122,9 @@ void add_convert(CLI::App& app) {
     CLI::Option* separate = command->add_flag(
         "--separate-process", arguments->is_separate,
         "Run the plugin in a process of its own: one that crashes, hangs or takes all memory ends alone, with a message");
-    command->add_option("--memory-limit", arguments->memory_limit,
-                        "Mebibytes that the separate process may take (default: nearly all that the machine has left)")
+    command
+        ->add_option("--memory-limit", arguments->memory_limit,
+                     "Mebibytes that the separate process may take (default: nearly all that the machine has left)")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40u))
         ->needs(separate);
     // The program calls itself with this.

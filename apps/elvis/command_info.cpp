@@ -141,11 +141,10 @@ ordered_json describe(const RuntimeVolume& volume, const Arguments& arguments) {
     root["classes"] = ordered_json::array();
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
-        root["classes"].push_back(
-            {{"shape", shape_name(info.shape)},
-             {"n_elements", info.n_elements},
-             {"geometry_order", {info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]}},
-             {"cut", volume.is_cut(index)}});
+        root["classes"].push_back({{"shape", shape_name(info.shape)},
+                                   {"n_elements", info.n_elements},
+                                   {"geometry_order", {info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]}},
+                                   {"cut", volume.is_cut(index)}});
     }
     Range bounds[3];
     std::vector<double> boxes(6 * volume.n_elements());

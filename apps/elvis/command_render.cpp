@@ -68,7 +68,8 @@ void render_picture(const RenderArguments& arguments, const Scene& scene, const 
         write_buffers(frame, arguments.buffers, is_double);
     }
     if (!arguments.stats.empty()) {
-        const auto stats = stats_json(device, is_double, frame, renderer, times.load, milliseconds_since(times.start), repeated);
+        const auto stats =
+            stats_json(device, is_double, frame, renderer, times.load, milliseconds_since(times.start), repeated);
         write_text_file(arguments.stats, stats.dump(2) + "\n");
     }
     warn_about(frame.counts);
@@ -120,11 +121,13 @@ void run(const RenderArguments& arguments) {
 } // namespace
 
 void add_render(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("render", "Draw one picture of a volume, or an animation, from a scene file or options");
+    CLI::App* command =
+        app.add_subcommand("render", "Draw one picture of a volume, or an animation, from a scene file or options");
     auto a = std::make_shared<RenderArguments>();
     command->add_option("input", a->input, "Scene file (JSON) or volume");
     command->add_option("-o,--output", a->output, "Picture to write (PNG), or folder for those of an animation");
-    command->add_option("--field", a->field, "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
+    command->add_option("--field", a->field,
+                        "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
     command->add_option("--cut-plane", a->cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
         ->allow_extra_args(false);
     const CLI::Option* boundary = command
@@ -159,15 +162,18 @@ void add_render(CLI::App& app) {
                         "Built-in name (" + maps +
                             "; gray is even in lightness, not linear in RGB), or file (ParaView JSON, ElVis XML)");
     command->add_option("--range", a->range, "LOW,HIGH: values at the ends of the colour map");
-    command->add_flag("--log-scale", a->log_scale, "Colours by the logarithm of values, which have none of their own where they are not above 0");
+    command->add_flag("--log-scale", a->log_scale,
+                      "Colours by the logarithm of values, which have none of their own where they are not above 0");
     command->add_option("--eye", a->eye, "x,y,z of the camera");
     command->add_option("--look-at", a->look_at, "x,y,z in the middle of the picture");
     command->add_option("--up", a->up, "x,y,z of the direction that is up in the picture");
     command->add_option("--fov", a->field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
     command->add_option("--orthographic", a->orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
     command->add_option("--background", a->background, "R,G,B or R,G,B,A from 0 to 1");
-    command->add_option("--lighting", a->lighting,
-                        "none, or default: a headlight on all surfaces; isosurfaces alone of a volume have it unless told otherwise")
+    command
+        ->add_option(
+            "--lighting", a->lighting,
+            "none, or default: a headlight on all surfaces; isosurfaces alone of a volume have it unless told otherwise")
         ->check(CLI::IsMember({"none", "default"}));
     command->add_option("--annotation", a->annotation, "none, or default: color bars, axes and a title")
         ->check(CLI::IsMember({"none", "default"}));
@@ -175,7 +181,8 @@ void add_render(CLI::App& app) {
     command->add_option("--precision", a->precision, "float32 or float64")->check(CLI::IsMember({"float32", "float64"}));
     command->add_option("--device", a->device, "Name (or part of it) or index of the Vulkan device");
     command->add_option("--time-step", a->time_step, "Which time step")->check(CLI::NonNegativeNumber);
-    command->add_option("--time-steps", a->time_steps, "all, FIRST:LAST or FIRST:LAST:STRIDE: a picture of each of these steps");
+    command->add_option("--time-steps", a->time_steps,
+                        "all, FIRST:LAST or FIRST:LAST:STRIDE: a picture of each of these steps");
     command->add_option("--turntable", a->turntable, "That many pictures with the eye once around the point looked at")
         ->check(CLI::Range(1, 1000000));
     command->add_option("--turntable-axis", a->turntable_axis, "x,y,z that the eye goes around; by default the camera's up");
@@ -184,7 +191,8 @@ void add_render(CLI::App& app) {
     command->add_flag("--resume", a->resume, "Keep pictures of the animation that are there already");
     command->add_option("--buffers", a->buffers, "HDF5 file with what the picture is made of, per pixel");
     command->add_option("--stats", a->stats, "JSON file with times and counts");
-    command->add_option("--share", a->share, "What passes take from each other, to compare times: all, none, depths or parts (the default)");
+    command->add_option("--share", a->share,
+                        "What passes take from each other, to compare times: all, none, depths or parts (the default)");
     command->add_option("--repeat", a->repeat, "Draw the frame that many times more, and put the times into --stats")
         ->check(CLI::NonNegativeNumber);
     command->add_option("--bits", a->bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));

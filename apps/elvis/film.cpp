@@ -47,8 +47,9 @@ void require_film_maker() {
             return;
         }
     }
-    throw Error("--film", "needs ffmpeg, which is not on the PATH; without --film the numbered pictures are drawn, of which any "
-                          "film maker can make one");
+    throw Error("--film",
+                "needs ffmpeg, which is not on the PATH; without --film the numbered pictures are drawn, of which any "
+                "film maker can make one");
 }
 
 void make_film(const std::filesystem::path& pattern, double frames_a_second, const std::filesystem::path& film) {
@@ -70,8 +71,9 @@ void make_film(const std::filesystem::path& pattern, double frames_a_second, con
     }
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw Error(film.string(), failure ? "cannot be written: " + failure.message()
-                                       : std::string("ffmpeg could not make it; the pictures are beside, as ") + pattern.string());
+    throw Error(film.string(), failure
+                                   ? "cannot be written: " + failure.message()
+                                   : std::string("ffmpeg could not make it; the pictures are beside, as ") + pattern.string());
 }
 
 } // namespace elvis::commands

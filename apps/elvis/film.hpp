@@ -13,8 +13,8 @@ namespace elvis::commands {
 void require_film_maker();
 
 /**
- * Makes a film of `pattern` (with %04d for the number, from 0), of the kind that its name ends in, at `frames_a_second`. It appears
- * whole or not at all. Throws Error with what ffmpeg says.
+ * Makes a film of `pattern` (with %04d for the number, from 0), of the kind that its name ends in, at `frames_a_second`. It
+ * appears whole or not at all. Throws Error with what ffmpeg says.
  */
 void make_film(const std::filesystem::path& pattern, double frames_a_second, const std::filesystem::path& film);
 

@@ -18,7 +18,8 @@ std::vector<FrameRemark> remarks_on(const FrameCounts& counts) {
         " cut elements only the flat faces are drawn, not where they are cut; the boundary as a whole shows that, too");
     add(true, counts.nan_pixels, "", " pixels show values that are not finite");
     add(true, counts.work_limit_pixels, "", " pixels reached the work limit and may be wrong; they carry flag 1024");
-    add(false, counts.inexact_volume_pixels, "in ", " pixels volume rendering did not reach its tolerance; they carry flag 128");
+    add(false, counts.inexact_volume_pixels, "in ",
+        " pixels volume rendering did not reach its tolerance; they carry flag 128");
     add(false, counts.undecided_pixels, "", " pixels are undecided within rounding");
     add(false, counts.undecided_isosurface_pixels, "for ",
         " pixels it is undecided whether they meet an isosurface, or one before that shown; they carry flag 64");

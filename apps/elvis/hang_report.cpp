@@ -22,8 +22,8 @@ void report(Patience& patience) {
         const auto known = patience.find(call.number);
         auto next = known == patience.end() ? std::chrono::milliseconds(first_silence) : known->second;
         if (call.silence >= next) {
-            spdlog::warn("the plugin {} has been in its function {} for {} s without a sign; it may be slow or hang", call.plugin,
-                         call.function, std::chrono::duration_cast<std::chrono::seconds>(call.silence).count());
+            spdlog::warn("the plugin {} has been in its function {} for {} s without a sign; it may be slow or hang",
+                         call.plugin, call.function, std::chrono::duration_cast<std::chrono::seconds>(call.silence).count());
             next *= 10;
         }
         still_silent[call.number] = next;

@@ -86,8 +86,9 @@ void check_animation(const RenderArguments& arguments, const Scene& scene) {
 void render_animation(const RenderArguments& arguments, const Scene& scene, const Device& device, const RuntimeVolume& volume,
                       Renderer& renderer) {
     const SceneAnimation& animation = *scene.animation;
-    const std::vector<std::uint32_t> steps =
-        animation.time_steps ? steps_of(*animation.time_steps, volume.times().size(), scene.volume) : std::vector<std::uint32_t>{};
+    const std::vector<std::uint32_t> steps = animation.time_steps
+                                                 ? steps_of(*animation.time_steps, volume.times().size(), scene.volume)
+                                                 : std::vector<std::uint32_t>{};
     Requests requests(scene, steps, volume, renderer);
     const std::vector<AnimationFrame> frames =
         animation_frames(animation, steps, scene.time_step, requests.of(requests.first_step()).camera);

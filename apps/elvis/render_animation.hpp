@@ -16,8 +16,8 @@ namespace elvis::commands {
 void check_animation(const RenderArguments& arguments, const Scene& scene);
 
 /**
- * Draws frame_0000.png and so on into the folder of -o. Each appears whole or not at all; with --resume those that are there stay.
- * `scene` has an animation.
+ * Draws frame_0000.png and so on into the folder of -o. Each appears whole or not at all; with --resume those that are there
+ * stay. `scene` has an animation.
  */
 void render_animation(const RenderArguments& arguments, const Scene& scene, const Device& device, const RuntimeVolume& volume,
                       Renderer& renderer);

@@ -85,9 +85,9 @@ void apply_volume(const RenderArguments& arguments, Scene& scene) {
         scene.volume_rendering = SceneVolumeRendering{};
         scene.volume_rendering->transfer_file = arguments.volume == "default" ? "" : arguments.volume;
     }
-    for (const auto& [option, is_given] : {std::pair{"--integrator", !arguments.integrator.empty()},
-                                           std::pair{"--volume-step", arguments.volume_step > 0},
-                                           std::pair{"--volume-tolerance", arguments.volume_tolerance > 0}}) {
+    for (const auto& [option, is_given] :
+         {std::pair{"--integrator", !arguments.integrator.empty()}, std::pair{"--volume-step", arguments.volume_step > 0},
+          std::pair{"--volume-tolerance", arguments.volume_tolerance > 0}}) {
         if (is_given && !scene.volume_rendering) {
             throw UsageError(option, "means nothing without --volume, or a scene with volume_rendering");
         }
@@ -109,13 +109,13 @@ void apply_volume(const RenderArguments& arguments, Scene& scene) {
     }
 }
 
-/** Pictures over time or around the volume; a path of the file stays beside the command line's steps, and the other way round. */
+/** Pictures over time or around the volume; a path of the file stays beside the command line's steps, and the other way round.
+ */
 void apply_animation(const RenderArguments& arguments, Scene& scene) {
     if (arguments.time_steps.empty() && arguments.turntable == 0 && !scene.animation) {
-        for (const auto& [option, is_given] : {std::pair{"--film", !arguments.film.empty()},
-                                               std::pair{"--frames-a-second", arguments.frames_a_second > 0},
-                                               std::pair{"--turntable-axis", !arguments.turntable_axis.empty()},
-                                               std::pair{"--resume", arguments.resume}}) {
+        for (const auto& [option, is_given] :
+             {std::pair{"--film", !arguments.film.empty()}, std::pair{"--frames-a-second", arguments.frames_a_second > 0},
+              std::pair{"--turntable-axis", !arguments.turntable_axis.empty()}, std::pair{"--resume", arguments.resume}}) {
             if (is_given) {
                 throw UsageError(option, "means nothing without --time-steps, --turntable, or a scene with animation");
             }
@@ -191,7 +191,8 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
     }
     scene.color_map.is_logarithmic = scene.color_map.is_logarithmic || arguments.log_scale;
     if (scene.color_map.is_logarithmic && scene.color_map.range && !((*scene.color_map.range)[0] > 0)) {
-        throw UsageError(arguments.range.empty() ? "--log-scale" : "--range", "the range must be above 0 on a logarithmic scale");
+        throw UsageError(arguments.range.empty() ? "--log-scale" : "--range",
+                         "the range must be above 0 on a logarithmic scale");
     }
     if (!arguments.eye.empty()) {
         scene.camera.eye = vector3("--eye", arguments.eye);
@@ -223,8 +224,10 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
     }
     if (!arguments.lighting.empty()) {
         scene.lighting = arguments.lighting == "default" ? std::optional(Lighting{}) : std::nullopt;
-    } else if (!is_scene(arguments.input) && !arguments.isovalues.empty() && arguments.cut_planes.empty() && !arguments.boundary) {
-        // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read. A scene says what it wants.
+    } else if (!is_scene(arguments.input) && !arguments.isovalues.empty() && arguments.cut_planes.empty() &&
+               !arguments.boundary) {
+        // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read. A scene says what
+        // it wants.
         scene.lighting = Lighting{};
     }
     if (!arguments.size.empty()) {

@@ -31,7 +31,8 @@ double fraction_of(const ColorTable& table, double value) {
     if (!(high > low)) {
         return 0.5;
     }
-    return table.is_logarithmic ? (std::log(value) - std::log(low)) / (std::log(high) - std::log(low)) : (value - low) / (high - low);
+    return table.is_logarithmic ? (std::log(value) - std::log(low)) / (std::log(high) - std::log(low))
+                                : (value - low) / (high - low);
 }
 
 /** Height of the triangles that stand for values outside. */

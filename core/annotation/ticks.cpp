@@ -191,7 +191,8 @@ Ticks logarithmic_ticks(double low, double high, int most) {
         return round_ticks(low, high, most);
     }
     const auto inside = [&](std::int64_t n, int power) { return low <= value_of({n, power}) && value_of({n, power}) <= high; };
-    const int first = static_cast<int>(std::floor(std::log10(low))) - 1, last = static_cast<int>(std::ceil(std::log10(high))) + 1;
+    const int first = static_cast<int>(std::floor(std::log10(low))) - 1,
+              last = static_cast<int>(std::ceil(std::log10(high))) + 1;
     std::vector<int> powers;
     for (int power = first; power <= last; ++power) {
         if (inside(1, power)) {

@@ -33,8 +33,8 @@ struct Ticks {
 Ticks round_ticks(double low, double high, int most);
 
 /**
- * On a logarithmic scale from low to high, above 0: at most `most` powers of ten with a label, and where there is room for it the
- * multiples between them, without. Less than two powers: 1, 2 and 5 times those; less than two of these: as round_ticks().
+ * On a logarithmic scale from low to high, above 0: at most `most` powers of ten with a label, and where there is room for it
+ * the multiples between them, without. Less than two powers: 1, 2 and 5 times those; less than two of these: as round_ticks().
  */
 Ticks logarithmic_ticks(double low, double high, int most);
 

@@ -187,7 +187,8 @@ void write_answer(int descriptor, char mark, std::string text) {
 
 std::string ending_text(int status) {
     if (WIFSIGNALED(status)) {
-        return std::string("was ended by signal ") + std::to_string(WTERMSIG(status)) + " (" + ::strsignal(WTERMSIG(status)) + ")";
+        return std::string("was ended by signal ") + std::to_string(WTERMSIG(status)) + " (" + ::strsignal(WTERMSIG(status)) +
+               ")";
     }
     return "ended with status " + std::to_string(WEXITSTATUS(status));
 }

@@ -14,8 +14,8 @@
 namespace elvis {
 
 /**
- * Runs `/proc/self/exe` in a process group of its own, without core files. The process writes lines to its descriptor `answer`, a
- * pipe that is read here.
+ * Runs `/proc/self/exe` in a process group of its own, without core files. The process writes lines to its descriptor `answer`,
+ * a pipe that is read here.
  */
 class ChildProcess {
 public:

@@ -18,9 +18,9 @@ std::uint64_t resident_bytes();
 std::uint64_t heap_bytes();
 
 /**
- * Gives free memory of the heap back to the system. Threads that free most of what they took, such as a compiler's, leave it with
- * the C library, each in a heap of its own, in which others hardly find use for it. Takes some milliseconds, in which other threads
- * wait when they ask for memory.
+ * Gives free memory of the heap back to the system. Threads that free most of what they took, such as a compiler's, leave it
+ * with the C library, each in a heap of its own, in which others hardly find use for it. Takes some milliseconds, in which
+ * other threads wait when they ask for memory.
  */
 void give_back_free_memory();
 

@@ -37,7 +37,8 @@ std::vector<Part> parts_of(const std::array<double, 6>& bounds, const FieldRange
     const auto surface_of = [&](const SurfaceGeometry& geometry, double opacity) {
         Surface surface;
         surface.geometry = geometry;
-        surface.colors.points = {{lower, {0.2, 0.3, 0.9}}, {lower + 0.5 * width, {0.9, 0.9, 0.8}}, {lower + width, {0.8, 0.1, 0.1}}};
+        surface.colors.points = {
+            {lower, {0.2, 0.3, 0.9}}, {lower + 0.5 * width, {0.9, 0.9, 0.8}}, {lower + width, {0.8, 0.1, 0.1}}};
         surface.opacity = opacity;
         return surface;
     };

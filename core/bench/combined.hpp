@@ -27,9 +27,9 @@ struct CombinedRow {
 };
 
 /**
- * The boundary, transparent; a cut plane with contours and mesh lines; an isosurface; the volume itself. Of the volume, a native one
- * such as the canister, or of the waves if it is empty; the isovalue is at 0.6 of the field's range if there is none. Calls `report`
- * after each row.
+ * The boundary, transparent; a cut plane with contours and mesh lines; an isosurface; the volume itself. Of the volume, a
+ * native one such as the canister, or of the waves if it is empty; the isovalue is at 0.6 of the field's range if there is
+ * none. Calls `report` after each row.
  */
 void bench_combined(const Device& device, const PluginRegistry& registry, const BenchFolder& folder, const std::string& volume,
                     std::optional<double> isovalue, std::uint32_t size, const std::function<void(const CombinedRow&)>& report);

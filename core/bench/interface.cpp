@@ -87,8 +87,8 @@ private:
 };
 
 /**
- * Through the middle of the bounds, nearly across the shortest side, and so near that it fills the picture. Tilted, so that it lies in
- * no faces.
+ * Through the middle of the bounds, nearly across the shortest side, and so near that it fills the picture. Tilted, so that it
+ * lies in no faces.
  */
 void look_at_middle(const std::array<double, 6>& bounds, CutPlane& plane, Camera& camera) {
     Vector3 side{};
@@ -142,7 +142,8 @@ struct Contestant {
 
 void compare(const Contestant& plugin, const Contestant& by_hand, InterfaceResult& result) {
     const std::uint64_t n_pixels = plugin.layer.n_pixels();
-    const auto marks = plugin.layer.marks.read_items<Mark>(n_pixels), other_marks = by_hand.layer.marks.read_items<Mark>(n_pixels);
+    const auto marks = plugin.layer.marks.read_items<Mark>(n_pixels),
+               other_marks = by_hand.layer.marks.read_items<Mark>(n_pixels);
     const auto samples = plugin.layer.samples.read_items<Sample<float>>(n_pixels);
     const auto other_samples = by_hand.layer.samples.read_items<Sample<float>>(n_pixels);
     double lower = std::numeric_limits<double>::infinity(), upper = -lower;
@@ -152,7 +153,8 @@ void compare(const Contestant& plugin, const Contestant& by_hand, InterfaceResul
             result.other_pixels += 1;
         } else if (is_hit) {
             const double value = samples[pixel].value;
-            result.largest_difference = std::max(result.largest_difference, std::abs(value - double{other_samples[pixel].value}));
+            result.largest_difference =
+                std::max(result.largest_difference, std::abs(value - double{other_samples[pixel].value}));
             lower = std::min(lower, value);
             upper = std::max(upper, value);
         }

@@ -1,8 +1,8 @@
 /**
  * @file interface.hpp
- * What the plugin interface costs: a cut plane through a native volume by the native plugin's snippet, as ordinary pictures draw it,
- * against the same kernel with the functions it calls written by hand for that volume (by_hand.glsl): orders as numbers, no bases in
- * general, buffers read without fetch functions.
+ * What the plugin interface costs: a cut plane through a native volume by the native plugin's snippet, as ordinary pictures
+ * draw it, against the same kernel with the functions it calls written by hand for that volume (by_hand.glsl): orders as
+ * numbers, no bases in general, buffers read without fetch functions.
  */
 #pragma once
 
@@ -15,7 +15,8 @@
 namespace elvis {
 
 struct InterfaceOptions {
-    /** A native volume of hexahedra and prisms with geometry of order 1 and a scalar field of order 2; empty: waves of 16^3 hexahedra. */
+    /** A native volume of hexahedra and prisms with geometry of order 1 and a scalar field of order 2; empty: waves of 16^3
+     * hexahedra. */
     std::string volume;
     std::uint32_t size = 1024;
     /** Of each of the two, in turns. */

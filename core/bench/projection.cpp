@@ -65,20 +65,22 @@ double share(std::uint64_t number, std::uint64_t of) {
 } // namespace
 
 const char* name_of(IsosurfaceMethod method) {
-    return method == IsosurfaceMethod::interval ? "interval" : method == IsosurfaceMethod::bernstein ? "bernstein" : "companion";
+    return method == IsosurfaceMethod::interval    ? "interval"
+           : method == IsosurfaceMethod::bernstein ? "bernstein"
+                                                   : "companion";
 }
 
 std::vector<ProjectionRow> bench_projection(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
                                             const ProjectionOptions& options,
                                             const std::function<void(const ProjectionRow&)>& report) {
-    const RuntimeVolume volume = options.volume.empty()
-                                     ? waves_volume(registry, folder, options.elements_a_side, options.order)
-                                     : RuntimeVolume(registry.runtime_for(options.volume), options.volume);
+    const RuntimeVolume volume = options.volume.empty() ? waves_volume(registry, folder, options.elements_a_side, options.order)
+                                                        : RuntimeVolume(registry.runtime_for(options.volume), options.volume);
     Renderer renderer(device, volume, Precision::float64);
     const std::array<double, 6> bounds = renderer.bounds();
     const double diagonal = diagonal_of(bounds);
     const FieldRange range = renderer.field_range({}, 0);
-    FrameRequest request = request_of(bounds, diagonal, options.isovalue.value_or(0.5 * (range.lower + range.upper)), options.size);
+    FrameRequest request =
+        request_of(bounds, diagonal, options.isovalue.value_or(0.5 * (range.lower + range.upper)), options.size);
     Isosurfaces& isosurfaces = std::get<Isosurfaces>(request.surfaces[0].geometry);
 
     std::vector<ProjectionRow> rows;
@@ -128,9 +130,9 @@ void write_projection(const std::filesystem::path& folder, const std::vector<Pro
     for (const ProjectionRow& row : rows) {
         file << name_of(row.method) << ',' << row.degree << ',' << row.mean_degree << ',' << row.evaluations_a_segment << ','
              << row.n_segments << ',' << row.n_verified << ',' << row.n_certified << ',' << row.n_projected_pixels << ','
-             << row.n_hits << ',' << row.n_missing << ',' << row.n_other << ',' << row.n_undecided << ',' << row.mean_depth_error
-             << ',' << row.largest_depth_error << ',' << row.mean_normal_error << ',' << row.largest_normal_error << ','
-             << row.milliseconds << '\n';
+             << row.n_hits << ',' << row.n_missing << ',' << row.n_other << ',' << row.n_undecided << ','
+             << row.mean_depth_error << ',' << row.largest_depth_error << ',' << row.mean_normal_error << ','
+             << row.largest_normal_error << ',' << row.milliseconds << '\n';
         if (row.degree != 0) {
             const double degree = row.degree;
             mean.points.push_back({degree, row.mean_depth_error});

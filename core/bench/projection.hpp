@@ -1,7 +1,7 @@
 /**
  * @file projection.hpp
- * What the degree of the polynomials does to isosurfaces that are drawn by projection (Nelson & Kirby 2006): each picture against
- * the converged one, in double precision.
+ * What the degree of the polynomials does to isosurfaces that are drawn by projection (Nelson & Kirby 2006): each picture
+ * against the converged one, in double precision.
  */
 #pragma once
 

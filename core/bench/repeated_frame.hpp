@@ -25,7 +25,8 @@ inline RepeatedFrame render_repeatedly(Renderer& renderer, const FrameRequest& r
         result.frame = renderer.render(request);
         const Frame& frame = result.frame;
         result.milliseconds = run == 0 ? frame.device_milliseconds : std::min(result.milliseconds, frame.device_milliseconds);
-        result.wall_milliseconds = run == 0 ? frame.render_milliseconds : std::min(result.wall_milliseconds, frame.render_milliseconds);
+        result.wall_milliseconds =
+            run == 0 ? frame.render_milliseconds : std::min(result.wall_milliseconds, frame.render_milliseconds);
     }
     return result;
 }

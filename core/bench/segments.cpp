@@ -21,8 +21,8 @@ void bench_segments(const Device& device, const PluginRegistry& registry, const 
             SegmentPass pass(device, volume, data);
             for (const std::uint32_t size : sizes) {
                 const FrameRequest picture = waves_cut_plane(size);
-                const CutPlaneGeometry view =
-                    cut_plane_geometry(std::get<CutPlane>(picture.surfaces.front().geometry), picture.camera, size, size, data.centre());
+                const CutPlaneGeometry view = cut_plane_geometry(std::get<CutPlane>(picture.surfaces.front().geometry),
+                                                                 picture.camera, size, size, data.centre());
                 SegmentsResult result;
                 result.elements_a_side = n;
                 result.size = size;
@@ -39,7 +39,8 @@ void bench_segments(const Device& device, const PluginRegistry& registry, const 
                     result.n_undecided = counts.undecided;
                     result.evaluations_a_segment =
                         static_cast<double>(counts.evaluations) / static_cast<double>(counts.segments);
-                    result.seek_evaluations_a_ray = static_cast<double>(counts.seek_evaluations) / (static_cast<double>(size) * size);
+                    result.seek_evaluations_a_ray =
+                        static_cast<double>(counts.seek_evaluations) / (static_cast<double>(size) * size);
                 }
                 report(result);
             }

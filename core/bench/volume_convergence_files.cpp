@@ -34,12 +34,13 @@ void write_rows(const std::filesystem::path& path, const VolumeConvergence& resu
 
 void write_comparison(const std::filesystem::path& path, const VolumeConvergence& result) {
     std::ofstream file(path);
-    file << "scene,transfer,integrator,step,tolerance,is_missed,error,samples_a_pixel,milliseconds,units,inexact_share,fewer_samples,"
+    file << "scene,transfer,integrator,step,tolerance,is_missed,error,samples_a_pixel,milliseconds,units,inexact_share,fewer_"
+            "samples,"
             "less_time\n";
     for (const ComparisonRow& row : result.comparison) {
-        file << row.scene << ',' << row.transfer << ',' << row.curve << ',' << row.step << ',' << row.tolerance << ',' << row.is_missed << ','
-             << row.error << ',' << row.samples_a_pixel << ',' << row.milliseconds << ',' << row.units << ','
-             << row.inexact_share << ',' << row.fewer_samples << ',' << row.less_time << '\n';
+        file << row.scene << ',' << row.transfer << ',' << row.curve << ',' << row.step << ',' << row.tolerance << ','
+             << row.is_missed << ',' << row.error << ',' << row.samples_a_pixel << ',' << row.milliseconds << ',' << row.units
+             << ',' << row.inexact_share << ',' << row.fewer_samples << ',' << row.less_time << '\n';
     }
     check(file, path);
 }

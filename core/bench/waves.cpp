@@ -47,9 +47,10 @@ RuntimeVolume generated_volume(const PluginRegistry& registry, const BenchFolder
 }
 
 RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& folder, std::uint32_t n, std::uint32_t order) {
-    return generated_volume(registry, folder, "waves-" + std::to_string(n) + "-order-" + std::to_string(order),
-                            R"({"generator":1,"mesh":"waves","shape":"hexahedron","geometry_order":2,"field":"waves","elements":)" +
-                                std::to_string(n) + R"(,"order":)" + std::to_string(order) + "}");
+    return generated_volume(
+        registry, folder, "waves-" + std::to_string(n) + "-order-" + std::to_string(order),
+        R"({"generator":1,"mesh":"waves","shape":"hexahedron","geometry_order":2,"field":"waves","elements":)" +
+            std::to_string(n) + R"(,"order":)" + std::to_string(order) + "}");
 }
 
 FrameRequest waves_cut_plane(std::uint32_t size) {

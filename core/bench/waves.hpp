@@ -28,12 +28,14 @@ private:
     bool m_is_kept;
 };
 
-/** What a description makes for the generator, by this name, made by the conversion engine unless the folder holds it already. */
+/** What a description makes for the generator, by this name, made by the conversion engine unless the folder holds it already.
+ */
 RuntimeVolume generated_volume(const PluginRegistry& registry, const BenchFolder& folder, const std::string& name,
                                const std::string& generator);
 
 /**
- * The waves volume of n^3 hexahedra, field order `order`: [-1,1]^3 moved by 0.06 (sin pi q2 cos pi q3, ...), field sin 3.5x cos 3.5y + cyclic.
+ * The waves volume of n^3 hexahedra, field order `order`: [-1,1]^3 moved by 0.06 (sin pi q2 cos pi q3, ...), field sin 3.5x
+ * cos 3.5y + cyclic.
  */
 RuntimeVolume waves_volume(const PluginRegistry& registry, const BenchFolder& folder, std::uint32_t n, std::uint32_t order);
 

@@ -99,7 +99,8 @@ void check_outside(Context& context) {
                            "extension");
         }
         const bool is_finite = std::isfinite(outside[i].position[0] + outside[i].position[1] + outside[i].position[2]) &&
-                               (std::isfinite(outside[i].value) || !std::isfinite(on[i].value)) && std::isfinite(outside[i].inside);
+                               (std::isfinite(outside[i].value) || !std::isfinite(on[i].value)) &&
+                               std::isfinite(outside[i].inside);
         if (!is_finite) {
             complaints.add(place(volume, far[i]) +
                            ", outside the shape: mapping, field or elvis_inside are not finite; return the natural extension");
@@ -249,7 +250,8 @@ std::vector<Check> behaviour_checks() {
         {"snippet-outside", "outside the reference shape the snippet gives the natural extension", check_outside},
         {"snippet-hostile", "the snippet comes to an end at NaN, infinite and huge reference points", check_hostile_points},
         {"snippet-outputs", "functions write all of their outputs", check_outputs},
-        {"snippet-indices", "indices of arrays, vectors and records are in range, outside the shape and at NaN, too", check_indices},
+        {"snippet-indices", "indices of arrays, vectors and records are in range, outside the shape and at NaN, too",
+         check_indices},
         {"snippet-offset", "with the capability FIELD_OFFSET the field lacks the offset", check_field_offset},
     };
 }

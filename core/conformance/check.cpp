@@ -67,8 +67,8 @@ void Context::need_source() {
 const std::vector<Check>& all_checks() {
     static const std::vector<Check> checks = [] {
         std::vector<Check> all;
-        for (const auto group : {library_checks, file_checks, table_checks, volume_checks, geometry_checks, order_checks, device_checks,
-                                 own_shape_checks, behaviour_checks, source_checks}) {
+        for (const auto group : {library_checks, file_checks, table_checks, volume_checks, geometry_checks, order_checks,
+                                 device_checks, own_shape_checks, behaviour_checks, source_checks}) {
             const std::vector<Check> some = group();
             all.insert(all.end(), some.begin(), some.end());
         }

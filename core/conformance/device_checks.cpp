@@ -360,7 +360,8 @@ void check_inside(Context& context) {
             }
         } else if (samples[asked[n]].inside > 0) {
             if (found[n].outcome == Inversion::Outcome::inside) {
-                complaints.add(place(volume, points[asked[n]]) + ": elvis_inside is positive, but the point is said to lie inside");
+                complaints.add(place(volume, points[asked[n]]) +
+                               ": elvis_inside is positive, but the point is said to lie inside");
             }
         } else if (found[n].outcome != Inversion::Outcome::inside) {
             complaints.add(place(volume, points[asked[n]]) +
@@ -382,7 +383,8 @@ std::vector<Check> device_checks() {
         {"snippet-gradient", "elvis_field_gradient is the derivative of elvis_field_value", check_gradient},
         {"snippet-hessians", "second derivatives of field and mapping are those of gradient and Jacobian", check_hessians},
         {"snippet-inverse", "elvis_inverse_mapping inverts elvis_mapping", check_inverse},
-        {"snippet-inside", "positions in an element are found in it by Newton's method, and positions outside, or beyond elvis_inside, are not",
+        {"snippet-inside",
+         "positions in an element are found in it by Newton's method, and positions outside, or beyond elvis_inside, are not",
          check_inside},
     };
 }

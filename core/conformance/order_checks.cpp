@@ -7,8 +7,8 @@
  * and the coefficients beyond T_K must vanish. What follows for a line from `geometry_order` and `order` depends on the shape:
  *
  *   - hexahedron, quadrilateral: along xi_i, order[i].
- *   - prism, tetrahedron, triangle: along xi_i, the largest of the orders. Along oblique lines too if the order is that of the total
- *     degree, which the interface leaves open for fields: a note.
+ *   - prism, tetrahedron, triangle: along xi_i, the largest of the orders. Along oblique lines too if the order is that of the
+ * total degree, which the interface leaves open for fields: a note.
  *   - pyramid: along xi1 and xi2, the largest of the orders; along xi3 its spaces may be rational.
  *
  * An affine mapping is of degree 1 along every line.

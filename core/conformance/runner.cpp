@@ -145,10 +145,10 @@ void run_here(const Check& check, const Subject& subject, int answer_descriptor)
     const Reporter reporter{[&](Reporter::Kind kind, const std::string& text) {
         const std::lock_guard lock(mutex);
         write_answer(answer_descriptor,
-                   kind == Reporter::Kind::failure ? failure_mark
-                   : kind == Reporter::Kind::note  ? note_mark
-                                                   : progress_mark,
-                   text);
+                     kind == Reporter::Kind::failure ? failure_mark
+                     : kind == Reporter::Kind::note  ? note_mark
+                                                     : progress_mark,
+                     text);
     }};
     Context context(subject, reporter);
     try {

@@ -253,9 +253,9 @@ std::vector<std::string> evaluate_at(const std::string& path, const Subject& sub
                     lines.push_back("elvis_jacobian[" + std::to_string(j) + "] = " + text_of(column));
                 }
                 if (volume.is_cut(class_of(volume, element))) {
-                    lines.push_back("elvis_inside = " + text_of(sample.inside) + ", gradient " + text_of(sample.inside_gradient) +
-                                    ", bounds (" + text_of(sample.inside_bounds[0]) + ", " + text_of(sample.inside_bounds[1]) +
-                                    ")");
+                    lines.push_back("elvis_inside = " + text_of(sample.inside) + ", gradient " +
+                                    text_of(sample.inside_gradient) + ", bounds (" + text_of(sample.inside_bounds[0]) + ", " +
+                                    text_of(sample.inside_bounds[1]) + ")");
                 }
             }
             const std::string name = info.name + (info.n_components > 1 ? "[" + std::to_string(component) + "]" : "");

@@ -208,9 +208,9 @@ void note_coinciding_boundary(Context& context, const RuntimeVolume& volume, con
         }
     }
     if (n_pairs > 0) {
-        context.note("warning: " + std::to_string(n_pairs) +
-                     (n_pairs == 1 ? " pair" : " pairs") + " of faces in one place without neighbour (ELVIS_NEIGHBOUR_NONE), for example of " +
-                     example + ": they are drawn as boundary; if this is no crack, the faces were not matched");
+        context.note("warning: " + std::to_string(n_pairs) + (n_pairs == 1 ? " pair" : " pairs") +
+                     " of faces in one place without neighbour (ELVIS_NEIGHBOUR_NONE), for example of " + example +
+                     ": they are drawn as boundary; if this is no crack, the faces were not matched");
     }
 }
 

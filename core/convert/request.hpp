@@ -41,9 +41,9 @@ struct ConvertProcess {
 };
 
 /**
- * Runs `/proc/self/exe convert ... --answer` and passes progress and cancellation on. A plugin that crashes, does not return or takes
- * all memory ends that process and not this one: then an Error names file, plugin and signal. Like convert(), it leaves nothing
- * behind unless all was done. It must be waited for by the thread that called it.
+ * Runs `/proc/self/exe convert ... --answer` and passes progress and cancellation on. A plugin that crashes, does not return or
+ * takes all memory ends that process and not this one: then an Error names file, plugin and signal. Like convert(), it leaves
+ * nothing behind unless all was done. It must be waited for by the thread that called it.
  */
 ConvertReport convert_separately(const ConvertRequest& request, const TaskControl& control, const ConvertProcess& process);
 

@@ -192,7 +192,8 @@ ConvertReport convert_separately(const ConvertRequest& request, const TaskContro
         if (const std::uint64_t bytes = process.resident_bytes(); bytes > most_bytes) {
             process.kill();
             throw Error(request.inputs.front(), answer.place() + ", took " + mebibytes(bytes) + " of memory, more than the " +
-                                                    mebibytes(most_bytes) + " that it may; its process was ended, nothing was written");
+                                                    mebibytes(most_bytes) +
+                                                    " that it may; its process was ended, nothing was written");
         }
     }
     // What plugins do when the process ends must not take for ever, either.

@@ -107,7 +107,8 @@ void Exporter::check() const {
                               "that are evaluated there can be exported");
     }
     if (m_volume.is_cut()) {
-        throw Error(path, "has elements that are only parts of their reference shape (elvis_inside); VTK's cells would be all of it");
+        throw Error(path,
+                    "has elements that are only parts of their reference shape (elvis_inside); VTK's cells would be all of it");
     }
     if (m_options.time_step >= m_volume.times().size()) {
         throw Error(path, "has " + std::to_string(m_volume.times().size()) + " time steps, no step " +

@@ -111,8 +111,9 @@ std::shared_ptr<const Plugin> Plugin::load(const std::filesystem::path& library)
     impl.abi_version = theirs->abi_version;
     if (impl.abi_version >> 16 != ELVIS_ABI_VERSION_MAJOR) {
         const bool is_newer = impl.abi_version > ELVIS_ABI_VERSION;
-        refuse(library, "was made for version " + abi_version_text(impl.abi_version) + " of the plugin interface; this program has " +
-                            abi_version_text(ELVIS_ABI_VERSION) + ": the plugin needs " +
+        refuse(library, "was made for version " + abi_version_text(impl.abi_version) +
+                            " of the plugin interface; this program has " + abi_version_text(ELVIS_ABI_VERSION) +
+                            ": the plugin needs " +
                             (is_newer ? "a later ElVis" : "to be compiled with the headers of this one"));
     }
     const elvis_plugin_descriptor descriptor = copy_known_part(*theirs);
@@ -145,6 +146,8 @@ std::uint32_t Plugin::abi_version() const { return m_impl->abi_version; }
 const elvis_runtime* Plugin::runtime() const { return m_impl->runtime ? &*m_impl->runtime : nullptr; }
 const elvis_converter* Plugin::converter() const { return m_impl->converter ? &*m_impl->converter : nullptr; }
 
-std::string abi_version_text(std::uint32_t version) { return std::to_string(version >> 16) + "." + std::to_string(version & 0xffffu); }
+std::string abi_version_text(std::uint32_t version) {
+    return std::to_string(version >> 16) + "." + std::to_string(version & 0xffffu);
+}
 
 } // namespace elvis

@@ -67,7 +67,8 @@ struct RuntimeVolume::Impl {
 
     /** What this version cannot pass over: the picture would be wrong. */
     [[noreturn]] void refuse_newer(const std::string& what) const {
-        throw Error(path, "plugin " + plugin->id() + " needs a later version of ElVis: " + what + ", which this one does not know");
+        throw Error(path,
+                    "plugin " + plugin->id() + " needs a later version of ElVis: " + what + ", which this one does not know");
     }
 
     void check_certainty(elvis_certainty certainty, const char* function) const {
@@ -274,7 +275,8 @@ BufferInfo RuntimeVolume::buffer(std::uint32_t buffer, std::uint32_t field) cons
         m_impl->refuse("get_buffer", "an impossible record size or count for buffer '" + std::string(theirs.name) + "'");
     }
     if ((theirs.depends & ~known_dependences) != 0) {
-        m_impl->refuse_newer("buffer '" + std::string(theirs.name) + "' depends on bits " + hexadecimal(theirs.depends & ~known_dependences));
+        m_impl->refuse_newer("buffer '" + std::string(theirs.name) + "' depends on bits " +
+                             hexadecimal(theirs.depends & ~known_dependences));
     }
     return {theirs.name, theirs.kind, theirs.element_class, theirs.depends, theirs.n_records, theirs.record_size};
 }

@@ -114,7 +114,8 @@ public:
     ClassFieldInfo class_field(std::uint32_t element_class, std::uint32_t field) const;
     BufferInfo buffer(std::uint32_t buffer, std::uint32_t field) const;
     Snippet snippet(std::uint32_t element_class) const;
-    /** Whether elements are only parts of their reference shape: where elvis_inside says so (ELVIS_SNIPPET_INSIDE). Of a class; of any. */
+    /** Whether elements are only parts of their reference shape: where elvis_inside says so (ELVIS_SNIPPET_INSIDE). Of a class;
+     * of any. */
     bool is_cut(std::uint32_t element_class) const;
     bool is_cut() const;
 

@@ -18,8 +18,9 @@ std::unique_ptr<PointEvaluator> make_evaluator(const RuntimeVolume& volume, cons
     if (!on_cpu)
         return std::make_unique<DeviceEvaluator>(volume, options.device);
     if (is_cut)
-        throw Error(volume.path(), "has elements that are only parts of their reference shape, which their snippet tells (elvis_inside); "
-                                   "evaluate on the device");
+        throw Error(volume.path(),
+                    "has elements that are only parts of their reference shape, which their snippet tells (elvis_inside); "
+                    "evaluate on the device");
     if (!volume.has_evaluation())
         throw Error(volume.path(),
                     "the plugin " + volume.plugin().id() + " cannot evaluate on the CPU; evaluate on the device");

@@ -38,15 +38,16 @@ void add_storage_buffers(KernelRequest& request, std::uint32_t count) {
 
 } // namespace
 
-ChainSearch::ChainSearch(const Device& device, const DeviceVolume& data, const ElementChains& chains, const RuntimeVolume& volume,
-                         std::vector<std::pair<std::string, std::string>> defines, bool are_given)
+ChainSearch::ChainSearch(const Device& device, const DeviceVolume& data, const ElementChains& chains,
+                         const RuntimeVolume& volume, std::vector<std::pair<std::string, std::string>> defines, bool are_given)
     : m_device(device), m_data(data), m_chains(chains), m_defines(std::move(defines)), m_are_given(are_given),
       m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
         if (info.n_elements > 0) {
-            m_ranges.push_back({index, static_cast<std::uint32_t>(info.first_element), static_cast<std::uint32_t>(info.n_elements)});
+            m_ranges.push_back(
+                {index, static_cast<std::uint32_t>(info.first_element), static_cast<std::uint32_t>(info.n_elements)});
         }
     }
     m_kernels.resize(m_ranges.size());
@@ -106,7 +107,8 @@ void ChainSearch::list_starts(const ChainRays& rays) {
         provide_buffer(kernels.lists, m_device, bytes);
         if (m_chains.n_starts(m_ranges[index].element_class) > 0) {
             const std::array<const Buffer*, 3> bindings = {&rays.frame, &*kernels.lists, &*m_has_starts};
-            kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(parameters.n_tiles, group_size));
+            kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                    divided_up(parameters.n_tiles, group_size));
         }
     }
 }

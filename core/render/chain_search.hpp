@@ -39,7 +39,8 @@ public:
         std::uint32_t first_element = 0, n_elements = 0;
     };
 
-    /** All must outlive it. `defines`: of all kernels that request() makes; `are_given`: ChainRays::given is never null, or always. */
+    /** All must outlive it. `defines`: of all kernels that request() makes; `are_given`: ChainRays::given is never null, or
+     * always. */
     ChainSearch(const Device& device, const DeviceVolume& data, const ElementChains& chains, const RuntimeVolume& volume,
                 std::vector<std::pair<std::string, std::string>> defines, bool are_given);
 

@@ -74,7 +74,8 @@ KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines) {
 } // namespace
 
 ColorPass::ColorPass(const Device& device, Precision precision)
-    : m_device(device), m_precision(precision), m_frame(device, cut_plane_rows * 4 * real_bytes(precision), Buffer::Use::uniform) {}
+    : m_device(device), m_precision(precision),
+      m_frame(device, cut_plane_rows * 4 * real_bytes(precision), Buffer::Use::uniform) {}
 
 const ComposedKernel& ColorPass::provide(bool is_lit, bool has_lines) {
     std::unique_ptr<ComposedKernel>& kernel = m_kernels[(is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];

@@ -33,8 +33,8 @@ public:
      * Draws one plane as surface number `surface`, at least 1; adds to the counts. `lines`: only of a pass made with them.
      * `shows_outside`: also where it lies in no element, near the volume.
      */
-    void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component, const LineRequest& lines,
-              bool shows_outside, const LayerTarget& target, FrameCounts& counts);
+    void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
+              const LineRequest& lines, bool shows_outside, const LayerTarget& target, FrameCounts& counts);
 
 private:
     struct ClassKernels {

@@ -55,8 +55,8 @@ const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draw
 }
 
 FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet& faces)
-    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_listed(device),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+      m_listed(device), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const FaceSet::ClassFaces& own = faces.of_class(index);

@@ -36,14 +36,14 @@ struct Camera {
 /** What passes of one picture take from each other. Each can be turned on and off to compare. */
 struct Sharing {
     /**
-     * Of surfaces without lines, what opaque ones drawn before hide is not evaluated; isosurfaces are looked for only in front of
-     * them. Volume rendering always ends at them. Not by default: it changes crossings with isosurfaces by rounding (1e-7 of a
-     * colour), and on processors has not been seen to save time.
+     * Of surfaces without lines, what opaque ones drawn before hide is not evaluated; isosurfaces are looked for only in front
+     * of them. Volume rendering always ends at them. Not by default: it changes crossings with isosurfaces by rounding (1e-7 of
+     * a colour), and on processors has not been seen to save time.
      */
     bool depths = false;
     /**
-     * What is drawn in several rounds is drawn only in the parts of the picture that still want more, and surfaces are merged only in rows in
-     * which the volume can be seen. To the bit the same picture.
+     * What is drawn in several rounds is drawn only in the parts of the picture that still want more, and surfaces are merged
+     * only in rows in which the volume can be seen. To the bit the same picture.
      */
     bool parts = true;
 
@@ -96,7 +96,8 @@ struct FrameCounts {
     /** Of the mapping alone, where volume rendering follows rays. */
     std::uint64_t mapping_evaluations = 0;
     std::uint64_t newton_failures = 0;
-    /** Elements of which faces were chosen, but are drawn without the boundary that their own snippet gives them (elvis_inside). */
+    /** Elements of which faces were chosen, but are drawn without the boundary that their own snippet gives them
+     * (elvis_inside). */
     std::uint64_t half_drawn_elements = 0;
     std::uint64_t newton_iterations = 0;
     std::uint64_t undecided_pixels = 0;
@@ -119,8 +120,8 @@ struct FrameCounts {
     /** Pixels of isosurfaces that were drawn by projection. */
     std::uint64_t projected_pixels = 0;
     /**
-     * Of projection: parts of rays in elements that surely hold no isovalue; polynomials along rays, the sum of their degrees, and
-     * those of them that hold none as far as their error estimate is right; places that stayed open.
+     * Of projection: parts of rays in elements that surely hold no isovalue; polynomials along rays, the sum of their degrees,
+     * and those of them that hold none as far as their error estimate is right; places that stayed open.
      */
     std::uint64_t certified_segments = 0;
     std::uint64_t segments = 0, segment_degrees = 0;
@@ -129,7 +130,8 @@ struct FrameCounts {
     /** Pixels that the volume itself colours; those where its tolerance was not reached. */
     std::uint64_t volume_pixels = 0;
     std::uint64_t inexact_volume_pixels = 0;
-    /** Parts of rays in elements that were integrated, that were passed over as empty; of the first, steps and breakpoints met. */
+    /** Parts of rays in elements that were integrated, that were passed over as empty; of the first, steps and breakpoints met.
+     */
     std::uint64_t volume_segments = 0, empty_segments = 0;
     std::uint64_t volume_steps = 0, volume_breakpoints = 0;
     /** Pixels that had to be looked at more closely for lines. */
@@ -142,8 +144,8 @@ struct FrameCounts {
 };
 
 /**
- * Which values beyond the points of its colour table one surface shows, pixels included that surfaces drawn later hide. Those that are outside by less than
- * 1e-4 of the table's extent do not count: the end of a range may be missed by rounding.
+ * Which values beyond the points of its colour table one surface shows, pixels included that surfaces drawn later hide. Those
+ * that are outside by less than 1e-4 of the table's extent do not count: the end of a range may be missed by rounding.
  */
 struct SpecialValues {
     bool below = false, above = false, nan = false;

@@ -33,8 +33,7 @@ void settle_flags(std::vector<Mark>& marks, FrameCounts& counts) {
     }
 }
 
-template <class Real>
-void read_as(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) {
+template <class Real> void read_as(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) {
     const std::size_t n_pixels = frame.counts.pixels;
     const std::vector<Real> colors = from.colors.read_items<Real>(4 * n_pixels);
     frame.color.assign(colors.begin(), colors.end());
@@ -90,7 +89,8 @@ Frame background_frame(const FrameRequest& request) {
     return frame;
 }
 
-void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) {
+void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers,
+                Frame& frame) {
     if (precision == Precision::float64) {
         read_as<double>(from, facts, with_buffers, frame);
     } else {

@@ -23,7 +23,8 @@ struct SurfaceFacts {
  * Reads colours and counts of flags, and with `with_buffers` values, depths, normals, elements and flags, into `frame`, whose
  * size and number of pixels are set. `facts`: by surface.
  */
-void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame);
+void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers,
+                Frame& frame);
 
 /** What is seen where everything is hidden. */
 Frame background_frame(const FrameRequest& request);

@@ -20,7 +20,9 @@ constexpr std::uint32_t coarsest_with_lines = 4;
 
 bool has_tolerance(Integrator integrator) { return !has_steps(integrator); }
 
-bool is_coarser(const VolumeRendering& volume) { return has_tolerance(volume.integrator) && volume.tolerance < coarse_tolerance; }
+bool is_coarser(const VolumeRendering& volume) {
+    return has_tolerance(volume.integrator) && volume.tolerance < coarse_tolerance;
+}
 
 bool is_coarser(const Surface& surface) { return surface.has_lines() && surface.subdivisions > coarse_subdivisions; }
 
@@ -28,7 +30,8 @@ bool is_coarser(const Surface& surface) { return surface.has_lines() && surface.
 
 bool has_refinement(const FrameRequest& request) {
     return (request.volume && is_coarser(*request.volume)) ||
-           std::any_of(request.surfaces.begin(), request.surfaces.end(), [](const Surface& surface) { return is_coarser(surface); });
+           std::any_of(request.surfaces.begin(), request.surfaces.end(),
+                       [](const Surface& surface) { return is_coarser(surface); });
 }
 
 FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor, bool with_lines) {
@@ -65,7 +68,8 @@ void FrameSchedule::touch(Time now) {
 std::optional<FrameSchedule::Step> FrameSchedule::next(Time now) const {
     switch (shown()) {
     case FrameStage::none:
-        return m_divisor == 1 ? Step{FrameStage::full, 1, m_version} : Step{FrameStage::moving, m_divisor, m_version, m_with_lines};
+        return m_divisor == 1 ? Step{FrameStage::full, 1, m_version}
+                              : Step{FrameStage::moving, m_divisor, m_version, m_with_lines};
     case FrameStage::moving:
         return moves(now) ? std::nullopt : std::optional(Step{FrameStage::full, 1, m_version});
     case FrameStage::full:
@@ -113,8 +117,8 @@ void FrameSchedule::choose_lines(const Step& drawn, double milliseconds) {
 }
 
 /**
- * Time is taken as a part that goes with the number of pixels and one that does not: a line through the picture just drawn and the
- * last one of another size, or through the origin while there is none.
+ * Time is taken as a part that goes with the number of pixels and one that does not: a line through the picture just drawn and
+ * the last one of another size, or through the origin while there is none.
  */
 double FrameSchedule::expected(std::uint32_t divisor, const Sample& drawn) const {
     const auto share = [](double d) { return 1 / (d * d); };

@@ -25,7 +25,8 @@ enum class FrameStage {
     exact
 };
 
-/** The request as a stage draws it, `divisor` pixels across and down in one; contours and mesh lines may be left out while things move. */
+/** The request as a stage draws it, `divisor` pixels across and down in one; contours and mesh lines may be left out while
+ * things move. */
 FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor, bool with_lines = true);
 
 /** Whether `full` leaves anything to `exact`: surfaces without lines are pixel-exact as soon as every pixel is drawn. */

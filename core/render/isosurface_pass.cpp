@@ -185,9 +185,9 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                               static_cast<std::uint32_t>(m_values.size()),
                               target.beyond ? 1u : 0u,
                               m_extent};
-        const std::array<const Buffer*, 11> bindings = {&m_frame,       &layer.samples, &layer.normals, &m_counts,
-                                                        &layer.marks,   &tiles,         &*m_isovalues,  &beyond,
-                                                        target.places,  &*m_bending,    &listed};
+        const std::array<const Buffer*, 11> bindings = {&m_frame,      &layer.samples, &layer.normals, &m_counts,
+                                                        &layer.marks,  &tiles,         &*m_isovalues,  &beyond,
+                                                        target.places, &*m_bending,    &listed};
         const auto draw_tiles = [&](Role role, const TileList::Part& part) {
             in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 parameters.first_listed = part.first + first;

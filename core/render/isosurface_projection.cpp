@@ -75,8 +75,9 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
     const ComposedKernel& kernel = provide(request, {element_class, method == IsosurfaceMethod::companion, degree});
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = picture.target.beyond ? *picture.target.beyond : layer.normals;
-    const std::array<const Buffer*, 10> bindings = {&picture.frame, &layer.samples,     &layer.normals, &m_counts,       &layer.marks,
-                                                   &*m_list,       &picture.isovalues, &beyond,        picture.target.places, &picture.bending};
+    const std::array<const Buffer*, 10> bindings = {&picture.frame,        &layer.samples,  &layer.normals,     &m_counts,
+                                                    &layer.marks,          &*m_list,        &picture.isovalues, &beyond,
+                                                    picture.target.places, &picture.bending};
     m_counts.fill(0);
     for (std::uint32_t first = 0; first < m_n_listed; first += pixels_a_dispatch) {
         const Parameters parameters{layer.width,
@@ -87,7 +88,8 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
                                     picture.component.end,
                                     picture.n_isovalues,
                                     picture.target.beyond ? 1u : 0u};
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (parameters.end - first + group_size - 1) / group_size);
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                        (parameters.end - first + group_size - 1) / group_size);
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.field_evaluations += found[evaluations];

@@ -21,7 +21,8 @@ class IsosurfaceProjection {
 public:
     explicit IsosurfaceProjection(const Device& device);
 
-    /** Takes the pixels that carry one of these flags, or all if there are none, and clears their marks. Returns their number. */
+    /** Takes the pixels that carry one of these flags, or all if there are none, and clears their marks. Returns their number.
+     */
     std::uint32_t list(const Layer& layer, std::uint32_t flags);
 
     struct Picture {

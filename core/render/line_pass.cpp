@@ -94,7 +94,8 @@ std::uint32_t unite_entries(const Buffer& list, std::uint32_t n_entries) {
 LinePass::LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces,
                    bool is_whole_boundary, std::uint32_t quadric_rows, bool on_own_boundary)
     : m_device(device), m_volume(volume), m_data(data), m_faces(faces), m_is_whole_boundary(is_whole_boundary),
-      m_quadric_rows(quadric_rows), m_on_own_boundary(on_own_boundary), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+      m_quadric_rows(quadric_rows), m_on_own_boundary(on_own_boundary),
+      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 

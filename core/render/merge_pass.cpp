@@ -36,7 +36,8 @@ MergePass::MergePass(const Device& device, Precision precision)
       m_merge(storage_kernel(device, precision, "merge", 11, sizeof(MergeParameters))),
       m_take(storage_kernel(device, precision, "take_layer", 5, sizeof(PixelParameters))),
       m_order(storage_kernel(device, precision, "order_layers", 4, sizeof(PixelParameters))),
-      m_blend(storage_kernel(device, precision, "blend", 4, sizeof(PixelParameters))), m_counts(device, 3 * sizeof(std::uint32_t)) {}
+      m_blend(storage_kernel(device, precision, "blend", 4, sizeof(PixelParameters))),
+      m_counts(device, 3 * sizeof(std::uint32_t)) {}
 
 void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background) {
     if (!m_picture || m_picture->width != width || m_picture->height != height) {
@@ -54,21 +55,15 @@ void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows
 MergePass::Wanted MergePass::merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through) {
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const auto channel = [this](std::size_t i) { return static_cast<float>(m_background[i]); };
-    const MergeParameters parameters{n_pixels,
-                                     pixel_groups_x,
-                                     surface,
-                                     has_normals ? 1u : 0u,
-                                     m_is_empty ? 1u : 0u,
-                                     channel(0),
-                                     channel(1),
-                                     channel(2),
-                                     channel(3),
-                                     layer.width};
+    const MergeParameters parameters{
+        n_pixels,   pixel_groups_x, surface,    has_normals ? 1u : 0u, m_is_empty ? 1u : 0u, channel(0), channel(1),
+        channel(2), channel(3),     layer.width};
     constexpr std::array<std::uint32_t, 3> no_rows = {0, 0xffffffffu, 0};
     m_counts.write_items(std::span<const std::uint32_t>(no_rows));
-    const std::vector<const Buffer*> bindings = {&layer.samples,      &layer.marks,       &layer.normals,      &layer.colors,
-                                                 &m_picture->samples, &m_picture->marks,  &m_picture->normals, &m_picture->colors,
-                                                 m_depths.get(),      m_beyond.get(),     &m_counts};
+    const std::vector<const Buffer*> bindings = {
+        &layer.samples,    &layer.marks,        &layer.normals,     &layer.colors,  &m_picture->samples,
+        &m_picture->marks, &m_picture->normals, &m_picture->colors, m_depths.get(), m_beyond.get(),
+        &m_counts};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
     if (m_is_empty) {
         // The background, too.

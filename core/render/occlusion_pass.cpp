@@ -21,7 +21,8 @@ OcclusionPass::OcclusionPass(const Device& device, Precision precision)
 void OcclusionPass::run(const Layer& layer, const Buffer& depths, Step step) const {
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const Parameters parameters{n_pixels, pixel_groups_x, static_cast<std::uint32_t>(step)};
-    dispatch_rows(m_kernel, {&layer.samples, &layer.marks, &depths, &m_counts}, std::as_bytes(std::span(&parameters, 1)), layer);
+    dispatch_rows(m_kernel, {&layer.samples, &layer.marks, &depths, &m_counts}, std::as_bytes(std::span(&parameters, 1)),
+                  layer);
 }
 
 void OcclusionPass::begin(const Layer& layer, const Buffer& depths) const { run(layer, depths, Step::put); }

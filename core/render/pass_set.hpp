@@ -34,7 +34,8 @@ std::optional<FaceGeometry> face_geometry(const Surface& surface);
 class PassSet {
 public:
     /** All must outlive it. `control` may be null. */
-    PassSet(const Device& device, const RuntimeVolume& volume, DeviceVolume& data, ShownFields& fields, const TaskControl* control)
+    PassSet(const Device& device, const RuntimeVolume& volume, DeviceVolume& data, ShownFields& fields,
+            const TaskControl* control)
         : m_device(device), m_volume(volume), m_data(data), m_fields(fields), m_control(control) {}
 
     /** Drops what the frame does not need. */

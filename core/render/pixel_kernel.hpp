@@ -47,7 +47,8 @@ inline void dispatch_rows(const ComposedKernel& kernel, const std::vector<const 
                           std::span<const std::byte> push_constants, const Layer& layer) {
     constexpr std::uint64_t pixels_a_row = std::uint64_t{pixel_group_size} * pixel_groups_x;
     const auto first = static_cast<std::uint32_t>(std::uint64_t{layer.rows.first} * layer.width / pixels_a_row);
-    const auto end = static_cast<std::uint32_t>((std::uint64_t{layer.rows.end} * layer.width + pixels_a_row - 1) / pixels_a_row);
+    const auto end =
+        static_cast<std::uint32_t>((std::uint64_t{layer.rows.end} * layer.width + pixels_a_row - 1) / pixels_a_row);
     const std::uint64_t n_groups = (layer.n_pixels() + pixel_group_size - 1) / pixel_group_size;
     const std::uint32_t across = std::min(pixel_groups_x, static_cast<std::uint32_t>(n_groups));
     kernel.dispatch_from({0, first}, bindings, push_constants, across, end - first);

@@ -92,7 +92,8 @@ void Renderer::Impl::check(const FrameRequest& request) const {
     }
     for (const Surface& surface : request.surfaces) {
         const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry);
-        if (isosurfaces && (isosurfaces->values.empty() || !std::is_sorted(isosurfaces->values.begin(), isosurfaces->values.end()))) {
+        if (isosurfaces &&
+            (isosurfaces->values.empty() || !std::is_sorted(isosurfaces->values.begin(), isosurfaces->values.end()))) {
             throw Error("isosurface", "needs values, in ascending order");
         }
     }
@@ -106,8 +107,9 @@ void Renderer::Impl::check(const FrameRequest& request) const {
         const bool is_for_flat = std::holds_alternative<FlatElements>(surface.geometry) ||
                                  (wires && std::holds_alternative<FlatElements>(wires->faces));
         if (wires && passes.n_cut_elements() > 0) {
-            throw Error(volume.path(), "has elements that are only parts of their reference shape (elvis_inside): their edges cannot be "
-                                       "drawn; mesh lines on a surface can");
+            throw Error(volume.path(),
+                        "has elements that are only parts of their reference shape (elvis_inside): their edges cannot be "
+                        "drawn; mesh lines on a surface can");
         }
         if (!fits_both && is_flat() != is_for_flat) {
             throw Error(volume.path(), is_flat() ? "is two-dimensional: it is drawn as a surface, without planes or boundary"
@@ -224,8 +226,8 @@ void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface
     }
     if (surface.has_lines()) {
         // No quadric: the frame stands for its rows.
-        passes.lines(surface).draw(rays, component, line_request(surface, offset_of(surface)), &pass.bending(), &pass.frame(), target,
-                                counts);
+        passes.lines(surface).draw(rays, component, line_request(surface, offset_of(surface)), &pass.bending(), &pass.frame(),
+                                   target, counts);
     }
 }
 
@@ -284,8 +286,7 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     facts[index] = {offset, is_plane ? std::optional<Vector3>(rays.normal) : std::nullopt};
     const std::uint32_t common_flags = flags_of_range(surface, request.time_step, offset);
     const bool is_wire_frame = std::holds_alternative<WireFrame>(surface.geometry);
-    const bool wants_places =
-        (surface.has_lines() && !is_plane) || std::holds_alternative<Isosurfaces>(surface.geometry);
+    const bool wants_places = (surface.has_lines() && !is_plane) || std::holds_alternative<Isosurfaces>(surface.geometry);
     if (wants_places && (!places || places->bytes() != layer->n_pixels() * place_bytes(precision))) {
         places.reset();
         places.emplace(device, layer->n_pixels() * place_bytes(precision));
@@ -301,21 +302,20 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
         if (is_occluded) {
             occlusion_pass.begin(*layer, *opaque);
         }
-        const auto after_samples = [&] {
-            frame.counts.hidden_pixels += is_occluded ? occlusion_pass.end(*layer, *opaque) : 0;
-        };
+        const auto after_samples = [&] { frame.counts.hidden_pixels += is_occluded ? occlusion_pass.end(*layer, *opaque) : 0; };
         const bool wants_normals = request.with_buffers || is_lit(request, surface) || surface.has_lines();
-        draw_geometry(request, surface,
-                      {*layer, beyond, wants_normals, wants_places ? &*places : nullptr, wanted.first_row, wanted.end_row,
-                       after_samples},
-                      frame.counts);
+        draw_geometry(
+            request, surface,
+            {*layer, beyond, wants_normals, wants_places ? &*places : nullptr, wanted.first_row, wanted.end_row, after_samples},
+            frame.counts);
         if (opaque != nullptr) {
             occlusion_pass.hide(*layer, *opaque);
         }
         color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags,
                         is_lit(request, surface) ? &*request.lighting : nullptr);
-        wanted = is_alone ? MergePass::Wanted{}
-                          : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane, surface.is_see_through());
+        wanted = is_alone
+                     ? MergePass::Wanted{}
+                     : merge_pass.merge(*layer, static_cast<std::uint32_t>(index) + 1, !is_plane, surface.is_see_through());
         // A plane is met once, and what edges hide of others is nothing.
         if (is_plane || is_wire_frame) {
             wanted = {};
@@ -380,7 +380,8 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     impl.layer->rows = is_alone ? PixelRows{0, request.height} : impl.rows_of(request);
     if (!is_alone) {
         impl.merge_pass.begin(request.width, request.height, impl.layer->rows, request.background);
-        frame.counts.spared_pixels += std::uint64_t{request.width} * (request.height - (impl.layer->rows.end - impl.layer->rows.first));
+        frame.counts.spared_pixels +=
+            std::uint64_t{request.width} * (request.height - (impl.layer->rows.end - impl.layer->rows.first));
     }
     impl.passes.keep(request);
     impl.color_pass.begin(request.surfaces.size());

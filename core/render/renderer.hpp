@@ -49,8 +49,8 @@ public:
     double value_rounding(const FieldChoice& field, std::uint32_t time_step);
 
     /**
-     * Draws a picture. With a control it can be cancelled from another thread: then Cancelled is thrown within some 50 ms, other
-     * than while a driver compiles a kernel for the first time, and the next picture is what it would have been anyway.
+     * Draws a picture. With a control it can be cancelled from another thread: then Cancelled is thrown within some 50 ms,
+     * other than while a driver compiles a kernel for the first time, and the next picture is what it would have been anyway.
      */
     Frame render(const FrameRequest& request, const TaskControl* control = nullptr);
 

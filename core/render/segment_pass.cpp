@@ -105,8 +105,7 @@ struct SegmentPass::Rays {
 SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                          const std::optional<SkippedField>& skipped)
     : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()), m_skipped(skipped),
-      m_chains(device, volume, data),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_chains(device, volume, data), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
 SegmentPass::Kernels& SegmentPass::kernels_for(bool are_given) {
@@ -137,8 +136,9 @@ std::vector<std::vector<bool>> SegmentPass::elements_with(const std::array<doubl
     for (const ClassInfo& info : m_volume.classes()) {
         std::vector<FieldRange> found(info.n_elements * n_components);
         // What is not certified must not be relied on.
-        const bool is_certain = info.n_elements > 0 && m_volume.field_ranges(m_skipped->field, m_skipped->time_step, info.first_element,
-                                                                            info.n_elements, found) == ELVIS_CERTIFIED;
+        const bool is_certain =
+            info.n_elements > 0 && m_volume.field_ranges(m_skipped->field, m_skipped->time_step, info.first_element,
+                                                         info.n_elements, found) == ELVIS_CERTIFIED;
         kept.emplace_back(info.n_elements, true);
         for (std::size_t element = 0; is_certain && element < info.n_elements; ++element) {
             const FieldRange& range = found[element * n_components];
@@ -166,8 +166,8 @@ template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, 
         for (std::size_t index = 0; index < kernels.march.size(); ++index) {
             const ChainSearch::Range& range = kernels.search.ranges()[index];
             m_counts.fill(0);
-            const MarchParameters parameters{rays.chain.width, rays.chain.height, 0, range.first_element, range.n_elements,
-                                             rays.capacity, 0, kernels.search.extent()};
+            const MarchParameters parameters{rays.chain.width, rays.chain.height, 0, range.first_element,
+                                             range.n_elements, rays.capacity,     0, kernels.search.extent()};
             std::vector<const Buffer*> bindings = {&m_frame, &rays.chain.states, &rays.segments, &m_counts};
             if (rays.chain.given != nullptr) {
                 bindings.push_back(rays.chain.given);
@@ -197,8 +197,8 @@ void SegmentPass::list_batch(std::span<const SegmentRay> rays, SegmentList* list
     const Buffer segments(m_device, sizeof(SegmentRecord<Real>) * count * list_capacity);
     std::vector<double> numbers;
     for (const SegmentRay& ray : rays) {
-        numbers.insert(numbers.end(), {ray.origin[0], ray.origin[1], ray.origin[2], ray.from, ray.direction[0], ray.direction[1],
-                                       ray.direction[2], ray.to});
+        numbers.insert(numbers.end(), {ray.origin[0], ray.origin[1], ray.origin[2], ray.from, ray.direction[0],
+                                       ray.direction[1], ray.direction[2], ray.to});
     }
     write_reals(given, m_precision, numbers);
     states.write_items(std::span<const RayState<Real>>(std::vector<RayState<Real>>(count)));
@@ -260,8 +260,8 @@ std::vector<SegmentList> SegmentPass::lists(std::span<const SegmentRay> rays, Se
     return result;
 }
 
-std::vector<double> SegmentPass::lengths(const CutPlaneGeometry& view, const ViewStart& start, std::uint32_t width, std::uint32_t height,
-                                         SegmentCounts& counts) {
+std::vector<double> SegmentPass::lengths(const CutPlaneGeometry& view, const ViewStart& start, std::uint32_t width,
+                                         std::uint32_t height, SegmentCounts& counts) {
     Kernels& kernels = kernels_for(false);
     m_chains.look_from(start);
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));

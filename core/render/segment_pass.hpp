@@ -20,15 +20,16 @@
 namespace elvis {
 
 /**
- * origin + t * direction for t in [from, to], relative to DeviceVolume::centre(). On the device the numbers have the precision in
- * use: near_centre() makes rays that are exact in it.
+ * origin + t * direction for t in [from, to], relative to DeviceVolume::centre(). On the device the numbers have the precision
+ * in use: near_centre() makes rays that are exact in it.
  */
 struct SegmentRay {
     Vector3 origin{}, direction{};
     double from = -1e30, to = 1e30;
 };
 
-/** The ray through these points of the world, from `eye` on; its origin is the point nearest to the centre, t counts from there. */
+/** The ray through these points of the world, from `eye` on; its origin is the point nearest to the centre, t counts from
+ * there. */
 SegmentRay near_centre(const Vector3& eye, const Vector3& towards, const std::array<double, 3>& centre, Precision precision);
 
 struct Segment {
@@ -79,8 +80,8 @@ public:
                                    const std::array<double, 2>& wanted = {-3e38, 3e38});
 
     /**
-     * For each pixel of a picture, by rows, the sum of the lengths of its ray's segments, along the axis of view; no lists are made. `view`:
-     * the geometry of any plane, of which only the rays matter.
+     * For each pixel of a picture, by rows, the sum of the lengths of its ray's segments, along the axis of view; no lists are
+     * made. `view`: the geometry of any plane, of which only the rays matter.
      */
     std::vector<double> lengths(const CutPlaneGeometry& view, const ViewStart& start, std::uint32_t width, std::uint32_t height,
                                 SegmentCounts& counts);

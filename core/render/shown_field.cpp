@@ -73,7 +73,9 @@ FieldSelection ShownFields::selection(const FieldChoice& field, std::uint32_t ti
     }
     // A magnitude needs the values themselves.
     const std::vector<double> whole(m_volume.fields()[field.field].n_components, 0.0);
-    FieldSelection selection{{{field.field, field.component < 0 ? whole : middles(field.field, time_step)}}, time_step, nullptr,
+    FieldSelection selection{{{field.field, field.component < 0 ? whole : middles(field.field, time_step)}},
+                             time_step,
+                             nullptr,
                              field.is_own_boundary};
     if (field.offset && field.component >= 0) {
         selection.slots[0].offset[static_cast<std::size_t>(field.component)] = *field.offset;
@@ -91,7 +93,9 @@ std::vector<double> ShownFields::middles(std::uint32_t field, std::uint32_t time
 }
 
 double ShownFields::offset(const FieldChoice& field) const {
-    return field.is_own_boundary || field.expression || field.component < 0 ? 0.0 : m_data.field_offset(static_cast<std::uint32_t>(field.component));
+    return field.is_own_boundary || field.expression || field.component < 0
+               ? 0.0
+               : m_data.field_offset(static_cast<std::uint32_t>(field.component));
 }
 
 FieldChoice ShownFields::about(const FieldChoice& field, double value, std::uint32_t time_step) {

@@ -101,7 +101,8 @@ struct Isosurfaces {
     FieldChoice field{};
     /** Ascending; at least one. */
     std::vector<double> values{};
-    /** Elements whose range holds no value are not looked at, where ranges are known: with equal pictures, but slower, without. */
+    /** Elements whose range holds no value are not looked at, where ranges are known: with equal pictures, but slower, without.
+     */
     bool skips_by_range = true;
     IsosurfaceMethod method = IsosurfaceMethod::interval;
     /**

@@ -50,8 +50,9 @@ double largest(const std::array<double, 3>& numbers) {
 /** How much density and light per length change at most with the value, from `from` on over `width`. */
 double steepness(const TransferPiece& piece, double width) {
     const double end = piece.density + piece.density_slope * width;
-    const double color = std::max(largest(piece.rgb), largest({piece.rgb[0] + piece.rgb_slope[0] * width, piece.rgb[1] + piece.rgb_slope[1] * width,
-                                                               piece.rgb[2] + piece.rgb_slope[2] * width}));
+    const double color = std::max(largest(piece.rgb),
+                                  largest({piece.rgb[0] + piece.rgb_slope[0] * width, piece.rgb[1] + piece.rgb_slope[1] * width,
+                                           piece.rgb[2] + piece.rgb_slope[2] * width}));
     return std::abs(piece.density_slope) * std::max(color, 1.0) + std::max(piece.density, end) * largest(piece.rgb_slope);
 }
 
@@ -62,7 +63,8 @@ bool is_step(const TransferPiece& first, const TransferPiece& second) {
     const double density = first.density + first.density_slope * width;
     bool is_one = differ(density, second.density);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        is_one = is_one || differ(density * (first.rgb[channel] + first.rgb_slope[channel] * width), second.density * second.rgb[channel]);
+        is_one = is_one || differ(density * (first.rgb[channel] + first.rgb_slope[channel] * width),
+                                  second.density * second.rgb[channel]);
     }
     return is_one;
 }
@@ -112,9 +114,9 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
         m_has_steps = m_has_steps || (i > 0 && is_step(table.pieces[i - 1], piece));
         const double below = i > 0 ? table.breakpoints[i - 1] - offset : -unbounded;
         const double above = i < table.breakpoints.size() ? table.breakpoints[i] - offset : unbounded;
-        const std::array<double, 12> rows = {piece.from - offset, piece.density, piece.density_slope, steep,
-                                             piece.rgb[0], piece.rgb[1], piece.rgb[2], below,
-                                             piece.rgb_slope[0], piece.rgb_slope[1], piece.rgb_slope[2], above};
+        const std::array<double, 12> rows = {piece.from - offset, piece.density,      piece.density_slope, steep,
+                                             piece.rgb[0],        piece.rgb[1],       piece.rgb[2],        below,
+                                             piece.rgb_slope[0],  piece.rgb_slope[1], piece.rgb_slope[2],  above};
         pieces.insert(pieces.end(), rows.begin(), rows.end());
     }
     write_reals(provide_buffer(m_breakpoints, m_device, values.size() * real_bytes(m_precision)), m_precision, values);
@@ -129,7 +131,8 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
 }
 
 const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
-    std::unique_ptr<ComposedKernel>& kernel = m_march[index][2 * static_cast<std::size_t>(m_wanted.integrator) + (m_has_steps ? 1 : 0)];
+    std::unique_ptr<ComposedKernel>& kernel =
+        m_march[index][2 * static_cast<std::size_t>(m_wanted.integrator) + (m_has_steps ? 1 : 0)];
     if (!kernel) {
         const ChainSearch::Range& range = m_search.ranges()[index];
         KernelRequest request = m_search.request(range, "volume_march");

@@ -33,10 +33,11 @@ public:
     void choose(const VolumeRendering& wanted, double offset, const ShownComponent& component);
 
     /**
-     * Draws in front of the opaque surfaces of a picture, and between its transparent ones, which are not put over it before. `view` is the
-     * geometry of any plane: only its rays matter. `only_live`: not where no ray has anything to do.
+     * Draws in front of the opaque surfaces of a picture, and between its transparent ones, which are not put over it before.
+     * `view` is the geometry of any plane: only its rays matter. `only_live`: not where no ray has anything to do.
      */
-    void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live, FrameCounts& counts);
+    void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
+              FrameCounts& counts);
 
 private:
     struct Picture;

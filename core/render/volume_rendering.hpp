@@ -45,7 +45,8 @@ struct VolumeRendering {
     double step = 0;
     /** What a channel may be off; of adaptive_trapezoid and exact. Pixels in which that was not reached are flagged. */
     double tolerance = 1e-3;
-    /** Elements in which the volume is empty, as far as ranges are known, are passed over: with equal pictures, but slower, without. */
+    /** Elements in which the volume is empty, as far as ranges are known, are passed over: with equal pictures, but slower,
+     * without. */
     bool skips_by_range = true;
 };
 

@@ -188,7 +188,8 @@ std::vector<AnimationFrame> animation_frames(const SceneAnimation& animation, co
     const std::size_t n_frames = std::max(path.size(), steps.size());
     std::vector<AnimationFrame> frames;
     for (std::size_t frame = 0; frame < n_frames; ++frame) {
-        frames.push_back({steps.empty() ? time_step : steps[frame * steps.size() / n_frames], path[frame * path.size() / n_frames]});
+        frames.push_back(
+            {steps.empty() ? time_step : steps[frame * steps.size() / n_frames], path[frame * path.size() / n_frames]});
     }
     return frames;
 }

@@ -61,7 +61,8 @@ std::vector<std::uint32_t> steps_of(const TimeStepRange& range, std::size_t n_st
 /**
  * Cameras of a path: a turntable, whose last picture is one step before the first so that the film can go round and round; or
  * key frames, between which everything goes smoothly through all of them (cubic Hermite splines with Catmull-Rom tangents; of
- * the point looked at, of the logarithms of distance, angle and height, and of the orientation's quaternion); or `camera` alone.
+ * the point looked at, of the logarithms of distance, angle and height, and of the orientation's quaternion); or `camera`
+ * alone.
  */
 std::vector<Camera> camera_path(const SceneAnimation& animation, const Camera& camera);
 

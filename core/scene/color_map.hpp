@@ -65,7 +65,8 @@ std::uint32_t logarithmic_parts(double length, double change, double tolerance);
 
 /**
  * The table for values from `range`: piecewise linear in display RGB, within `tolerance` of the map in every channel. Values
- * outside take the end colours unless the scene says otherwise; NaN is magenta by default, which is in none of the built-in maps.
+ * outside take the end colours unless the scene says otherwise; NaN is magenta by default, which is in none of the built-in
+ * maps.
  */
 ColorTable make_color_table(const SceneColorMap& scene, const std::array<double, 2>& range,
                             double tolerance = surface_table_tolerance);

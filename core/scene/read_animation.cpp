@@ -9,7 +9,8 @@ TimeStepRange read_time_steps(const JsonObject& object) {
     if (value.is_string()) {
         const std::optional<TimeStepRange> range = parse_time_steps(value.get<std::string>());
         if (!range) {
-            object.fail("time_steps", "is " + value.dump() + R"(, where "all", "FIRST:LAST" or "FIRST:LAST:STRIDE" is expected)");
+            object.fail("time_steps",
+                        "is " + value.dump() + R"(, where "all", "FIRST:LAST" or "FIRST:LAST:STRIDE" is expected)");
         }
         return *range;
     }

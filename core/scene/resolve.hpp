@@ -22,7 +22,8 @@ Camera resolve_camera(const SceneCamera& camera, const std::array<double, 6>& bo
                       double aspect);
 
 /**
- * Distance from `look_at`, in the unit direction `to_eye`, at which every corner of the bounds is in the picture, with a margin.
+ * Distance from `look_at`, in the unit direction `to_eye`, at which every corner of the bounds is in the picture, with a
+ * margin.
  */
 double fitting_distance(const std::array<double, 6>& bounds, const Vector3& look_at, const Vector3& to_eye, const Vector3& up,
                         double field_of_view, double aspect);

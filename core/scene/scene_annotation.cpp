@@ -19,7 +19,8 @@ bool is_same(const ColorTable& a, const ColorTable& b) {
         return p.value == q.value && p.rgb == q.rgb;
     };
     return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), is_equal) &&
-           a.is_logarithmic == b.is_logarithmic && is_same(a.below, b.below) && is_same(a.above, b.above) && is_same(a.nan, b.nan);
+           a.is_logarithmic == b.is_logarithmic && is_same(a.below, b.below) && is_same(a.above, b.above) &&
+           is_same(a.nan, b.nan);
 }
 
 ColorTable table_of(const TransferFunction& transfer) {
@@ -35,7 +36,8 @@ ColorTable table_of(const TransferFunction& transfer) {
 
 /** Whether no one could tell the bars of two tables of the same map from each other, but for the colours of special values. */
 bool look_same(const ColorTable& a, const ColorTable& b) {
-    if (a.is_logarithmic != b.is_logarithmic || a.points.front().value != b.points.front().value || a.points.back().value != b.points.back().value) {
+    if (a.is_logarithmic != b.is_logarithmic || a.points.front().value != b.points.front().value ||
+        a.points.back().value != b.points.back().value) {
         return false;
     }
     constexpr double visible = 1e-3;

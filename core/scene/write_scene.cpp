@@ -108,8 +108,6 @@ SceneJson scene_json(const Scene& scene, const std::string& path) {
     return json;
 }
 
-void write_scene(const Scene& scene, const std::string& path) {
-    write_text_file(path, scene_json(scene, path).dump(2) + "\n");
-}
+void write_scene(const Scene& scene, const std::string& path) { write_text_file(path, scene_json(scene, path).dump(2) + "\n"); }
 
 } // namespace elvis

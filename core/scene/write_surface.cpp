@@ -9,9 +9,7 @@ namespace elvis {
 
 namespace {
 
-template <class... Functions> struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
+template <class... Functions> struct Overloaded : Functions... { using Functions::operator()...; };
 template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions...>;
 
 const char* shape_name(std::uint32_t shape) {
@@ -85,20 +83,21 @@ void add_isosurfaces(SceneJson& json, const Isosurfaces& isosurfaces) {
 
 SceneJson shape_json(const CutShape& shape, const std::string& scene) {
     return std::visit(
-        Overloaded{[](const Sphere& s) { return SceneJson{{"type", "sphere"}, {"center", s.center}, {"radius", s.radius}}; },
+        Overloaded{[](const Sphere& s) {
+                       return SceneJson{{"type", "sphere"}, {"center", s.center}, {"radius", s.radius}};
+                   },
                    [](const Cylinder& s) {
                        return SceneJson{
                            {"type", "cylinder"}, {"from", s.from}, {"to", s.to}, {"radius", s.radius}, {"capped", s.is_capped}};
                    },
                    [](const Cone& s) {
-                       return SceneJson{{"type", "cone"},
-                                        {"from", s.from},
-                                        {"to", s.to},
-                                        {"from_radius", s.from_radius},
-                                        {"to_radius", s.to_radius},
-                                        {"capped", s.is_capped}};
+                       return SceneJson{
+                           {"type", "cone"},           {"from", s.from},       {"to", s.to}, {"from_radius", s.from_radius},
+                           {"to_radius", s.to_radius}, {"capped", s.is_capped}};
                    },
-                   [](const Quadric& s) { return SceneJson{{"type", "quadric"}, {"coefficients", s.coefficients}}; },
+                   [](const Quadric& s) {
+                       return SceneJson{{"type", "quadric"}, {"coefficients", s.coefficients}};
+                   },
                    [](const Torus& s) {
                        return SceneJson{{"type", "torus"},
                                         {"center", s.center},

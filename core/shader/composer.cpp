@@ -354,8 +354,8 @@ std::string compose(const Device* device, const KernelRequest& request, const Re
         return text + expand_includes(kernel, request.kernel, shader_source);
     }
     constexpr const char* watched_main = "library/watched_main.glsl";
-    return text + "#define main core_kernel_main\n" + expand_includes(kernel, request.kernel, shader_source) + "\n#undef main\n" +
-           "#define CORE_WATCH_BINDING " + std::to_string(watch_binding(request, records)) + "\n" +
+    return text + "#define main core_kernel_main\n" + expand_includes(kernel, request.kernel, shader_source) +
+           "\n#undef main\n" + "#define CORE_WATCH_BINDING " + std::to_string(watch_binding(request, records)) + "\n" +
            expand_includes(shader_source(watched_main), watched_main, shader_source);
 }
 
@@ -426,9 +426,11 @@ template <class Call> void ComposedKernel::watched(const Call& call) const {
     }
     if (m_watch && m_watch->is_cut_short.read_items<std::uint32_t>(1).front() != 0) {
         m_watch->is_cut_short.fill(0);
-        throw Error("kernel '" + m_name + "'", "the driver has ended its loops early: nothing of it is to be trusted" +
-                                                   (m_snippets.empty() ? "" : evaluates + "drivers may grant all loops of an invocation "
-                                                                                          "65535 turns, which high orders use up]"));
+        throw Error("kernel '" + m_name + "'",
+                    "the driver has ended its loops early: nothing of it is to be trusted" +
+                        (m_snippets.empty() ? ""
+                                            : evaluates + "drivers may grant all loops of an invocation "
+                                                          "65535 turns, which high orders use up]"));
     }
 }
 
@@ -438,7 +440,8 @@ void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span
 }
 
 void ComposedKernel::dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings,
-                                   std::span<const std::byte> push_constants, std::uint32_t groups_x, std::uint32_t groups_y) const {
+                                   std::span<const std::byte> push_constants, std::uint32_t groups_x,
+                                   std::uint32_t groups_y) const {
     watched([&] { m_kernel.dispatch_from({first[0], first[1], 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
 }
 

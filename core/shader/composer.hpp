@@ -13,8 +13,8 @@
  *   6. if the request watches loops, library/watched_main.glsl
  *
  * An instance is: ELVIS_SHAPE, ELVIS_N_COMPONENTS and ELVIS_HAS_... (FIELD_GRADIENT, MAPPING_JACOBIAN, INVERSE_MAPPING,
- * FIELD_OFFSET, LOCAL_ORIGIN, FIELD_HESSIAN, MAPPING_HESSIAN, INSIDE: 0 or 1); elvis_origin; the fetch macros of its buffers; its
- * constants; the snippet's first source; library/reference_shape.glsl; and, where the snippet lacks them,
+ * FIELD_OFFSET, LOCAL_ORIGIN, FIELD_HESSIAN, MAPPING_HESSIAN, INSIDE: 0 or 1); elvis_origin; the fetch macros of its buffers;
+ * its constants; the snippet's first source; library/reference_shape.glsl; and, where the snippet lacks them,
  * library/mapping_jacobian_default.glsl, library/gradient_default.glsl and, if the request wants second derivatives,
  * library/field_hessian_default.glsl and library/mapping_hessian_default.glsl. A kernel that inverts mappings includes
  * library/newton.glsl itself, which is about the first instance. Afterwards the snippet's macros and fetch macros are undefined
@@ -77,8 +77,8 @@ struct KernelRequest {
     std::string text;
     /** Whether elvis_field_hessian and elvis_mapping_hessian are called; without it they need not exist. */
     bool with_second_derivatives = false;
-    /** Drivers may end loops early, without a word, once those of one invocation have taken many turns. Then dispatch() throws an Error:
-     * for kernels that do not mark by themselves what cannot be trusted (shaders/library/driver_limit.glsl). */
+    /** Drivers may end loops early, without a word, once those of one invocation have taken many turns. Then dispatch() throws
+     * an Error: for kernels that do not mark by themselves what cannot be trusted (shaders/library/driver_limit.glsl). */
     bool watches_loops = false;
     /** Snippets are watched: outputs never written, loops without end (core/shader/poison.hpp), indices out of range
      * (core/shader/index_checks.hpp). */

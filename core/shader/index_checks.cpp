@@ -44,7 +44,9 @@ std::vector<Token> tokens_of(std::string_view text) {
     return tokens;
 }
 
-bool is_name(const Token& token) { return is_word(token.text[0]) && std::isdigit(static_cast<unsigned char>(token.text[0])) == 0; }
+bool is_name(const Token& token) {
+    return is_word(token.text[0]) && std::isdigit(static_cast<unsigned char>(token.text[0])) == 0;
+}
 
 bool is_type_word(const Token& token) {
     constexpr std::string_view others[] = {"return", "else", "case", "do"};

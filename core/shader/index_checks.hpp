@@ -11,8 +11,8 @@ namespace elvis {
 
 /**
  * The text with every index of a named array, vector or matrix, in functions, passed through core_index (index_declarations),
- * which remembers the first that is out of range and gives 0 in its place. Literal indices, which the compiler checks, members of
- * structures, and names that only a macro declares are left alone. Lines keep their numbers.
+ * which remembers the first that is out of range and gives 0 in its place. Literal indices, which the compiler checks, members
+ * of structures, and names that only a macro declares are left alone. Lines keep their numbers.
  */
 std::string check_indices(std::string_view text);
 

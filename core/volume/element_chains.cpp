@@ -49,9 +49,11 @@ ElementChains::ElementChains(const Device& device, const RuntimeVolume& volume, 
             continue;
         }
         ClassChains& chains = m_classes[index];
-        chains.links = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, links_an_element);
+        chains.links =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, links_an_element);
         // Room for all elements, so that kernels composed with it stay valid.
-        chains.nodes = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, words_a_node);
+        chains.nodes =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, words_a_node);
         if (has_curved(index)) {
             chains.cones = measure_face_cones(device, volume, data, index);
         }
@@ -79,7 +81,8 @@ bool ElementChains::is_kept(std::uint32_t element) const {
 void ElementChains::keep_only(std::vector<std::vector<bool>> kept) {
     const bool is_all = kept.empty();
     for (std::size_t index = 0; index < m_classes.size(); ++index) {
-        m_classes[index].is_kept = is_all ? std::vector<bool>(m_volume.classes()[index].n_elements, true) : std::move(kept[index]);
+        m_classes[index].is_kept =
+            is_all ? std::vector<bool>(m_volume.classes()[index].n_elements, true) : std::move(kept[index]);
     }
     std::vector<std::vector<std::uint32_t>> links = read_face_links(m_volume);
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
@@ -152,7 +155,8 @@ template <class CanStart> void ElementChains::choose_starts(const CanStart& can_
 }
 
 bool ElementChains::has_curved(std::uint32_t element_class) const {
-    return std::ranges::any_of(m_data.curvatures(element_class), [](float curvature) { return curvature > followed_curvature; });
+    return std::ranges::any_of(m_data.curvatures(element_class),
+                               [](float curvature) { return curvature > followed_curvature; });
 }
 
 std::pair<std::string, std::string> ElementChains::curved_define(std::uint32_t element_class) const {

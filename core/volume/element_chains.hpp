@@ -38,19 +38,20 @@ public:
     /** Rays may start in any element. */
     void look_from_anywhere();
     /**
-     * Rays go as if the other elements were not there; look_from() comes after it. One flag an element, by class; of no class: all are
-     * there.
+     * Rays go as if the other elements were not there; look_from() comes after it. One flag an element, by class; of no class:
+     * all are there.
      */
     void keep_only(std::vector<std::vector<bool>> kept);
 
     /**
-     * `core_nodes`, a hierarchy over those in which leaves are local elements; and `core_links`: for each local face of an element the
-     * neighbour among all elements of the volume, all bits where none is known, and at place 7 the bits of the mapping's curvature.
-     * Where rays have to be followed in elements of the class, `core_cones`, too: the directions of their faces. Valid as long as
-     * this. Of classes with elements.
+     * `core_nodes`, a hierarchy over those in which leaves are local elements; and `core_links`: for each local face of an
+     * element the neighbour among all elements of the volume, all bits where none is known, and at place 7 the bits of the
+     * mapping's curvature. Where rays have to be followed in elements of the class, `core_cones`, too: the directions of their
+     * faces. Valid as long as this. Of classes with elements.
      */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
-    /** CORE_HAS_CURVED for kernels on the class's elements: whether rays have to be followed in any of them (shaders/library/ray_part.glsl). */
+    /** CORE_HAS_CURVED for kernels on the class's elements: whether rays have to be followed in any of them
+     * (shaders/library/ray_part.glsl). */
     std::pair<std::string, std::string> curved_define(std::uint32_t element_class) const;
     std::uint64_t n_starts(std::uint32_t element_class) const { return m_classes[element_class].n_starts; }
 

@@ -21,7 +21,7 @@ struct Parameters {
 } // namespace
 
 std::vector<float> write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
-                    const SnippetInstance& instance, Precision precision, RecordBuffer& records) {
+                                  const SnippetInstance& instance, Precision precision, RecordBuffer& records) {
     const ClassInfo& info = volume.classes()[element_class];
     KernelRequest request;
     request.name = "linearize of element class " + std::to_string(element_class);

@@ -16,10 +16,10 @@ namespace elvis {
 inline constexpr std::uint32_t element_record_size = 8;
 
 /**
- * Writes the records of a class; the linearizations are computed on the device with the class's snippet. Returns the curvature of
- * each element (shaders/library/prediction.glsl).
+ * Writes the records of a class; the linearizations are computed on the device with the class's snippet. Returns the curvature
+ * of each element (shaders/library/prediction.glsl).
  */
 std::vector<float> write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
-                    const SnippetInstance& instance, Precision precision, RecordBuffer& records);
+                                  const SnippetInstance& instance, Precision precision, RecordBuffer& records);
 
 } // namespace elvis

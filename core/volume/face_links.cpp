@@ -13,11 +13,16 @@ constexpr std::uint64_t faces_a_block = 1u << 16;
 
 std::uint32_t n_faces_of(elvis_shape shape) {
     switch (shape) {
-    case ELVIS_SHAPE_HEXAHEDRON: return 6;
-    case ELVIS_SHAPE_TETRAHEDRON: return 4;
-    case ELVIS_SHAPE_QUADRILATERAL: return 4;
-    case ELVIS_SHAPE_TRIANGLE: return 3;
-    default: return 5;
+    case ELVIS_SHAPE_HEXAHEDRON:
+        return 6;
+    case ELVIS_SHAPE_TETRAHEDRON:
+        return 4;
+    case ELVIS_SHAPE_QUADRILATERAL:
+        return 4;
+    case ELVIS_SHAPE_TRIANGLE:
+        return 3;
+    default:
+        return 5;
     }
 }
 

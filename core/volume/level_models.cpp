@@ -29,7 +29,8 @@ LevelModels::LevelModels(const Device& device, const RuntimeVolume& volume, cons
         if (n_elements == 0) {
             continue;
         }
-        m_classes[index].models = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, record_size);
+        m_classes[index].models =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, record_size);
         KernelRequest request;
         request.name = "level_models of element class " + std::to_string(index);
         request.kernel = "kernels/level_models.comp";

@@ -18,8 +18,8 @@ constexpr std::uint32_t record_size = 8;
 constexpr std::size_t child_word = 3;
 /** Words of a cell on the device, and of what the kernel says of it: range and box, too. */
 constexpr std::uint32_t cell_size = 24, cell_words = 32;
-constexpr std::size_t cell_slope = 12, cell_error = 16, cell_scale = 17, cell_element = 18, cell_code = 19,
-                      cell_curvature = 20, cell_range = 24, cell_box = 26;
+constexpr std::size_t cell_slope = 12, cell_error = 16, cell_scale = 17, cell_element = 18, cell_code = 19, cell_curvature = 20,
+                      cell_range = 24, cell_box = 26;
 /** shaders/library/level_cell.glsl */
 constexpr std::uint32_t cell_place_bits = 6, cell_is_estimated = 0x80000000u;
 constexpr std::uint32_t most_levels = 3;

@@ -110,8 +110,8 @@ private:
 };
 
 /**
- * While it lives, what this thread runs on the device belongs to a task, which can be cancelled: then kernels stop before the next
- * part of their work and throw Cancelled, with what they have written so far in their buffers.
+ * While it lives, what this thread runs on the device belongs to a task, which can be cancelled: then kernels stop before the
+ * next part of their work and throw Cancelled, with what they have written so far in their buffers.
  */
 class DeviceTask {
 public:

@@ -10,8 +10,8 @@
 namespace elvis {
 
 /**
- * Chooses the number of work groups of a kernel's next part so that it takes about `wanted_milliseconds`, from how long parts took
- * before: no part runs into a driver's time limit, and between parts a task can be stopped. Not thread-safe.
+ * Chooses the number of work groups of a kernel's next part so that it takes about `wanted_milliseconds`, from how long parts
+ * took before: no part runs into a driver's time limit, and between parts a task can be stopped. Not thread-safe.
  */
 class DispatchPace {
 public:
@@ -22,9 +22,7 @@ public:
     explicit DispatchPace(std::uint64_t least) : m_least(std::max<std::uint64_t>(least, 1)) {}
 
     /** Groups of the next part, of which there are `n_left`. */
-    std::uint64_t next(std::uint64_t n_left) const {
-        return std::min(n_left, std::max(m_least, m_next));
-    }
+    std::uint64_t next(std::uint64_t n_left) const { return std::min(n_left, std::max(m_least, m_next)); }
 
     void took(std::uint64_t n_groups, double milliseconds) {
         if (!m_has_run) {

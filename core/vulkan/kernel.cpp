@@ -50,7 +50,8 @@ struct DispatchPart {
     std::uint64_t n_groups() const { return std::uint64_t{count[0]} * count[1] * count[2]; }
 };
 
-/** The part that follows the first `done` groups of `all`, x running fastest: whole layers, rows of one layer, or a piece of a row. */
+/** The part that follows the first `done` groups of `all`, x running fastest: whole layers, rows of one layer, or a piece of a
+ * row. */
 DispatchPart next_part(const Groups& all, std::uint64_t done, std::uint64_t n_wanted) {
     const std::uint64_t row = all[0], layer = row * all[1];
     DispatchPart part;
@@ -257,8 +258,8 @@ void Kernel::dispatch(std::span<const BoundBuffer> bindings, std::span<const std
     dispatch_from({0, 0, 0}, bindings, push_constants, {groups_x, groups_y, groups_z});
 }
 
-void Kernel::dispatch_from(const Groups& first, std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants,
-                           const Groups& groups) const {
+void Kernel::dispatch_from(const Groups& first, std::span<const BoundBuffer> bindings,
+                           std::span<const std::byte> push_constants, const Groups& groups) const {
     Impl& impl = *m_impl;
     assert(push_constants.size() == impl.push_constant_bytes);
     if (groups[0] == 0 || groups[1] == 0 || groups[2] == 0) {

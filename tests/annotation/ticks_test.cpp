@@ -146,8 +146,8 @@ TEST_CASE("a logarithmic scale has powers of ten, and what is between them where
         values.push_back(tick.value);
     }
     CHECK(labels == "10⁰ 10¹ 10² ");
-    CHECK(values == std::vector<double>{0.5, 0.6, 0.7, 0.8, 0.9, 1,  2,  3,  4,  5,   6,   7,
-                                        8,   9,   10,  20,  30,  40, 50, 60, 70, 80,  90,  100, 200, 300});
+    CHECK(values == std::vector<double>{0.5, 0.6, 0.7, 0.8, 0.9, 1,  2,  3,  4,  5,  6,   7,   8,
+                                        9,   10,  20,  30,  40,  50, 60, 70, 80, 90, 100, 200, 300});
     const Ticks many = logarithmic_ticks(1e-12, 1e9, 6);
     int n_labels = 0;
     for (const Tick& tick : many.ticks) {

@@ -20,7 +20,8 @@ std::size_t n_pictures(const fs::path& folder) {
 
 TEST_CASE("A turntable and time steps become numbered pictures, the same as single ones") {
     const Workplace place;
-    place.write("wave.json", R"({"generator": 1, "mesh": "box", "box": [[-1, -1, -1], [1, 1, 1]], "elements": [2, 2, 2], "order": 3,
+    place.write("wave.json",
+                R"({"generator": 1, "mesh": "box", "box": [[-1, -1, -1], [1, 1, 1]], "elements": [2, 2, 2], "order": 3,
         "field": "taylor-green", "time_steps": 3})");
     REQUIRE(place.run("convert wave.json -o wave.h5").status == 0);
     const std::string view = "--size 40x30 --cut-plane 0,0,1,0.1 --eye 2,1,3 ";
@@ -92,9 +93,10 @@ TEST_CASE("A film is made where there is ffmpeg, and else it is said before anyt
 
 TEST_CASE("What does not go with an animation is refused") {
     const Workplace place;
-    for (const char* options : {"-o a.png --turntable 3", "-o a --turntable 3 --buffers b.h5", "-o a --turntable 0",
-                                "-o a --time-steps some", "-o a.png --film f.mp4", "-o a.png --resume", "-o ball.h5 --turntable 3",
-                                "-o a --turntable 3 --turntable-axis 0,0,0", "-o a --time-steps all --turntable-axis 0,0,1"}) {
+    for (const char* options :
+         {"-o a.png --turntable 3", "-o a --turntable 3 --buffers b.h5", "-o a --turntable 0", "-o a --time-steps some",
+          "-o a.png --film f.mp4", "-o a.png --resume", "-o ball.h5 --turntable 3", "-o a --turntable 3 --turntable-axis 0,0,0",
+          "-o a --time-steps all --turntable-axis 0,0,1"}) {
         CAPTURE(options);
         CHECK(place.run(std::string("render ball.h5 ") + options).status == 2);
     }

@@ -58,8 +58,9 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     REQUIRE(contours.status == 0);
     CHECK(nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["contour_pixels"].get<int>() > 20);
 
-    const Outcome levels = place.run("render ball.h5 --field sphere --isosurface 0.3 --isosurface 0.6 --size 64x64 --lighting default "
-                                     "--validation -o ball.png --stats stats.json");
+    const Outcome levels =
+        place.run("render ball.h5 --field sphere --isosurface 0.3 --isosurface 0.6 --size 64x64 --lighting default "
+                  "--validation -o ball.png --stats stats.json");
     INFO(levels.err);
     REQUIRE(levels.status == 0);
     const auto of_levels = nlohmann::json::parse(read_file(place.path("stats.json")))["counts"];
@@ -67,7 +68,8 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     CHECK(of_levels["undecided_isosurface_pixels"].get<int>() < 10);
     CHECK(of_levels["excluded_pieces"].get<int>() > 100);
     std::vector<std::string> pictures;
-    for (const std::string options : {"", "--lighting default", "--lighting none", "--boundary", "--boundary --lighting none"}) {
+    for (const std::string options :
+         {"", "--lighting default", "--lighting none", "--boundary", "--boundary --lighting none"}) {
         REQUIRE(place.run("render ball.h5 --field sphere --isosurface 0.3 --size 32x32 -o light.png " + options).status == 0);
         pictures.push_back(read_file(place.path("light.png")));
     }
@@ -184,14 +186,15 @@ TEST_CASE("Volume rendering is added to surfaces, counted, and turned off") {
     place.write("levels.json", R"({"color": [[0, 1, 0, 0]], "density": [[0, 1], [1, 2]]})");
     place.write("scene.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"size": [40, 30]},
                                   "volume_rendering": {"density": [[0, 0], [1, 2]]}})");
-    const Outcome both = place.run("render ball.h5 --size 40x30 --cut-plane 0,0,1,0 --volume levels.json --integrator trapezoid "
-                                   "--volume-step 0.1 -o both.png --stats stats.json");
+    const Outcome both =
+        place.run("render ball.h5 --size 40x30 --cut-plane 0,0,1,0 --volume levels.json --integrator trapezoid "
+                  "--volume-step 0.1 -o both.png --stats stats.json");
     INFO(both.err);
     REQUIRE(both.status == 0);
     const auto counts = nlohmann::json::parse(read_file(place.path("stats.json")))["counts"];
     CHECK(counts["hit_pixels"] > 100);
-    for (const char* key :
-         {"volume_pixels", "inexact_volume_pixels", "volume_segments", "empty_segments", "volume_steps", "volume_breakpoints"}) {
+    for (const char* key : {"volume_pixels", "inexact_volume_pixels", "volume_segments", "empty_segments", "volume_steps",
+                            "volume_breakpoints"}) {
         CHECK(counts.contains(key));
     }
     REQUIRE(place.run("render scene.json --volume none -o none.png").status == 0);

@@ -26,10 +26,12 @@ std::size_t n_files(const Workplace& place) {
 }
 
 std::string arguments(const std::string& trouble) {
-    return "--quiet convert bad.tetrahedron --plugin " + plugin + " --separate-process -o bad.h5 --options '{\"trouble\": \"" + trouble + "\"}'";
+    return "--quiet convert bad.tetrahedron --plugin " + plugin + " --separate-process -o bad.h5 --options '{\"trouble\": \"" +
+           trouble + "\"}'";
 }
 
-/** Quiet: the other fixtures are refused with warnings. One line that names file, plugin and cause, status 1, and no file that was not there before. */
+/** Quiet: the other fixtures are refused with warnings. One line that names file, plugin and cause, status 1, and no file that
+ * was not there before. */
 void check_refusal(const std::string& trouble, const std::string& word, const std::string& more = "") {
     const Workplace place;
     place.write("bad.tetrahedron", "");
@@ -54,8 +56,8 @@ pid_t start(const Workplace& place, const std::string& trouble) {
         ::dup2(file, STDERR_FILENO);
         ::setenv("ELVIS_PLUGIN_PATH", ELVIS_FIXTURES, 1);
         if (::chdir(folder.c_str()) == 0) {
-            ::execl(ELVIS_PROGRAM, ELVIS_PROGRAM, "convert", "bad.tetrahedron", "--plugin", plugin.c_str(), "--separate-process", "-o",
-                    "bad.h5", "--options", options.c_str(), static_cast<char*>(nullptr));
+            ::execl(ELVIS_PROGRAM, ELVIS_PROGRAM, "convert", "bad.tetrahedron", "--plugin", plugin.c_str(),
+                    "--separate-process", "-o", "bad.h5", "--options", options.c_str(), static_cast<char*>(nullptr));
         }
         ::_exit(127);
     }
@@ -114,8 +116,9 @@ TEST_CASE("What the separate process finds wrong is said as if there were none")
     place.write("bad.tetrahedron", "");
     const Outcome apart = place.run(arguments("geometry-order"), plugins);
     CHECK(apart.status == 1);
-    const Outcome here = place.run(
-        "--quiet convert bad.tetrahedron --plugin " + plugin + " -o bad.h5 --options '{\"trouble\": \"geometry-order\"}'", plugins);
+    const Outcome here = place.run("--quiet convert bad.tetrahedron --plugin " + plugin +
+                                       " -o bad.h5 --options '{\"trouble\": \"geometry-order\"}'",
+                                   plugins);
     CHECK(apart.err == here.err);
     CHECK(place.run("convert ball.json -o nowhere/ball.h5 --separate-process").status == 1);
     CHECK(place.run("convert ball.json -o ball2.h5 --memory-limit 100").status == 2);
@@ -128,7 +131,9 @@ TEST_CASE("A conversion plugin that crashes is named, with file, function and si
 
 TEST_CASE("A conversion plugin that ends the process is named") { check_refusal("leave", "status 3"); }
 
-TEST_CASE("A conversion plugin that takes too much memory is ended") { check_refusal("greed", "more than the 500 MiB", " --memory-limit 500"); }
+TEST_CASE("A conversion plugin that takes too much memory is ended") {
+    check_refusal("greed", "more than the 500 MiB", " --memory-limit 500");
+}
 
 TEST_CASE("A conversion plugin that never returns can be interrupted") {
     const Workplace place;

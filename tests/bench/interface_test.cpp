@@ -13,8 +13,8 @@ using namespace elvis;
 namespace {
 
 std::string generator(const char* shape, int geometry_order, int order) {
-    return R"({"generator":1,"mesh":"waves","field":"waves","elements":3,"shape":")" + std::string(shape) + R"(","geometry_order":)" +
-           std::to_string(geometry_order) + R"(,"order":)" + std::to_string(order) + "}";
+    return R"({"generator":1,"mesh":"waves","field":"waves","elements":3,"shape":")" + std::string(shape) +
+           R"(","geometry_order":)" + std::to_string(geometry_order) + R"(,"order":)" + std::to_string(order) + "}";
 }
 
 } // namespace
@@ -42,6 +42,8 @@ TEST_CASE("the suite interface compares the snippet with functions by hand that 
         CHECK(result.ratio > 0);
         CHECK(result.by_hand_newton_steps > result.hit_pixels / 2);
     }
-    CHECK_THROWS_WITH(bench_interface(device, registry, folder, {volume("tetrahedron", 1, 2), 64, 1}), Catch::Contains("hexahedra"));
-    CHECK_THROWS_WITH(bench_interface(device, registry, folder, {volume("hexahedron", 1, 3), 64, 1}), Catch::Contains("orders"));
+    CHECK_THROWS_WITH(bench_interface(device, registry, folder, {volume("tetrahedron", 1, 2), 64, 1}),
+                      Catch::Contains("hexahedra"));
+    CHECK_THROWS_WITH(bench_interface(device, registry, folder, {volume("hexahedron", 1, 3), 64, 1}),
+                      Catch::Contains("orders"));
 }

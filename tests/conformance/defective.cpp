@@ -27,12 +27,11 @@ namespace {
 
 /** Those of the snippet, by number from 1. */
 constexpr const char* glsl_defects[] = {
-    "glsl-syntax",       "glsl-name",          "glsl-float-only", "glsl-single",       "glsl-shift",
-    "glsl-transposed",   "glsl-pair",          "glsl-gradient",   "glsl-hessian",      "glsl-mapping-hessian",
-    "glsl-inverse",      "glsl-inverse-false", "glsl-newton",     "glsl-cancellation", "glsl-nan-outside",
-    "glsl-jump-outside", "glsl-endless",       "glsl-unset",      "glsl-no-offset",    "glsl-index",
-    "glsl-record",       "glsl-own-gradient",  "glsl-own-bound",  "glsl-own-side",     "glsl-own-nowhere",
-    "glsl-own-unset"};
+    "glsl-syntax",      "glsl-name",         "glsl-float-only",  "glsl-single",          "glsl-shift",     "glsl-transposed",
+    "glsl-pair",        "glsl-gradient",     "glsl-hessian",     "glsl-mapping-hessian", "glsl-inverse",   "glsl-inverse-false",
+    "glsl-newton",      "glsl-cancellation", "glsl-nan-outside", "glsl-jump-outside",    "glsl-endless",   "glsl-unset",
+    "glsl-no-offset",   "glsl-index",        "glsl-record",      "glsl-own-gradient",    "glsl-own-bound", "glsl-own-side",
+    "glsl-own-nowhere", "glsl-own-unset"};
 
 std::int64_t glsl_defect() {
     for (std::size_t i = 0; i < std::size(glsl_defects); ++i) {

@@ -22,7 +22,8 @@ std::string constant_field(double value, double time, const Space& space = {Shap
             coefficients[mode] = mode % n < 2 && mode / n % n < 2 && mode / n / n < 2 ? value : 0;
         }
     }
-    return nektar_writer::field_file({block_of(space, coefficients)}, std::string("<Time>").append(std::to_string(time)).append("</Time>"));
+    return nektar_writer::field_file({block_of(space, coefficients)},
+                                     std::string("<Time>").append(std::to_string(time)).append("</Time>"));
 }
 
 double value_in(const RuntimeVolume& volume, std::uint32_t step) {

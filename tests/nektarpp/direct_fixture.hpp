@@ -39,7 +39,8 @@ inline std::string bent_element(elvis::native::Shape shape) {
         if (is_flat) {
             return {a + 0.1 * b * b * b - 0.07 * a * b, b + 0.05 * a * a * b + 0.04 * a * a, 0};
         }
-        return {a + 0.1 * b * b * c - 0.07 * a * b, b + 0.05 * a * a * a + 0.08 * b * c, c - 0.06 * a * b * c + 0.09 * a * a * b};
+        return {a + 0.1 * b * b * c - 0.07 * a * b, b + 0.05 * a * a * a + 0.08 * b * c,
+                c - 0.06 * a * b * c + 0.09 * a * a * b};
     };
     return nektar_writer::geometry_file(element);
 }
@@ -49,8 +50,8 @@ inline nektar_writer::Block block_of(const elvis::native::Space& space, const st
                                      const std::string& field = "u", const std::string& id = "7") {
     using elvis::native::Basis;
     using elvis::native::Shape;
-    const std::string family = space.basis == Basis::modified     ? "Modified_"
-                               : space.basis == Basis::orthogonal ? "Ortho_"
+    const std::string family = space.basis == Basis::modified       ? "Modified_"
+                               : space.basis == Basis::orthogonal   ? "Ortho_"
                                : space.basis == Basis::gll_lagrange ? "GLL_Lagrange"
                                                                     : "Gauss_Lagrange";
     const bool is_lagrange = space.basis == Basis::gll_lagrange || space.basis == Basis::gauss_lagrange;

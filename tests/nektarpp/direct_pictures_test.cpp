@@ -58,7 +58,8 @@ Difference difference(const Frame& a, const Frame& b, double value_rounding, dou
     return found;
 }
 
-/** Draws both ways, in both precisions. `size` is that of the field; `rounding_64` of double precision, of coordinates of size 1. */
+/** Draws both ways, in both precisions. `size` is that of the field; `rounding_64` of double precision, of coordinates of
+ * size 1. */
 void check_pictures(const std::string& mesh, const std::string& field, double size, bool has_cut = true,
                     double rounding_64 = 1e-12) {
     const TemporaryFolder folder;
@@ -73,10 +74,11 @@ void check_pictures(const std::string& mesh, const std::string& field, double si
             if (!is_boundary && !has_cut) {
                 continue;
             }
-            const Frame from_files = Renderer(device, direct, precision).render(request_for(is_boundary, direct.dimension() == 2));
-            const Difference found =
-                difference(from_files, Renderer(device, converted, precision).render(request_for(is_boundary, direct.dimension() == 2)),
-                           rounding * size, rounding * 4);
+            const Frame from_files =
+                Renderer(device, direct, precision).render(request_for(is_boundary, direct.dimension() == 2));
+            const Difference found = difference(
+                from_files, Renderer(device, converted, precision).render(request_for(is_boundary, direct.dimension() == 2)),
+                rounding * size, rounding * 4);
             INFO("value " << found.value << ", depth " << found.depth);
             CAPTURE(mesh, is_boundary, precision == Precision::float64, found.n_hits, found.n_elements);
             CHECK(found.n_hits > 60);

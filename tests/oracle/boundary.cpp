@@ -15,7 +15,8 @@ constexpr int n = 24;
 
 /** Corners of the shapes and of their faces as in elvis/element.h. */
 Vector reference_corner(native::Shape shape, int k) {
-    static const int hexahedron[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+    static const int hexahedron[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                         {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
     static const int prism[6][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {-1, 1, 1}};
     static const int tetrahedron[4][3] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     const int* c = shape == native::Shape::hexahedron    ? hexahedron[k]
@@ -143,7 +144,8 @@ double Boundary::distance(const Vector& position) const {
     for (const Face& face : m_faces) {
         if ((position - face.middle).norm() > 1.1 * face.radius)
             continue;
-        const auto nearest = std::ranges::min_element(face.samples, {}, [&](const Vector& x) { return (x - position).squaredNorm(); });
+        const auto nearest =
+            std::ranges::min_element(face.samples, {}, [&](const Vector& x) { return (x - position).squaredNorm(); });
         const auto index = static_cast<int>(nearest - face.samples.begin());
         double u = 2.0 * (index % (n + 1)) / n - 1, v = 2.0 * (index / (n + 1)) / n - 1;
         if (face.is_triangle)
@@ -167,10 +169,20 @@ Boundary::EdgePoint Boundary::edge_point(std::mt19937& random, bool is_vertex) c
     const double along = is_vertex ? (random() % 2 ? 1.0 : -1.0) : std::uniform_real_distribution<double>(-1, 1)(random);
     double u = -1, v = -1;
     switch (random() % (face.is_triangle ? 3 : 4)) {
-    case 0: u = along; break;
-    case 1: v = along; break;
-    case 2: u = face.is_triangle ? -along : 1; v = along; break;
-    default: u = along; v = 1; break;
+    case 0:
+        u = along;
+        break;
+    case 1:
+        v = along;
+        break;
+    case 2:
+        u = face.is_triangle ? -along : 1;
+        v = along;
+        break;
+    default:
+        u = along;
+        v = 1;
+        break;
     }
     EdgePoint result;
     Vector x_u, x_v;

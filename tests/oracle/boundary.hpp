@@ -1,7 +1,7 @@
 /**
  * @file boundary.hpp
- * The boundary of a volume as the isoparametric surface that it is, met by rays in double precision: dense samples, then Newton's
- * method from everywhere that a crossing may be.
+ * The boundary of a volume as the isoparametric surface that it is, met by rays in double precision: dense samples, then
+ * Newton's method from everywhere that a crossing may be.
  */
 #pragma once
 

@@ -101,8 +101,9 @@ std::optional<double> cancel(Renderer& renderer, const FrameRequest& request, do
 
 TEST_CASE("after a cancelled picture the next one is the same as ever") {
     const TemporaryFile file("cancel.h5");
-    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 3, "geometry_order": 2, "field": "waves"})",
-             file.path());
+    generate(
+        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 3, "geometry_order": 2, "field": "waves"})",
+        file.path());
     const RuntimeVolume volume = open_volume(file.path());
     std::size_t n_cancelled = 0;
     for (const auto& [name, request] : scenes()) {
@@ -134,8 +135,9 @@ TEST_CASE("after a cancelled picture the next one is the same as ever") {
 
 TEST_CASE("a picture cancelled for another step, value or field does not mix them") {
     const TemporaryFile file("steps.h5");
-    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 3, "geometry_order": 2, "field": "waves"})",
-             file.path());
+    generate(
+        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 3, "geometry_order": 2, "field": "waves"})",
+        file.path());
     const RuntimeVolume volume = open_volume(file.path());
     const FrameRequest first = scenes().back().second;
     FrameRequest second = first;

@@ -21,7 +21,8 @@ std::size_t n_open_faces(const std::vector<std::uint32_t>& links, const ClassInf
 /** A box of so many elements along each side, and where rays start in it. */
 struct Box {
     explicit Box(int elements) {
-        generate(R"({"generator": 1, "mesh": "box", "order": 1, "field": "waves", "elements": )" + std::to_string(elements) + "}",
+        generate(R"({"generator": 1, "mesh": "box", "order": 1, "field": "waves", "elements": )" + std::to_string(elements) +
+                     "}",
                  file.path());
         volume.emplace(open_volume(file.path()));
         data.emplace(device, *volume, Precision::float32, nullptr);
@@ -59,8 +60,9 @@ TEST_CASE("elements in a row are linked to those beside them") {
 
 TEST_CASE("links lead back, from one element class to another too") {
     const TemporaryFile file("ball.h5");
-    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "layers": 2, "order": 1, "field": "waves"})",
-             file.path());
+    generate(
+        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "layers": 2, "order": 1, "field": "waves"})",
+        file.path());
     const RuntimeVolume volume = open_volume(file.path());
     const std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
     REQUIRE(volume.classes().size() > 1);
@@ -82,7 +84,8 @@ TEST_CASE("links lead back, from one element class to another too") {
                     }
                     const auto begin =
                         links[other].begin() + static_cast<std::ptrdiff_t>(links_an_element * (link - there.first_element));
-                    n_lost += std::find(begin, begin + links_an_element, info.first_element + element) == begin + links_an_element;
+                    n_lost +=
+                        std::find(begin, begin + links_an_element, info.first_element + element) == begin + links_an_element;
                     n_others += other != index;
                 }
             }

@@ -19,7 +19,8 @@ struct Table {
 
 // cos(pi k / n) with the argument reduced exactly.
 double cosine(std::size_t k, std::size_t n) {
-    return static_cast<double>(std::cos(std::numbers::pi_v<long double> * static_cast<long double>(k % (2 * n)) / static_cast<long double>(n)));
+    return static_cast<double>(
+        std::cos(std::numbers::pi_v<long double> * static_cast<long double>(k % (2 * n)) / static_cast<long double>(n)));
 }
 
 Table make_table(std::size_t n) {
@@ -34,7 +35,8 @@ Table make_table(std::size_t n) {
         for (Eigen::Index i = 0; i < size; ++i) {
             const double end = i == 0 || i + 1 == size ? 0.5 : 1;
             const double last = k == 0 || k + 1 == size ? 0.5 : 1;
-            table.to_coefficients(k, i) = 2.0 / static_cast<double>(n) * end * last * sign * cosine(order * static_cast<std::size_t>(i), n);
+            table.to_coefficients(k, i) =
+                2.0 / static_cast<double>(n) * end * last * sign * cosine(order * static_cast<std::size_t>(i), n);
         }
         for (Eigen::Index i = 0; i < table.to_dense_values.rows(); ++i)
             table.to_dense_values(i, k) = sign * cosine(order * static_cast<std::size_t>(i), 4 * n);
@@ -50,8 +52,7 @@ std::vector<double> make_points(std::size_t n) {
 }
 
 // What `make` gives for n, made once for all threads.
-template <auto make>
-const auto& made_for(std::size_t n) {
+template <auto make> const auto& made_for(std::size_t n) {
     using Item = decltype(make(n));
     static std::mutex mutex;
     static std::map<std::size_t, Item> items;
@@ -65,9 +66,9 @@ const auto& made_for(std::size_t n) {
     return *item;
 }
 
-// Scales rows and columns by powers of two until their norms are alike, which leaves the eigenvalues as they are: a small leading
-// coefficient makes one row huge, and with it the error of all eigenvalues (B. N. Parlett, C. Reinsch, "Balancing a matrix for
-// calculation of eigenvalues and eigenvectors", 1969).
+// Scales rows and columns by powers of two until their norms are alike, which leaves the eigenvalues as they are: a small
+// leading coefficient makes one row huge, and with it the error of all eigenvalues (B. N. Parlett, C. Reinsch, "Balancing a
+// matrix for calculation of eigenvalues and eigenvectors", 1969).
 void balance(Eigen::MatrixXd& matrix) {
     bool is_done = false;
     while (!is_done) {
@@ -137,7 +138,9 @@ ChebyshevSeries ChebyshevSeries::derivative() const {
     return slope;
 }
 
-double ChebyshevSeries::tail() const { return vector_of(m_coefficients).tail(static_cast<Eigen::Index>(degree() / 4)).cwiseAbs().maxCoeff(); }
+double ChebyshevSeries::tail() const {
+    return vector_of(m_coefficients).tail(static_cast<Eigen::Index>(degree() / 4)).cwiseAbs().maxCoeff();
+}
 
 double ChebyshevSeries::size() const { return vector_of(m_coefficients).cwiseAbs().maxCoeff(); }
 

@@ -32,9 +32,9 @@ public:
     std::vector<double> dense_values() const;
 
     /**
-     * Where the series takes the value `level` in [-1, 1], ascending: eigenvalues of the colleague matrix (the companion matrix of
-     * Chebyshev form; I. J. Good, "The colleague matrix, a Chebyshev analogue of the companion matrix", 1961), whose imaginary
-     * part and excess over [-1, 1] are rounding.
+     * Where the series takes the value `level` in [-1, 1], ascending: eigenvalues of the colleague matrix (the companion matrix
+     * of Chebyshev form; I. J. Good, "The colleague matrix, a Chebyshev analogue of the companion matrix", 1961), whose
+     * imaginary part and excess over [-1, 1] are rounding.
      */
     std::vector<double> companion_roots(double level) const;
 
@@ -43,8 +43,7 @@ private:
 };
 
 /** Value at s of the polynomial through values at lobatto_points(values.size() - 1), by the barycentric formula. */
-template <class Value>
-Value interpolate(const std::vector<Value>& values, double s) {
+template <class Value> Value interpolate(const std::vector<Value>& values, double s) {
     const std::size_t n = values.size() - 1;
     const std::span<const double> points = lobatto_points(n);
     Value sum = 0 * values[0];

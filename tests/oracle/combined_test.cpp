@@ -19,7 +19,8 @@ const Device& device() {
 
 /** The box [-1, 1]^3 with the field |x|^2, which elements of order 2 hold exactly. */
 void write_box(const std::string& shape, const std::string& path) {
-    generate(R"({"generator": 1, "mesh": "box", "shape": ")" + shape + R"(", "box": [[-1, -1, -1], [1, 1, 1]], "elements": [3, 3, 3], )" +
+    generate(R"({"generator": 1, "mesh": "box", "shape": ")" + shape +
+                 R"(", "box": [[-1, -1, -1], [1, 1, 1]], "elements": [3, 3, 3], )" +
                  R"("order": 2, "geometry_order": 1, "field": "sphere"})",
              path);
 }
@@ -119,7 +120,8 @@ bool are_alike(const std::vector<SurfaceHit>& a, const std::vector<SurfaceHit>& 
 } // namespace
 
 TEST_CASE("boundary, cut plane, isosurfaces and volume lie in each other as along the rays") {
-    const TransferFunction transfer{{{0, 0.1}, {0.5, 0.8}, {1, 0.2}, {3, 0.6}}, {{0, {1, 0, 0}}, {1, {1, 1, 0}}, {3, {0, 1, 1}}}};
+    const TransferFunction transfer{{{0, 0.1}, {0.5, 0.8}, {1, 0.2}, {3, 0.6}},
+                                    {{0, {1, 0, 0}}, {1, {1, 1, 0}}, {3, {0, 1, 1}}}};
     for (const std::string shape : {"hexahedron", "tetrahedron"}) {
         const TemporaryFile file("combined.h5");
         write_box(shape, file.path());
@@ -173,8 +175,8 @@ TEST_CASE("boundary, cut plane, isosurfaces and volume lie in each other as alon
                     // A tenth of the tolerance of volumes.
                     REQUIRE(error <= 1e-4);
                 }
-                WARN(shape << (precision == Precision::float32 ? ", float32: " : ", float64: ") << largest << " in "
-                                         << n_hits << " pixels, up to " << n_layers << " layers, " << n_edges << " at edges");
+                WARN(shape << (precision == Precision::float32 ? ", float32: " : ", float64: ") << largest << " in " << n_hits
+                           << " pixels, up to " << n_layers << " layers, " << n_edges << " at edges");
                 CHECK(n_hits > 700);
                 CHECK(n_layers == (with_plane ? 7 : 6));
                 CHECK(n_edges < 20);
@@ -185,8 +187,9 @@ TEST_CASE("boundary, cut plane, isosurfaces and volume lie in each other as alon
 
 TEST_CASE("what passes share changes no picture, but for the rounding of isosurfaces in front of what hides others") {
     const TemporaryFile file("shared.h5");
-    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 2, "geometry_order": 2, "field": "waves"})",
-             file.path());
+    generate(
+        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 2, "geometry_order": 2, "field": "waves"})",
+        file.path());
     const RuntimeVolume volume = open_volume(file.path());
     FrameRequest request;
     request.width = 48;

@@ -36,9 +36,7 @@ VolumeData volume_of(bool is_curved, std::uint32_t order, const Function& functi
 TEST_CASE("contours of a circle are right to the pixel at every magnification, or marked undecided") {
     const double radius = 0.31;
     const Point centre = {0.47L, 0.52L};
-    const auto function = [](const Vector& x) {
-        return (x.x() - 0.47) * (x.x() - 0.47) + (x.y() - 0.52) * (x.y() - 0.52);
-    };
+    const auto function = [](const Vector& x) { return (x.x() - 0.47) * (x.x() - 0.47) + (x.y() - 0.52) * (x.y() - 0.52); };
     const double angle = 0.7;
     const Point on_circle = {centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)};
     for (const bool is_curved : {false, true}) {
@@ -51,15 +49,16 @@ TEST_CASE("contours of a circle are right to the pixel at every magnification, o
                 FrameRequest request = view_around(magnification == 1 ? centre : on_circle, magnification, size);
                 request.surfaces[0].contours = Contours{{radius * radius}, {}};
                 const Frame frame = renderer.render(request);
-                const Verdict verdict = judge(request, frame, pixel_flag::contour, pixel_flag::contour_undecided, [&](const Square& square) {
-                    const auto [least, most] = distances(square, centre);
-                    const long double level = static_cast<long double>(radius * radius);
-                    return least <= level && level <= most;
-                });
+                const Verdict verdict =
+                    judge(request, frame, pixel_flag::contour, pixel_flag::contour_undecided, [&](const Square& square) {
+                        const auto [least, most] = distances(square, centre);
+                        const long double level = static_cast<long double>(radius * radius);
+                        return least <= level && level <= most;
+                    });
                 const bool is_double = precision == Precision::float64;
-                WARN((is_curved ? "curved" : "straight") << (is_double ? ", float64" : ", float32") << ", magnified "
-                                                         << magnification << ": " << verdict.marked << " pixels, "
-                                                         << verdict.undecided << " undecided, " << verdict.wrong << " wrong");
+                WARN((is_curved ? "curved" : "straight")
+                     << (is_double ? ", float64" : ", float32") << ", magnified " << magnification << ": " << verdict.marked
+                     << " pixels, " << verdict.undecided << " undecided, " << verdict.wrong << " wrong");
                 CHECK(verdict.wrong == 0);
                 CHECK(verdict.marked + verdict.undecided >= size / 2);
                 if (is_double) {
@@ -127,10 +126,9 @@ struct Polynomial {
 
 enum class Answer { no, yes, open };
 
-// Whether g takes the value 0 in the square of size h around (column, row): by halving, with `bend` a bound of the second derivatives'
-// sum, in pixels.
-Answer meets_zero(const std::function<double(double, double)>& g, double column, double row, double h, double bend,
-                  int depth) {
+// Whether g takes the value 0 in the square of size h around (column, row): by halving, with `bend` a bound of the second
+// derivatives' sum, in pixels.
+Answer meets_zero(const std::function<double(double, double)>& g, double column, double row, double h, double bend, int depth) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const auto& [a, b] : {std::pair{-1, -1}, std::pair{1, -1}, std::pair{-1, 1}, std::pair{1, 1}, std::pair{0, 0}}) {
         const double value = g(column + a * h / 2, row + b * h / 2);
@@ -139,7 +137,8 @@ Answer meets_zero(const std::function<double(double, double)>& g, double column,
     }
     if (least <= 0 && most >= 0)
         return Answer::yes;
-    // Bilinear interpolation of the corners misses at most an eighth of the second derivatives, and the extremes are in between.
+    // Bilinear interpolation of the corners misses at most an eighth of the second derivatives, and the extremes are in
+    // between.
     const double nearest = least > 0 ? least : -most;
     if (nearest > 0.125 * bend * h * h)
         return Answer::no;
@@ -178,8 +177,7 @@ void check_polynomials(int n_polynomials) {
             return is_curved ? Vector(x.x() + 0.1 * x.z() * x.z(), x.y() - 0.1 * x.z() * (1 - x.z()), x.z()) : x;
         };
         data.classes.push_back(make_class(space_of(shape, is_curved ? 2 : 1), space_of(shape, is_curved ? 12 : 6),
-                                          compose(cube(shape, 2), bent),
-                                          [&](const Vector& x) { return f(x.x(), x.y()); }));
+                                          compose(cube(shape, 2), bent), [&](const Vector& x) { return f(x.x(), x.y()); }));
         write_volume(file.path(), data);
         const RuntimeVolume volume = open_volume(file.path());
         FrameRequest request = view_around({0.5L, 0.5L}, 2, small);
@@ -213,8 +211,9 @@ void check_polynomials(int n_polynomials) {
             }
         }
     }
-    WARN(marked << " pixels marked, " << wrong << " wrong, " << open << " open to the test; undecided with 0, 2, 4, 6, 8 subdivisions: "
-                << undecided[0] << ", " << undecided[2] << ", " << undecided[4] << ", " << undecided[6] << ", " << undecided[8]);
+    WARN(marked << " pixels marked, " << wrong << " wrong, " << open
+                << " open to the test; undecided with 0, 2, 4, 6, 8 subdivisions: " << undecided[0] << ", " << undecided[2]
+                << ", " << undecided[4] << ", " << undecided[6] << ", " << undecided[8]);
     CHECK(wrong == 0);
     CHECK(open <= marked / 100);
     CHECK(undecided[0] > undecided[2]);

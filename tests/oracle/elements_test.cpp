@@ -95,7 +95,8 @@ TEST_CASE("a face between chosen elements shows the viewer's side where the fiel
 
 TEST_CASE("conditions choose elements") {
     const TemporaryFile mixed("mixed.h5"), twisted("twisted.h5");
-    generate(R"({"generator": 1, "mesh": "box", "shape": "mixed", "elements": [8, 3, 2], "order": 2, "field": "element"})", mixed.path());
+    generate(R"({"generator": 1, "mesh": "box", "shape": "mixed", "elements": [8, 3, 2], "order": 2, "field": "element"})",
+             mixed.path());
     generate(R"({"generator": 1, "mesh": "twisted-tetrahedron", "order": 1, "field": "waves"})", twisted.path());
     const RuntimeVolume volume = open_volume(mixed.path()), negative = open_volume(twisted.path());
     std::size_t sum = 0;

@@ -31,7 +31,8 @@ FaceAccuracy measure_faces(const Device& device, const RuntimeVolume& volume, co
     const Frame frame = renderer.render(request);
     FaceAccuracy result;
     result.n_careful = frame.counts.careful_pixels;
-    result.n_flagged = static_cast<std::size_t>(std::ranges::count_if(frame.flags, [](std::uint32_t flags) { return flags != 0; }));
+    result.n_flagged =
+        static_cast<std::size_t>(std::ranges::count_if(frame.flags, [](std::uint32_t flags) { return flags != 0; }));
 
     std::mt19937 random(20);
     std::vector<std::size_t> pixels(frame.depth.size());
@@ -42,11 +43,15 @@ FaceAccuracy measure_faces(const Device& device, const RuntimeVolume& volume, co
     // What rounding of positions, 1e-7 or 1e-16 of the size, makes of a touching ray: the square root of it.
     const double touching = precision == Precision::float64 ? 1e-6 : 2e-3;
     for (const std::size_t pixel : pixels) {
-        const Ray ray = pixel_ray(request.camera, size, size, static_cast<std::uint32_t>(pixel % size), static_cast<std::uint32_t>(pixel / size));
+        const Ray ray = pixel_ray(request.camera, size, size, static_cast<std::uint32_t>(pixel % size),
+                                  static_cast<std::uint32_t>(pixel / size));
         const auto exact = boundary.hit(ray);
         const bool is_drawn = frame.element[pixel] >= 0;
         if (!is_drawn || !exact) {
-            const bool is_touching = exact ? exact->facing < touching : is_drawn && boundary.distance((ray.origin + frame.depth[pixel] * ray.direction).cast<double>()) < touching * touching * boundary.size();
+            const bool is_touching =
+                exact ? exact->facing < touching
+                      : is_drawn && boundary.distance((ray.origin + frame.depth[pixel] * ray.direction).cast<double>()) <
+                                        touching * touching * boundary.size();
             result.n_missed += !is_drawn && exact && !is_touching;
             result.n_invented += is_drawn && !exact && !is_touching;
             result.n_touching += is_drawn != exact.has_value() && is_touching;

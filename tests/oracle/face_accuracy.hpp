@@ -27,8 +27,8 @@ struct FaceAccuracy {
 };
 
 /**
- * A picture of size^2 pixels from a fixed direction, of which `n_pixels` chosen by chance are compared (all if there are no more),
- * and as many pictures of one pixel as there are rays through points of edges.
+ * A picture of size^2 pixels from a fixed direction, of which `n_pixels` chosen by chance are compared (all if there are no
+ * more), and as many pictures of one pixel as there are rays through points of edges.
  */
 FaceAccuracy measure_faces(const Device& device, const RuntimeVolume& volume, const Boundary& boundary, Precision precision,
                            std::uint32_t size, std::size_t n_pixels, std::size_t n_edge_rays);

@@ -233,7 +233,8 @@ TEST_CASE("a curved boundary has no holes") {
 }
 
 TEST_CASE("a curved boundary is where the elements put it") {
-    for (const auto& [mesh, shape] : {std::pair{"ball", "hexahedron"}, {"ball", "pyramid"}, {"torus", "prism"}, {"torus", "tetrahedron"}}) {
+    for (const auto& [mesh, shape] :
+         {std::pair{"ball", "hexahedron"}, {"ball", "pyramid"}, {"torus", "prism"}, {"torus", "tetrahedron"}}) {
         const TemporaryFile file("curved.h5");
         generate(std::string(R"({"generator": 1, "elements": [3, 3, 8], "order": 1, "field": "waves", "mesh": ")") + mesh +
                      R"(", "shape": ")" + shape + "\"}",
@@ -245,8 +246,8 @@ TEST_CASE("a curved boundary is where the elements put it") {
             const FaceAccuracy r = measure_faces(device(), volume, surface, precision, 400, 2500, 40);
             const bool is_single = precision == Precision::float32;
             WARN(mesh << " of " << shape << (is_single ? ", float32: " : ", float64: ") << r.n_hits << " hits, depth error "
-                      << r.depth_error << ", grazing " << r.grazing_error << ", " << r.n_careful << " careful, " << r.n_flagged << " flagged, "
-                      << r.n_leaks << " leaks of " << r.n_edge_rays);
+                      << r.depth_error << ", grazing " << r.grazing_error << ", " << r.n_careful << " careful, " << r.n_flagged
+                      << " flagged, " << r.n_leaks << " leaks of " << r.n_edge_rays);
             CHECK(r.n_hits > 500);
             CHECK(r.depth_error <= (is_single ? 1e-5 : 1e-11));
             CHECK(r.grazing_error <= (is_single ? 1e-6 : 1e-12));
@@ -279,7 +280,8 @@ TEST_CASE("a ray that enters a closed boundary leaves it") {
                 const bool is_even = std::abs(crossings - 2 * std::round(crossings / 2)) < 1e-3;
                 open += !is_even && (frame.flags[pixel] & pixel_flag::undecided) == 0;
             }
-            WARN(mesh << (precision == Precision::float32 ? ", float32: " : ", float64: ") << open << " of " << hits << " pixels open");
+            WARN(mesh << (precision == Precision::float32 ? ", float32: " : ", float64: ") << open << " of " << hits
+                      << " pixels open");
             CHECK(hits > 500);
             // Where a ray enters and leaves within rounding.
             CHECK(open <= (precision == Precision::float32 ? 2 : 0));

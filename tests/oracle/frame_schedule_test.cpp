@@ -31,7 +31,8 @@ struct MadeUp {
     FrameSchedule schedule{10};
 
     void wait(double milliseconds) {
-        now += std::chrono::duration_cast<FrameSchedule::Clock::duration>(std::chrono::duration<double, std::milli>(milliseconds));
+        now +=
+            std::chrono::duration_cast<FrameSchedule::Clock::duration>(std::chrono::duration<double, std::milli>(milliseconds));
     }
     /** Draws what is wanted; returns how long that took, nothing if nothing is wanted. */
     std::optional<double> draw(const FrameRequest& request) {
@@ -42,7 +43,8 @@ struct MadeUp {
         const FrameRequest drawn = request_for(request, step->stage, step->divisor, step->with_lines);
         const bool has_lines = !drawn.surfaces.empty() && drawn.surfaces[0].has_lines();
         const double share = double(drawn.width) * drawn.height / (double(request.width) * request.height);
-        const double milliseconds = fixed + (has_lines ? lines : 0) + share * all * (step->stage == Stage::exact && has_refinement(request) ? 3 : 1);
+        const double milliseconds =
+            fixed + (has_lines ? lines : 0) + share * all * (step->stage == Stage::exact && has_refinement(request) ? 3 : 1);
         wait(milliseconds);
         schedule.drawn(*step, has_refinement(request), milliseconds);
         return milliseconds;

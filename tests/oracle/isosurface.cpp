@@ -317,7 +317,8 @@ IsosurfacePicture draw_isosurface(const Model& model, const Isosurface& isosurfa
     const auto start = std::chrono::steady_clock::now();
     IsosurfacePicture picture;
     picture.answers.resize(std::size_t{width} * height);
-    std::vector<IsosurfaceTracer> tracers(std::max(1u, std::thread::hardware_concurrency()), IsosurfaceTracer(model, isosurface));
+    std::vector<IsosurfaceTracer> tracers(std::max(1u, std::thread::hardware_concurrency()),
+                                          IsosurfaceTracer(model, isosurface));
     std::atomic<std::uint32_t> next_row = 0;
     {
         std::vector<std::jthread> threads;

@@ -1,7 +1,8 @@
 /**
  * @file isosurface.hpp
- * Where rays first cross the level sets of a field, in double precision. The field along the part of a ray in an element becomes a
- * Chebyshev series, taken as often as it needs; roots are found in it, or by two slower methods that check each other.
+ * Where rays first cross the level sets of a field, in double precision. The field along the part of a ray in an element
+ * becomes a Chebyshev series, taken as often as it needs; roots are found in it, or by two slower methods that check each
+ * other.
  */
 #pragma once
 
@@ -48,8 +49,8 @@ enum class RootFinder {
 struct RayAnswer {
     std::optional<Crossing> crossing;
     /**
-     * The least |field - isovalue| over the field's range where the ray comes nearest to an isovalue without taking it: in all of
-     * its parts, or, where there is a crossing, at extremes in front of it. Infinity if there is no such place.
+     * The least |field - isovalue| over the field's range where the ray comes nearest to an isovalue without taking it: in all
+     * of its parts, or, where there is a crossing, at extremes in front of it. Infinity if there is no such place.
      */
     double margin = std::numeric_limits<double>::infinity();
 };

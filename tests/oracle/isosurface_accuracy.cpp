@@ -31,8 +31,8 @@ FrameRequest isosurface_request(const RandomVolume& random, std::uint32_t size, 
     return request;
 }
 
-RandomAccuracy measure_random(const Device& device, const PluginRegistry& registry, const RandomVolume& random, std::uint32_t size,
-                              std::span<const Precision> precisions, IsosurfaceMethod method) {
+RandomAccuracy measure_random(const Device& device, const PluginRegistry& registry, const RandomVolume& random,
+                              std::uint32_t size, std::span<const Precision> precisions, IsosurfaceMethod method) {
     const TemporaryFile file("random.h5");
     write_volume(file.path(), random.data);
     const RuntimeVolume volume(registry.runtime_for(file.path()), file.path());
@@ -63,7 +63,8 @@ SphereAccuracy measure_sphere(const Device& device, const RuntimeVolume& volume,
     const Frame frame = renderer.render(request);
     SphereAccuracy result;
     for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
-        const Ray ray = pixel_ray(camera, size, size, static_cast<std::uint32_t>(pixel % size), static_cast<std::uint32_t>(pixel / size));
+        const Ray ray =
+            pixel_ray(camera, size, size, static_cast<std::uint32_t>(pixel % size), static_cast<std::uint32_t>(pixel / size));
         const bool is_hit = frame.element[pixel] >= 0;
         const long double middle = -ray.origin.dot(ray.direction);
         const long double r2 = (ray.origin + middle * ray.direction).squaredNorm();
@@ -82,7 +83,8 @@ SphereAccuracy measure_sphere(const Device& device, const RuntimeVolume& volume,
         const long double half = std::sqrt(std::max(1 - r2, 0.0L));
         // |n.d| is half, for the radius 1.
         if (half < grazing) {
-            result.grazing_error = std::max(result.grazing_error, static_cast<double>(std::abs(shown.norm() - 1) / frame.depth[pixel]));
+            result.grazing_error =
+                std::max(result.grazing_error, static_cast<double>(std::abs(shown.norm() - 1) / frame.depth[pixel]));
             continue;
         }
         const bool is_inside = ray.origin.squaredNorm() < 1;

@@ -30,8 +30,9 @@ struct RandomAccuracy {
     double oracle_seconds = 0;
     std::uint64_t oracle_failures = 0;
 };
-RandomAccuracy measure_random(const Device& device, const PluginRegistry& registry, const RandomVolume& random, std::uint32_t size,
-                              std::span<const Precision> precisions, IsosurfaceMethod method = IsosurfaceMethod::interval);
+RandomAccuracy measure_random(const Device& device, const PluginRegistry& registry, const RandomVolume& random,
+                              std::uint32_t size, std::span<const Precision> precisions,
+                              IsosurfaceMethod method = IsosurfaceMethod::interval);
 
 /** The sphere |x| = 1 as isosurface of a volume whose field is |x|^2, in closed form. */
 struct SphereAccuracy {
@@ -45,6 +46,7 @@ struct SphereAccuracy {
     /** Elsewhere: | |x| - 1 | over the distance from the eye. */
     double grazing_error = 0;
 };
-SphereAccuracy measure_sphere(const Device& device, const RuntimeVolume& volume, Precision precision, const Camera& camera, std::uint32_t size);
+SphereAccuracy measure_sphere(const Device& device, const RuntimeVolume& volume, Precision precision, const Camera& camera,
+                              std::uint32_t size);
 
 } // namespace elvis::oracle

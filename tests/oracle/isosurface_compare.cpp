@@ -111,13 +111,16 @@ IsosurfaceComparison compare(IsosurfaceTracer& tracer, const IsosurfacePicture& 
         if (off <= tolerance.depth * scale) {
             ++result.n_agree;
             result.n_needless_flags += is_flagged;
-            const bool is_well_inside = excess(tracer.model().volume.shape(crossing->element), crossing->xi) < -100 * tolerance.depth;
+            const bool is_well_inside =
+                excess(tracer.model().volume.shape(crossing->element), crossing->xi) < -100 * tolerance.depth;
             result.n_other_element += is_well_inside && frame.element[pixel] != tracer.model().volume.number(crossing->element);
         } else {
-            const auto column = static_cast<std::uint32_t>(pixel % frame.width), row = static_cast<std::uint32_t>(pixel / frame.width);
+            const auto column = static_cast<std::uint32_t>(pixel % frame.width),
+                       row = static_cast<std::uint32_t>(pixel / frame.width);
             const Line line = line_of(pixel_ray(camera, frame.width, frame.height, column, row));
             if (!judge.accepts(line, depth)) {
-                const bool grazes = (crossing ? crossing->facing : std::abs(normal_of(frame, pixel).dot(line.direction))) < grazing;
+                const bool grazes =
+                    (crossing ? crossing->facing : std::abs(normal_of(frame, pixel).dot(line.direction))) < grazing;
                 ++(is_flagged ? result.n_wrong_flagged : grazes ? result.n_wrong_grazing : result.n_wrong);
                 if (!is_flagged) {
                     result.worst_pixel = pixel;
@@ -146,11 +149,11 @@ IsosurfaceComparison compare(IsosurfaceTracer& tracer, const IsosurfacePicture& 
 }
 
 IsosurfaceComparison& IsosurfaceComparison::operator+=(const IsosurfaceComparison& other) {
-    for (const auto member : {&IsosurfaceComparison::n_pixels, &IsosurfaceComparison::n_hits, &IsosurfaceComparison::n_agree,
-                              &IsosurfaceComparison::n_rounding, &IsosurfaceComparison::n_wrong_flagged,
-                              &IsosurfaceComparison::n_wrong_grazing, &IsosurfaceComparison::n_wrong, &IsosurfaceComparison::n_flagged,
-                              &IsosurfaceComparison::n_needless_flags, &IsosurfaceComparison::n_wrong_masks,
-                              &IsosurfaceComparison::n_other_element})
+    for (const auto member :
+         {&IsosurfaceComparison::n_pixels, &IsosurfaceComparison::n_hits, &IsosurfaceComparison::n_agree,
+          &IsosurfaceComparison::n_rounding, &IsosurfaceComparison::n_wrong_flagged, &IsosurfaceComparison::n_wrong_grazing,
+          &IsosurfaceComparison::n_wrong, &IsosurfaceComparison::n_flagged, &IsosurfaceComparison::n_needless_flags,
+          &IsosurfaceComparison::n_wrong_masks, &IsosurfaceComparison::n_other_element})
         this->*member += other.*member;
     for (const auto member : {&IsosurfaceComparison::depth_error, &IsosurfaceComparison::normal_error,
                               &IsosurfaceComparison::grazing_distance, &IsosurfaceComparison::residual})
@@ -177,7 +180,8 @@ std::string to_text(const IsosurfaceComparison& c) {
                   "distance from the surface elsewhere      %.3g of the depth\n"
                   "field off the isovalue                   %.3g of the range\n",
                   c.n_pixels, c.n_hits, c.n_agree, c.n_rounding, c.n_wrong_flagged, c.n_wrong_grazing, c.n_wrong, c.n_flagged,
-                  c.n_needless_flags, c.n_wrong_masks, c.n_other_element, c.depth_error, c.normal_error, c.grazing_distance, c.residual);
+                  c.n_needless_flags, c.n_wrong_masks, c.n_other_element, c.depth_error, c.normal_error, c.grazing_distance,
+                  c.residual);
     return text;
 }
 

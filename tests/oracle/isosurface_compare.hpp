@@ -25,7 +25,8 @@ inline constexpr double grazing = 0.05;
 /** Decides whether a depth is that of a first crossing, if the field may be off by rounding. */
 class IsosurfaceJudge {
 public:
-    IsosurfaceJudge(IsosurfaceTracer& tracer, const IsosurfaceTolerance& tolerance) : m_tracer(tracer), m_tolerance(tolerance) {}
+    IsosurfaceJudge(IsosurfaceTracer& tracer, const IsosurfaceTolerance& tolerance)
+        : m_tracer(tracer), m_tolerance(tolerance) {}
 
     /**
      * NaN: no crossing. Accepted if the field is within the tolerance of an isovalue there, and in front of it never goes from
@@ -49,7 +50,8 @@ struct IsosurfaceComparison {
     std::size_t n_agree = 0;
     /** Another answer that the judge accepts. */
     std::size_t n_rounding = 0;
-    /** Another answer that the judge does not accept: in pixels that say so, in others that graze a surface, and in the rest. */
+    /** Another answer that the judge does not accept: in pixels that say so, in others that graze a surface, and in the rest.
+     */
     std::size_t n_wrong_flagged = 0, n_wrong_grazing = 0, n_wrong = 0;
     /** Pixels that say that they are undecided, and those of them that agree. */
     std::size_t n_flagged = 0, n_needless_flags = 0;

@@ -14,11 +14,13 @@ namespace {
 using native::Shape;
 
 // The cube [-1,1]^3 of cells of one shape, bent, with a field that is a function of the place before the bend.
-VolumeData bent_cube(Shape shape, int n, std::uint32_t order, const std::function<Vector(const Vector&)>& bend, const Function& field) {
+VolumeData bent_cube(Shape shape, int n, std::uint32_t order, const std::function<Vector(const Vector&)>& bend,
+                     const Function& field) {
     const std::vector<Map> maps = compose(cube(shape, n), [](const Vector& x) -> Vector { return 2 * x - Vector::Ones(); });
     VolumeData data;
     data.classes.push_back(make_class(space_of(shape, 2), space_of(shape, order), maps, field));
-    data.classes[0].geometry_coefficients = make_class(space_of(shape, 2), space_of(shape, 1), compose(maps, bend), field).geometry_coefficients;
+    data.classes[0].geometry_coefficients =
+        make_class(space_of(shape, 2), space_of(shape, 1), compose(maps, bend), field).geometry_coefficients;
     return data;
 }
 
@@ -47,7 +49,8 @@ TEST_CASE("the oracle finds spheres where they are") {
     for (const Shape shape : {Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::tetrahedron})
         for (const bool is_curved : {false, true}) {
             const Model model(is_curved ? bent_cube(shape, 2, 1, bend, square)
-                                        : bent_cube(shape, 2, 2, [](const Vector& x) { return x; }, square));
+                                        : bent_cube(
+                                              shape, 2, 2, [](const Vector& x) { return x; }, square));
             const Scalar scalar = is_curved ? with_differences([](const Volume& volume, std::size_t element, const Vector& xi) {
                 return volume.position(element, xi).squaredNorm();
             })
@@ -100,8 +103,8 @@ TEST_CASE("the oracle's ways to find roots agree") {
         CHECK(one.n_failures == 0);
         all += one;
     }
-    WARN(all.n_hits << " hits of " << all.n_rays << " rays, apart by at most " << all.samples_error << " and " << all.companion_error
-                    << " of the range");
+    WARN(all.n_hits << " hits of " << all.n_rays << " rays, apart by at most " << all.samples_error << " and "
+                    << all.companion_error << " of the range");
     CHECK(all.n_hits > 1000);
     CHECK(all.samples_error < 1e-13);
     CHECK(all.companion_error < 1e-13);
@@ -134,7 +137,9 @@ TEST_CASE("wrong isosurfaces are told from those that rounding excuses") {
     const Camera camera = test_camera({2.5, 1.5, 1.2});
     const IsosurfacePicture exact = draw_isosurface(model, tracer.isosurface(), camera, size, size);
     const Frame right = frame_of(exact, model.volume, size);
-    const auto compared = [&](const Frame& frame, const IsosurfaceTolerance& tolerance) { return compare(tracer, exact, camera, frame, tolerance); };
+    const auto compared = [&](const Frame& frame, const IsosurfaceTolerance& tolerance) {
+        return compare(tracer, exact, camera, frame, tolerance);
+    };
     const IsosurfaceComparison good = compared(right, float64_tolerance);
     const std::size_t n_hits = good.n_hits;
     CHECK(n_hits > 300);
@@ -185,8 +190,10 @@ TEST_CASE("wrong isosurfaces are told from those that rounding excuses") {
 }
 
 TEST_CASE("a ray within rounding of a silhouette may be judged either way") {
-    // One cube with the field x^2 + y^2 + z^2, on rays along x at the height of the silhouette of radius 0.5 and a little beside.
-    const Model model(bent_cube(Shape::hexahedron, 1, 2, [](const Vector& x) { return x; }, [](const Vector& x) { return x.squaredNorm(); }));
+    // One cube with the field x^2 + y^2 + z^2, on rays along x at the height of the silhouette of radius 0.5 and a little
+    // beside.
+    const Model model(bent_cube(
+        Shape::hexahedron, 1, 2, [](const Vector& x) { return x; }, [](const Vector& x) { return x.squaredNorm(); }));
     IsosurfaceTracer tracer(model, {scalar_of_field(model.volume, 0), {0.25}});
     IsosurfaceJudge single(tracer, float32_tolerance), twice(tracer, float64_tolerance);
     const auto line = [](double height) { return Line{{-3, 0, height}, {1, 0, 0}}; };
@@ -223,8 +230,9 @@ TEST_CASE("each element of a discontinuous field is looked at by itself") {
     VolumeData data;
     const std::vector<Map> maps = boxes({-1, -1, -1}, {1, 1, 1}, {2, 1, 1});
     for (std::size_t i = 0; i < 2; ++i)
-        data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 2), {maps[i]},
-                                          [i](const Vector& x) { return x.x() + (i == 0 ? -0.2 : 0.2); }, static_cast<std::int64_t>(7 - i)));
+        data.classes.push_back(make_class(
+            space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 2), {maps[i]},
+            [i](const Vector& x) { return x.x() + (i == 0 ? -0.2 : 0.2); }, static_cast<std::int64_t>(7 - i)));
     const Model model(data);
     const Line line{{-3, 0.1, 0.2}, {1, 0, 0}};
     const auto first = [&](const std::vector<double>& values, const std::vector<std::array<double, 4>>& clip = {}) {
@@ -246,7 +254,8 @@ TEST_CASE("each element of a discontinuous field is looked at by itself") {
     for (ClassData& c : data.classes)
         c.field_coefficients = Fit(c.field)([](const Vector& xi) { return xi.y(); });
     const Model shared(data);
-    const auto crossing = IsosurfaceTracer(shared, {scalar_of_field(shared.volume, 0), {0.1}}).first({{0, -3, 0.2}, {0, 1, 0}}).crossing;
+    const auto crossing =
+        IsosurfaceTracer(shared, {scalar_of_field(shared.volume, 0), {0.1}}).first({{0, -3, 0.2}, {0, 1, 0}}).crossing;
     REQUIRE(crossing);
     CHECK(shared.volume.number(crossing->element) == 6);
 }

@@ -62,8 +62,8 @@ Vector point(const FrameRequest& request, const Frame& frame, std::size_t pixel)
 /** The sphere field on a cube, of this shape. */
 void write_cube(const std::string& path, const std::string& shape, int elements) {
     const std::string n = std::to_string(elements);
-    generate(R"({"generator": 1, "mesh": "box", "shape": ")" + shape + R"(", "box": [[-1, -1, -1], [1, 1, 1]], "elements": [)" + n +
-                 "," + n + "," + n + R"(], "order": 2, "geometry_order": 1, "field": "sphere"})",
+    generate(R"({"generator": 1, "mesh": "box", "shape": ")" + shape + R"(", "box": [[-1, -1, -1], [1, 1, 1]], "elements": [)" +
+                 n + "," + n + "," + n + R"(], "order": 2, "geometry_order": 1, "field": "sphere"})",
              path);
 }
 
@@ -91,8 +91,9 @@ void check_sphere(const FrameRequest& request, const Frame& frame, double radius
 
 TEST_CASE("of several isovalues the nearest crossing is drawn, whatever is skipped") {
     const TemporaryFile file("several.h5");
-    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 3, "order": 4, "geometry_order": 3, "field": "waves"})",
-             file.path());
+    generate(
+        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 3, "order": 4, "geometry_order": 3, "field": "waves"})",
+        file.path());
     const RuntimeVolume volume = open_volume(file.path());
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         Renderer renderer(device(), volume, precision);
@@ -160,14 +161,16 @@ TEST_CASE("expressions have isosurfaces, with gradients and without a field") {
         Renderer renderer(device(), volume, precision);
         const double tolerance = precision == Precision::float64 ? 1e-11 : 1e-4;
         // Twice the radius, the radius less a half, and its square root.
-        for (const auto& [text, value, radius] : {std::tuple("norm(grad(sphere))", 1.2, 0.6), std::tuple("sqrt(x*x+y*y+z*z)-0.5", 0.2, 0.7),
-                                                  std::tuple("sqrt(sphere)", 0.8, 0.8)}) {
+        for (const auto& [text, value, radius] :
+             {std::tuple("norm(grad(sphere))", 1.2, 0.6), std::tuple("sqrt(x*x+y*y+z*z)-0.5", 0.2, 0.7),
+              std::tuple("sqrt(sphere)", 0.8, 0.8)}) {
             CAPTURE(text);
             const FrameRequest request = request_of(isosurface(expression(volume, text), {value}));
             const Frame frame = renderer.render(request);
             check_sphere(request, frame, radius, tolerance);
             CHECK(frame.counts.undecided_isosurface_pixels < 30);
-            // Of the derivatives of gradients and of the mapping no bounds are known: where nothing is hit, that is an estimate, too.
+            // Of the derivatives of gradients and of the mapping no bounds are known: where nothing is hit, that is an
+            // estimate, too.
             const bool is_estimated = std::string(text) != "sqrt(sphere)";
             CHECK(frame.counts.estimated_pixels == (is_estimated ? frame.counts.pixels : 0));
         }

@@ -38,15 +38,17 @@ IsosurfaceStudy study_isosurfaces(const PluginRegistry& registry, const Isosurfa
     std::atomic<std::uint64_t> next = options.seed;
     std::mutex mutex;
     std::exception_ptr error;
-    const auto add = [&](std::uint64_t seed, const RandomVolume& random, const RandomAccuracy& one, const FinderComparison& ways) {
+    const auto add = [&](std::uint64_t seed, const RandomVolume& random, const RandomAccuracy& one,
+                         const FinderComparison& ways) {
         const std::lock_guard lock(mutex);
         const std::string place = "seed " + std::to_string(seed) + ", ";
         for (std::size_t i = 0; i < options.precisions.size(); ++i) {
             const IsosurfaceComparison& c = one.comparisons[i];
             if (!holds(c, options.precisions[i]))
-                report(place + name_of(options.precisions[i]) + ": " + random.description + ": " + std::to_string(c.n_wrong) + " wrong, " +
-                       std::to_string(c.n_wrong_grazing) + " grazing, " + std::to_string(c.n_wrong_masks) + " masks, " +
-                       std::to_string(c.n_other_element) + " other elements; pixel " + std::to_string(c.worst_pixel));
+                report(place + name_of(options.precisions[i]) + ": " + random.description + ": " + std::to_string(c.n_wrong) +
+                       " wrong, " + std::to_string(c.n_wrong_grazing) + " grazing, " + std::to_string(c.n_wrong_masks) +
+                       " masks, " + std::to_string(c.n_other_element) + " other elements; pixel " +
+                       std::to_string(c.worst_pixel));
             study.comparisons[i] += c;
             study.n_projected_pixels += one.counts[i].projected_pixels;
             study.n_evaluations += one.counts[i].field_evaluations;
@@ -69,8 +71,10 @@ IsosurfaceStudy study_isosurfaces(const PluginRegistry& registry, const Isosurfa
                     const Device device(options.device);
                     for (std::uint64_t seed = next++; seed < options.seed + options.count; seed = next++) {
                         const RandomVolume random = random_volume(seed);
-                        const RandomAccuracy one = measure_random(device, registry, random, options.size, options.precisions, options.method);
-                        add(seed, random, one, options.finder_stride > 0 ? compare_finders_on(random, options) : FinderComparison{});
+                        const RandomAccuracy one =
+                            measure_random(device, registry, random, options.size, options.precisions, options.method);
+                        add(seed, random, one,
+                            options.finder_stride > 0 ? compare_finders_on(random, options) : FinderComparison{});
                     }
                 } catch (...) {
                     const std::lock_guard lock(mutex);

@@ -30,7 +30,8 @@ Camera camera_at(const Vector3& eye, double field_of_view) {
 RandomVolume only_pixel(RandomVolume random, std::uint32_t column, std::uint32_t row) {
     const Ray ray = pixel_ray(random.camera, 200, 200, column, row);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        random.camera.look_at[axis] = random.camera.eye[axis] + static_cast<double>(ray.direction(static_cast<Eigen::Index>(axis)));
+        random.camera.look_at[axis] =
+            random.camera.eye[axis] + static_cast<double>(ray.direction(static_cast<Eigen::Index>(axis)));
     }
     random.camera.field_of_view /= 200;
     return random;
@@ -41,17 +42,20 @@ RandomVolume only_pixel(RandomVolume random, std::uint32_t column, std::uint32_t
 TEST_CASE("the isosurface of the sphere field is the sphere") {
     const TemporaryFile file("sphere.h5");
     for (const std::string shape : {"hexahedron", "prism", "pyramid", "tetrahedron"}) {
-        generate(R"({"generator": 1, "mesh": "box", "shape": ")" + shape +
-                     R"(", "box": [[-1, -1, -2], [1, 1, 4]], "elements": [4, 4, 6], "order": 2, "geometry_order": 1, "field": "sphere"})",
-                 file.path());
+        generate(
+            R"({"generator": 1, "mesh": "box", "shape": ")" + shape +
+                R"(", "box": [[-1, -1, -2], [1, 1, 4]], "elements": [4, 4, 6], "order": 2, "geometry_order": 1, "field": "sphere"})",
+            file.path());
         const RuntimeVolume volume = open_volume(file.path());
-        for (const auto& [eye, field_of_view] : {std::pair(Vector3{3, 2, 2.5}, 35.0), std::pair(Vector3{0.1, -0.2, 0.15}, 80.0)})
+        for (const auto& [eye, field_of_view] :
+             {std::pair(Vector3{3, 2, 2.5}, 35.0), std::pair(Vector3{0.1, -0.2, 0.15}, 80.0)})
             for (const Precision precision : {Precision::float32, Precision::float64}) {
                 const SphereAccuracy r = measure_sphere(device(), volume, precision, camera_at(eye, field_of_view), 150);
                 const bool is_single = precision == Precision::float32;
                 WARN(shape << (is_single ? ", float32: " : ", float64: ") << r.n_hits << " hits, depth error " << r.depth_error
-                           << ", normal error " << r.normal_error << ", grazing " << r.grazing_error << ", " << r.n_missed << " missed, "
-                           << r.n_invented << " invented, " << r.n_flagged << " flagged, " << r.n_wrong_flagged << " of them wrong");
+                           << ", normal error " << r.normal_error << ", grazing " << r.grazing_error << ", " << r.n_missed
+                           << " missed, " << r.n_invented << " invented, " << r.n_flagged << " flagged, " << r.n_wrong_flagged
+                           << " of them wrong");
                 CHECK(r.n_hits > 5000);
                 CHECK(r.n_missed == 0);
                 CHECK(r.n_invented == 0);
@@ -86,13 +90,14 @@ TEST_CASE("isosurfaces of random fields are where the oracle finds them") {
     // Undecided pixels are honest, but few.
     // In float32 coefficients of these rough fields are rounded by more than the tolerance of depth: it is said of one in six.
     CHECK(sums[0].n_flagged < sums[0].n_pixels / 5);
-    // In double precision rounding may move crossings of the roughest of them by more than 1e-12: 33 pixels of 19200, and ten rays pass
-    // bent elements so closely that only estimates tell.
+    // In double precision rounding may move crossings of the roughest of them by more than 1e-12: 33 pixels of 19200, and ten
+    // rays pass bent elements so closely that only estimates tell.
     CHECK(sums[1].n_flagged < sums[1].n_pixels / 400);
 }
 
 TEST_CASE("where rounding of the field moves a crossing too far, the pixel says so") {
-    // Sums of terms that are up to a million times larger: in both precisions pixels of these were once wrong and did not say so.
+    // Sums of terms that are up to a million times larger: in both precisions pixels of these were once wrong and did not say
+    // so.
     const RandomVolume rough = random_volume(1195);
     const RandomAccuracy accuracy = measure_random(device(), plugins(), rough, 40, std::vector<Precision>{Precision::float64});
     INFO(to_text(accuracy.comparisons[0]));
@@ -113,7 +118,8 @@ TEST_CASE("where a part of the ray in a strongly bent element may be missed, the
     // Rays around one in which one was missed once: they pass elements by so closely that only estimates tell that they do.
     const RandomVolume random = only_pixel(random_volume(1303), 142, 29);
     const IsosurfaceComparison comparison =
-        measure_random(device(), plugins(), random, 8, std::vector<Precision>{Precision::float32}, IsosurfaceMethod::bernstein).comparisons[0];
+        measure_random(device(), plugins(), random, 8, std::vector<Precision>{Precision::float32}, IsosurfaceMethod::bernstein)
+            .comparisons[0];
     INFO(to_text(comparison));
     CHECK(comparison.n_hits == comparison.n_pixels);
     CHECK(comparison.n_wrong == 0);
@@ -142,8 +148,8 @@ TEST_CASE("isosurfaces by projection are where the oracle finds them") {
 TEST_CASE("isosurfaces by eigenvalues are where the oracle finds them, or say that they are not known") {
     for (const std::uint64_t seed : {101, 108}) {
         const RandomVolume random = random_volume(seed);
-        const RandomAccuracy one =
-            measure_random(device(), plugins(), random, 24, std::vector<Precision>{Precision::float64}, IsosurfaceMethod::companion);
+        const RandomAccuracy one = measure_random(device(), plugins(), random, 24, std::vector<Precision>{Precision::float64},
+                                                  IsosurfaceMethod::companion);
         const IsosurfaceComparison& comparison = one.comparisons[0];
         CAPTURE(seed, random.description, to_text(comparison), comparison.worst_pixel);
         CHECK(comparison.n_wrong + comparison.n_wrong_grazing + comparison.n_wrong_masks + comparison.n_other_element == 0);

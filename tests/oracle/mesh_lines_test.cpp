@@ -70,9 +70,9 @@ TEST_CASE("mesh lines are right to the pixel, on straight and curved elements, o
                         return has_quarter(low, high) || has_quarter(least, most);
                     });
                 const bool is_double = precision == Precision::float64;
-                WARN((is_curved ? "curved" : "straight") << (is_double ? ", float64" : ", float32") << ", magnified "
-                                                         << magnification << ": " << verdict.marked << " pixels, "
-                                                         << verdict.undecided << " undecided, " << verdict.wrong << " wrong");
+                WARN((is_curved ? "curved" : "straight")
+                     << (is_double ? ", float64" : ", float32") << ", magnified " << magnification << ": " << verdict.marked
+                     << " pixels, " << verdict.undecided << " undecided, " << verdict.wrong << " wrong");
                 CHECK(verdict.wrong == 0);
                 CHECK(verdict.marked + verdict.undecided >= 300);
                 if (is_double) {
@@ -99,13 +99,13 @@ TEST_CASE("mesh lines of strongly curved elements are right in pixels that are l
         request.camera.image_shift = {0.618 * shift - std::floor(0.618 * shift), 0.414 * shift - std::floor(0.414 * shift)};
         request.surfaces[0].mesh_lines.emplace();
         request.surfaces[0].subdivisions = static_cast<std::uint32_t>(shift % 3) * 3;
-        const Verdict verdict = judge(request, renderer.render(request), pixel_flag::mesh_line, pixel_flag::mesh_line_undecided,
-                                      [&](const Square& square) {
-                                          const auto [low, high] =
-                                              std::minmax({square[0][1], square[1][1], square[2][1], square[3][1]});
-                                          const auto [least, most] = bent_range(square, strong);
-                                          return (low <= 0.5L && high >= 0.5L) || (least <= 0.5L && most >= 0.5L);
-                                      });
+        const Verdict verdict =
+            judge(request, renderer.render(request), pixel_flag::mesh_line, pixel_flag::mesh_line_undecided,
+                  [&](const Square& square) {
+                      const auto [low, high] = std::minmax({square[0][1], square[1][1], square[2][1], square[3][1]});
+                      const auto [least, most] = bent_range(square, strong);
+                      return (low <= 0.5L && high >= 0.5L) || (least <= 0.5L && most >= 0.5L);
+                  });
         marked += verdict.marked;
         wrong += verdict.wrong;
         undecided += verdict.undecided;
@@ -137,9 +137,7 @@ TEST_CASE("a plane in faces shows their edges as mesh lines, and nothing else") 
     request.surfaces = {surface};
     const Frame frame = renderer.render(request);
     // Pixels are 0.012 wide; a line is one pixel wide, or two where it ends.
-    const auto meets = [](double low, double high) {
-        return std::ceil(4 * std::max(low, 0.0)) <= 4 * std::min(high, 1.0);
-    };
+    const auto meets = [](double low, double high) { return std::ceil(4 * std::max(low, 0.0)) <= 4 * std::min(high, 1.0); };
     std::size_t wrong = 0, marked = 0;
     for (std::uint32_t row = 0; row < 100; ++row) {
         for (std::uint32_t column = 0; column < 100; ++column) {
@@ -189,10 +187,10 @@ TEST_CASE("elements that touch a plane along an edge only are not asked for its 
                 }
             }
             const FrameCounts& counts = frame.counts;
-            WARN("magnified " << magnification << ": " << counts.field_evaluations << " evaluations for " << counts.refined_pixels
-                              << " pixels; contours " << counts.contour_pixels << ", " << counts.undecided_contour_pixels
-                              << " undecided; mesh lines " << counts.mesh_line_pixels << ", " << counts.undecided_mesh_line_pixels
-                              << " undecided, " << missed << " missed");
+            WARN("magnified " << magnification << ": " << counts.field_evaluations << " evaluations for "
+                              << counts.refined_pixels << " pixels; contours " << counts.contour_pixels << ", "
+                              << counts.undecided_contour_pixels << " undecided; mesh lines " << counts.mesh_line_pixels << ", "
+                              << counts.undecided_mesh_line_pixels << " undecided, " << missed << " missed");
             CHECK(missed == 0);
             CHECK(counts.mesh_line_pixels + counts.undecided_mesh_line_pixels >= 200);
             if (magnification < 1) {
@@ -206,8 +204,8 @@ TEST_CASE("elements that touch a plane along an edge only are not asked for its 
 
 TEST_CASE("the border of the volume along pixels' borders is told, or undecided, on both sides") {
     VolumeData data;
-    data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 1), cube(Shape::hexahedron, 2),
-                                      [](const Vector& x) { return x.x(); }));
+    data.classes.push_back(make_class(space_of(Shape::hexahedron, 1), space_of(Shape::hexahedron, 1),
+                                      cube(Shape::hexahedron, 2), [](const Vector& x) { return x.x(); }));
     const TemporaryFile file("border.h5");
     write_volume(file.path(), data);
     const RuntimeVolume volume = open_volume(file.path());
@@ -230,7 +228,8 @@ TEST_CASE("the border of the volume along pixels' borders is told, or undecided,
         const Frame frame = renderer.render(request);
         for (const std::uint32_t column : {last_in, last_in + 1}) {
             for (std::uint32_t row = 20; row < 44; ++row) {
-                CHECK((frame.flags[std::size_t{row} * size + column] & (pixel_flag::mesh_line | pixel_flag::mesh_line_undecided)) != 0);
+                CHECK((frame.flags[std::size_t{row} * size + column] &
+                       (pixel_flag::mesh_line | pixel_flag::mesh_line_undecided)) != 0);
             }
         }
     }

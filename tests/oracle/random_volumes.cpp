@@ -157,8 +157,10 @@ RandomVolume random_volume(std::uint64_t seed) {
     std::int64_t number = 0;
     for (const Group& group : random_mesh(random, kind)) {
         const auto order = static_cast<std::uint32_t>(field_order);
-        const native::Space geometry = space_of(group.shape, static_cast<std::uint32_t>(geometry_order)), field = space_of(group.shape, order);
-        ClassData data = make_class(geometry, space_of(group.shape, 1), compose(group.maps, bend), [](const Vector&) { return 0.0; }, number);
+        const native::Space geometry = space_of(group.shape, static_cast<std::uint32_t>(geometry_order)),
+                            field = space_of(group.shape, order);
+        ClassData data = make_class(
+            geometry, space_of(group.shape, 1), compose(group.maps, bend), [](const Vector&) { return 0.0; }, number);
         number += static_cast<std::int64_t>(group.maps.size());
         data.field = field;
         data.field_coefficients.clear();
@@ -185,7 +187,8 @@ RandomVolume random_volume(std::uint64_t seed) {
     std::sort(samples.begin(), samples.end());
     const int n_values = random.one_in(3) ? random.whole(2, 3) : 1;
     for (int k = 0; k < n_values; ++k)
-        result.values.push_back(samples[static_cast<std::size_t>(random.between(0.02, 0.98) * static_cast<double>(samples.size()))]);
+        result.values.push_back(
+            samples[static_cast<std::size_t>(random.between(0.02, 0.98) * static_cast<double>(samples.size()))]);
     std::sort(result.values.begin(), result.values.end());
     const Vector centre = 0.5 * (lower + upper);
     const double size = (upper - lower).norm();

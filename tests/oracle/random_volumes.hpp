@@ -29,8 +29,8 @@ struct RandomVolume {
 
 /**
  * The same volume for the same seed. Field orders 2 to 10; continuous fields are one polynomial in the coordinates of the mesh
- * before it is bent, discontinuous ones a polynomial for each element. The bend differs from the identity by a map whose derivative
- * is at most 0.75 in the 2-norm, so that it is one to one and keeps orientation.
+ * before it is bent, discontinuous ones a polynomial for each element. The bend differs from the identity by a map whose
+ * derivative is at most 0.75 in the 2-norm, so that it is one to one and keeps orientation.
  */
 RandomVolume random_volume(std::uint64_t seed);
 

@@ -79,7 +79,8 @@ bool may_meet(const SeenPatch& patch, const Matrix2& to_unit, double margin) {
     return lower.maxCoeff() <= margin && upper.minCoeff() >= -margin;
 }
 
-// Whether the line sees the patch edge on, thinner than `rounding`: then it runs in the face, and enters and leaves by other ones.
+// Whether the line sees the patch edge on, thinner than `rounding`: then it runs in the face, and enters and leaves by other
+// ones.
 bool is_edge_on(const SeenPatch& patch, double rounding) {
     const Vector2 first = patch.points.front().head<2>();
     Vector2 longest = Vector2::Zero();
@@ -87,12 +88,15 @@ bool is_edge_on(const SeenPatch& patch, double rounding) {
         if ((p.head<2>() - first).squaredNorm() > longest.squaredNorm())
             longest = p.head<2>() - first;
     const Vector2 across = Vector2(-longest.y(), longest.x()).normalized();
-    return std::ranges::all_of(patch.points, [&](const Vector& p) { return std::abs(across.dot(p.head<2>() - first)) <= rounding; });
+    return std::ranges::all_of(patch.points,
+                               [&](const Vector& p) { return std::abs(across.dot(p.head<2>() - first)) <= rounding; });
 }
 
 // Mean of the slopes of the control net in two directions.
 Matrix2 mean_slope(const SeenPatch& patch) {
-    const auto corner = [&](std::size_t i, std::size_t j) -> Vector2 { return patch.at(i * patch.order[0], j * patch.order[1]).head<2>(); };
+    const auto corner = [&](std::size_t i, std::size_t j) -> Vector2 {
+        return patch.at(i * patch.order[0], j * patch.order[1]).head<2>();
+    };
     Matrix2 slope;
     slope.col(0) = 0.5 * (corner(1, 0) - corner(0, 0) + corner(1, 1) - corner(0, 1));
     slope.col(1) = 0.5 * (corner(0, 1) - corner(0, 0) + corner(1, 1) - corner(1, 0));
@@ -231,9 +235,11 @@ void RayParts::cross(const Face& face, const Line& line, double scale, std::vect
         for (std::size_t j = 0; j <= patch.order[1]; ++j)
             for (std::size_t i = 0; i <= patch.order[0]; ++i) {
                 if (i > 0)
-                    extent[0] = std::max(extent[0], static_cast<double>(patch.order[0]) * (patch.at(i, j) - patch.at(i - 1, j)).norm());
+                    extent[0] =
+                        std::max(extent[0], static_cast<double>(patch.order[0]) * (patch.at(i, j) - patch.at(i - 1, j)).norm());
                 if (j > 0)
-                    extent[1] = std::max(extent[1], static_cast<double>(patch.order[1]) * (patch.at(i, j) - patch.at(i, j - 1)).norm());
+                    extent[1] =
+                        std::max(extent[1], static_cast<double>(patch.order[1]) * (patch.at(i, j) - patch.at(i, j - 1)).norm());
             }
         // The line meets a corner to which the face collapses.
         if (std::max(extent[0], extent[1]) < 1e-13 * scale) {

@@ -43,7 +43,8 @@ FinderComparison compare_finders(const Model& model, const Isosurface& isosurfac
                     const RayAnswer series = tracer.first(line);
                     ++result.n_rays;
                     result.n_hits += series.crossing.has_value();
-                    compare(series, tracer.first(line, RootFinder::samples), tracer.range(), result.n_samples_differ, result.samples_error);
+                    compare(series, tracer.first(line, RootFinder::samples), tracer.range(), result.n_samples_differ,
+                            result.samples_error);
                     compare(series, tracer.first(line, RootFinder::companion), tracer.range(), result.n_companion_differ,
                             result.companion_error);
                 }

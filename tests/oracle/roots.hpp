@@ -24,8 +24,8 @@ struct Roots {
 };
 
 /**
- * `values` are those of the function less `level` at ascending `points`. A closer look is taken at extremes that a parabola through
- * samples lets come near zero.
+ * `values` are those of the function less `level` at ascending `points`. A closer look is taken at extremes that a parabola
+ * through samples lets come near zero.
  */
 Roots find_roots(const RealFunction& function, double level, std::span<const double> points, std::span<const double> values);
 

@@ -17,7 +17,8 @@ Scalar scalar_of_field(const Volume& volume, std::int32_t component) {
         return with_differences(magnitude);
     const auto index = static_cast<std::size_t>(component);
     if (volume.transform() != native::Transform::none)
-        return with_differences([index](const Volume& v, std::size_t element, const Vector& xi) { return v.field(element, xi)[index]; });
+        return with_differences(
+            [index](const Volume& v, std::size_t element, const Vector& xi) { return v.field(element, xi)[index]; });
     return [index](const Volume& v, std::size_t element, const Vector& xi, Vector* gradient) {
         return v.component(element, xi, index, gradient);
     };

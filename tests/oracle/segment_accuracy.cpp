@@ -3,8 +3,8 @@
 #include "box_tree.hpp"
 #include "inversion.hpp"
 
-#include <core/base/bounds.hpp>
 #include <Eigen/Dense>
+#include <core/base/bounds.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -42,7 +42,8 @@ public:
                 break;
         }
         const auto faces = face_constraints(m_volume.shape(element));
-        const auto face = std::ranges::max_element(faces, {}, [&](const FaceConstraint& f) { return f.normal.dot(xi) - f.offset; });
+        const auto face =
+            std::ranges::max_element(faces, {}, [&](const FaceConstraint& f) { return f.normal.dot(xi) - f.offset; });
         crossing.t = t;
         for (int turn = 0; turn < 30; ++turn) {
             const Vector position = m_volume.position(element, xi, &jacobian);
@@ -92,7 +93,8 @@ struct Judged {
 /** For one thread. */
 class SegmentJudge {
 public:
-    explicit SegmentJudge(const Judged& judged) : m(judged), m_inverter(judged.model, judged.enclosures), m_exact(judged.model, judged.centre) {}
+    explicit SegmentJudge(const Judged& judged)
+        : m(judged), m_inverter(judged.model, judged.enclosures), m_exact(judged.model, judged.centre) {}
 
     void judge(const SegmentRay& ray, const std::vector<Segment>& list) {
         m_result.n_segments += list.size();
@@ -118,7 +120,8 @@ private:
     Vector at(const SegmentRay& ray, double t) const { return m.centre + convert(ray.origin) + t * convert(ray.direction); }
 
     void judge_ends(const SegmentRay& ray, const Segment& segment) {
-        const std::vector<Solution> inside = m_inverter.find(segment.element, at(ray, 0.5 * (segment.enter + segment.leave)), 1e-6);
+        const std::vector<Solution> inside =
+            m_inverter.find(segment.element, at(ray, 0.5 * (segment.enter + segment.leave)), 1e-6);
         // A segment of rounding length has no middle to speak of.
         if (inside.empty()) {
             m_result.n_unsolved += segment.leave - segment.enter > 10 * m.promise + 2 * segment.error;
@@ -167,9 +170,9 @@ private:
 } // namespace
 
 SegmentAccuracy& SegmentAccuracy::operator+=(const SegmentAccuracy& other) {
-    for (const auto member : {&SegmentAccuracy::n_rays, &SegmentAccuracy::n_segments, &SegmentAccuracy::n_joints, &SegmentAccuracy::n_beyond,
-                              &SegmentAccuracy::n_almost_joined, &SegmentAccuracy::n_points, &SegmentAccuracy::n_missed,
-                              &SegmentAccuracy::n_invented, &SegmentAccuracy::n_unsolved})
+    for (const auto member : {&SegmentAccuracy::n_rays, &SegmentAccuracy::n_segments, &SegmentAccuracy::n_joints,
+                              &SegmentAccuracy::n_beyond, &SegmentAccuracy::n_almost_joined, &SegmentAccuracy::n_points,
+                              &SegmentAccuracy::n_missed, &SegmentAccuracy::n_invented, &SegmentAccuracy::n_unsolved})
         this->*member += other.*member;
     for (const auto member : {&SegmentAccuracy::end_error, &SegmentAccuracy::chord_error})
         this->*member = std::max(this->*member, other.*member);
@@ -178,10 +181,15 @@ SegmentAccuracy& SegmentAccuracy::operator+=(const SegmentAccuracy& other) {
 
 struct SegmentMeasure::State {
     State(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision)
-        : data(device, volume, precision, nullptr), pass(device, volume, selected(data, volume)), enclosures(make_enclosures(model)),
-          tree(enclosures), judged{model, enclosures, tree, convert(Vector3(data.centre())), diagonal_of(data.bounds()),
-                                  (precision == Precision::float64 ? 1e-13 : 1e-6) * diagonal_of(data.bounds()),
-                                  precision == Precision::float64},
+        : data(device, volume, precision, nullptr), pass(device, volume, selected(data, volume)),
+          enclosures(make_enclosures(model)),
+          tree(enclosures), judged{model,
+                                   enclosures,
+                                   tree,
+                                   convert(Vector3(data.centre())),
+                                   diagonal_of(data.bounds()),
+                                   (precision == Precision::float64 ? 1e-13 : 1e-6) * diagonal_of(data.bounds()),
+                                   precision == Precision::float64},
           judges(std::max(1u, std::thread::hardware_concurrency()), SegmentJudge(judged)) {}
 
     static DeviceVolume& selected(DeviceVolume& data, const RuntimeVolume& volume) {

@@ -18,9 +18,11 @@ namespace elvis::oracle {
 
 struct SegmentAccuracy {
     std::size_t n_rays = 0, n_segments = 0, n_joints = 0;
-    /** Largest distance of an end from the element's boundary, and largest error of an end's parameter times max(|n.d|, 1e-3). */
+    /** Largest distance of an end from the element's boundary, and largest error of an end's parameter times max(|n.d|, 1e-3).
+     */
     double end_error = 0, chord_error = 0;
-    /** Ends beyond the promise: 1e-6 of the box in single, 1e-13 in double precision; not counting those of estimated segments. */
+    /** Ends beyond the promise: 1e-6 of the box in single, 1e-13 in double precision; not counting those of estimated segments.
+     */
     std::size_t n_beyond = 0;
     /** Consecutive segments that almost share a parameter, but not exactly. */
     std::size_t n_almost_joined = 0;

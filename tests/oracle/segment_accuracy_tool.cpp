@@ -27,7 +27,8 @@ bool measure(const Device& device, const std::string& name, const std::string& p
                     count(r.counts.overlaps), count(r.counts.failures), count(r.counts.estimated), count(r.counts.undecided),
                     static_cast<double>(r.counts.evaluations) / static_cast<double>(r.n_segments));
         std::fflush(stdout);
-        // What undecided rays miss is excused, so they must be few: 50 and 2 of 91,000 are the most that were seen, in a torus of tetrahedra.
+        // What undecided rays miss is excused, so they must be few: 50 and 2 of 91,000 are the most that were seen, in a torus
+        // of tetrahedra.
         const std::size_t most_undecided = n_rays / (is_single ? 1000 : 10000);
         is_good = is_good && r.n_beyond == 0 && r.n_missed == 0 && r.n_invented == 0 && r.counts.undecided <= most_undecided;
     }
@@ -53,7 +54,8 @@ int run(const std::vector<std::string>& meshes, const std::vector<std::string>& 
         const TemporaryFile file("converted.h5");
         if (!input.ends_with(".h5"))
             convert_file(input, file.path());
-        is_good = measure(device, std::filesystem::path(input).stem(), input.ends_with(".h5") ? input : file.path(), n_rays) && is_good;
+        is_good = measure(device, std::filesystem::path(input).stem(), input.ends_with(".h5") ? input : file.path(), n_rays) &&
+                  is_good;
     }
     return is_good ? 0 : 1;
 }

@@ -1,4 +1,5 @@
-// Segments of rays against the elements themselves, and where they come from: shells with gaps, overlaps, elements turned inside out.
+// Segments of rays against the elements themselves, and where they come from: shells with gaps, overlaps, elements turned
+// inside out.
 #include "meshes.hpp"
 #include "segment_accuracy.hpp"
 #include "test_files.hpp"
@@ -33,7 +34,8 @@ void check(const std::string& path, Precision precision, std::size_t n_rays) {
 }
 
 // The segments of rays along x at (y, z), relative to the world's origin.
-std::vector<Segment> along_x(const VolumeData& data, double y, double z, SegmentCounts& counts, Precision precision = Precision::float64) {
+std::vector<Segment> along_x(const VolumeData& data, double y, double z, SegmentCounts& counts,
+                             Precision precision = Precision::float64) {
     const TemporaryFile file("segments.h5");
     write_volume(file.path(), data);
     const RuntimeVolume volume = open_volume(file.path());
@@ -51,20 +53,22 @@ std::vector<Segment> along_x(const VolumeData& data, double y, double z, Segment
 
 VolumeData hexahedra(const std::vector<Map>& maps, std::uint32_t order = 1) {
     VolumeData data;
-    data.classes.push_back(make_class(space_of(Shape::hexahedron, order), space_of(Shape::hexahedron, 1), maps, first_coordinate));
+    data.classes.push_back(
+        make_class(space_of(Shape::hexahedron, order), space_of(Shape::hexahedron, 1), maps, first_coordinate));
     return data;
 }
 
 Map box(const Vector& lower, const Vector& upper) { return boxes(lower, upper, {1, 1, 1}).front(); }
 
 TEST_CASE("ends of segments lie on the elements' boundaries, and nothing is missed", "[segments]") {
-    const auto [mesh, shape] = GENERATE(table<std::string, std::string>({{"waves", "hexahedron"},
-                                                                        {"ball", "hexahedron"},
-                                                                        {"ball", "tetrahedron"},
-                                                                        {"torus", "prism"},
-                                                                        // So curved that a point outside of an element may be taken for the ray's.
-                                                                        {"torus", "pyramid"},
-                                                                        {"torus", "tetrahedron"}}));
+    const auto [mesh, shape] =
+        GENERATE(table<std::string, std::string>({{"waves", "hexahedron"},
+                                                  {"ball", "hexahedron"},
+                                                  {"ball", "tetrahedron"},
+                                                  {"torus", "prism"},
+                                                  // So curved that a point outside of an element may be taken for the ray's.
+                                                  {"torus", "pyramid"},
+                                                  {"torus", "tetrahedron"}}));
     const TemporaryFile file("mesh.h5");
     generate(R"({"generator": 1, "mesh": ")" + mesh + R"(", "shape": ")" + shape +
                  R"(", "elements": [4, 4, 12], "geometry_order": 2, "order": 1, "field": "waves"})",
@@ -75,9 +79,10 @@ TEST_CASE("ends of segments lie on the elements' boundaries, and nothing is miss
 // Of a torus of tetrahedra, relative to its middle: origin and direction.
 SegmentAccuracy of_rays(std::vector<SegmentRay> rays, Precision precision) {
     const TemporaryFile file("torus.h5");
-    generate(R"({"generator": 1, "mesh": "torus", "shape": "tetrahedron", "elements": [4, 4, 12], "geometry_order": 2, "order": 1,)"
-             R"( "field": "waves"})",
-             file.path());
+    generate(
+        R"({"generator": 1, "mesh": "torus", "shape": "tetrahedron", "elements": [4, 4, 12], "geometry_order": 2, "order": 1,)"
+        R"( "field": "waves"})",
+        file.path());
     for (SegmentRay& ray : rays) {
         for (std::size_t i = 0; i < 3 && precision == Precision::float32; ++i) {
             ray.origin[i] = static_cast<float>(ray.origin[i]);
@@ -167,11 +172,12 @@ TEST_CASE("ends that rounding has blurred are marked as estimates", "[segments]"
 
 TEST_CASE("ends of many segments are exact in single precision, and few are estimates", "[segments]") {
     const TemporaryFile file("torus.h5");
-    generate(R"({"generator": 1, "mesh": "torus", "shape": "hexahedron", "elements": [4, 4, 12], "geometry_order": 2, "order": 1,)"
-             R"( "field": "waves"})",
-             file.path());
-    const SegmentAccuracy r =
-        measure_segments(device(), open_volume(file.path()), Volume(read_volume(file.path())), Precision::float32, 10'000, 0, 7);
+    generate(
+        R"({"generator": 1, "mesh": "torus", "shape": "hexahedron", "elements": [4, 4, 12], "geometry_order": 2, "order": 1,)"
+        R"( "field": "waves"})",
+        file.path());
+    const SegmentAccuracy r = measure_segments(device(), open_volume(file.path()), Volume(read_volume(file.path())),
+                                               Precision::float32, 10'000, 0, 7);
     CHECK(r.chord_error < 1e-6);
     CHECK(r.n_beyond == 0);
     CHECK(r.counts.estimated < r.n_segments / 1000);
@@ -187,8 +193,8 @@ TEST_CASE("segments of neighbours that do not know each other share their ends",
     // Enough rays that some are said to be outside of an element too long.
     const TemporaryFile file("mixed.h5");
     write_volume(file.path(), mixed_volume(4, 1, first_coordinate));
-    const SegmentAccuracy r =
-        measure_segments(device(), open_volume(file.path()), Volume(read_volume(file.path())), Precision::float32, 10'000, 0, 1);
+    const SegmentAccuracy r = measure_segments(device(), open_volume(file.path()), Volume(read_volume(file.path())),
+                                               Precision::float32, 10'000, 0, 1);
     CHECK(r.n_joints > r.n_segments * 4 / 5);
     CHECK(r.n_almost_joined == 0);
     CHECK(r.n_beyond == 0);
@@ -209,8 +215,8 @@ TEST_CASE("gaps stay, and shared ends are equal", "[segments]") {
 
 TEST_CASE("the element that is entered first owns the ray to its exit", "[segments]") {
     SegmentCounts counts;
-    const auto list = along_x(hexahedra({box({0.5, 0, 0}, {2, 1, 1}), box({0, 0, 0}, {1, 1, 1}), box({0.2, 0, 0}, {0.7, 1, 1})}), 0.3, 0.4,
-                              counts);
+    const auto list = along_x(
+        hexahedra({box({0.5, 0, 0}, {2, 1, 1}), box({0, 0, 0}, {1, 1, 1}), box({0.2, 0, 0}, {0.7, 1, 1})}), 0.3, 0.4, counts);
     REQUIRE(list.size() == 2);
     CHECK(list[0].element == 1);
     CHECK(list[1].element == 0);

@@ -213,8 +213,8 @@ std::string to_text(const SurfaceComparison& comparison) {
     return text.str();
 }
 
-void check_no_gaps(const std::string& volume, const CutShape& shape, const Eigen::AngleAxisd& turn, std::uint32_t side, double height,
-                   const std::string& what) {
+void check_no_gaps(const std::string& volume, const CutShape& shape, const Eigen::AngleAxisd& turn, std::uint32_t side,
+                   double height, const std::string& what) {
     Camera camera;
     const Vector middle(0.65, 0, 0), eye = middle + turn * Vector(4, 0, 0), up = turn * Vector(0, 0, 1);
     camera.eye = {eye.x(), eye.y(), eye.z()};
@@ -231,8 +231,8 @@ void check_no_gaps(const std::string& volume, const CutShape& shape, const Eigen
             missed += picture.element[pixel] < 0 ? 1 : 0;
             undecided += (picture.flags[pixel] & pixel_flag::undecided) != 0 ? 1 : 0;
         }
-        WARN("tilt " << turn.angle() << (precision == Precision::float32 ? ", float32: " : ", float64: ") << picture.element.size()
-                     << ' ' << what << ", " << missed << " missed, " << undecided << " undecided");
+        WARN("tilt " << turn.angle() << (precision == Precision::float32 ? ", float32: " : ", float64: ")
+                     << picture.element.size() << ' ' << what << ", " << missed << " missed, " << undecided << " undecided");
         CHECK(missed == 0);
         CHECK(undecided == 0);
     }

@@ -90,8 +90,8 @@ std::string to_text(const SurfaceComparison& comparison);
  * Draws a sheet that covers the picture, parallel rays along the turned x axis to (0.65, 0, 0), in both precisions: no pixel is
  * missed or undecided. `height`: of the picture; `what`: for the message.
  */
-void check_no_gaps(const std::string& volume, const CutShape& shape, const Eigen::AngleAxisd& turn, std::uint32_t side, double height,
-                   const std::string& what);
+void check_no_gaps(const std::string& volume, const CutShape& shape, const Eigen::AngleAxisd& turn, std::uint32_t side,
+                   double height, const std::string& what);
 
 Camera camera_at(const Vector3& eye, double field_of_view = 40, const Vector3& look_at = {});
 

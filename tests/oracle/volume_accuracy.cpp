@@ -157,7 +157,8 @@ VolumeComparison compare(const Model& model, const VolumeOptics& optics, const C
         std::copy_n(frame.color.begin() + static_cast<std::ptrdiff_t>(4 * pixel), 4, drawn.begin());
         std::size_t channel = 0;
         const double error = largest_difference(right, drawn, &channel);
-        const bool is_flagged = (frame.flags[pixel] & (pixel_flag::volume_tolerance | pixel_flag::undecided | pixel_flag::work_limit | pixel_flag::newton_failure)) != 0;
+        const bool is_flagged = (frame.flags[pixel] & (pixel_flag::volume_tolerance | pixel_flag::undecided |
+                                                       pixel_flag::work_limit | pixel_flag::newton_failure)) != 0;
         const bool is_above = !(error <= tolerance);
         bool is_rounding = false;
         if (is_above && !is_flagged) {

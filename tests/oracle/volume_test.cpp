@@ -99,8 +99,8 @@ TEST_CASE("a constant density lets through what its length says, whatever the el
                 n_off += std::abs(frame.color[4 * pixel] - expected[0]) > 1e-6;
             }
             const bool is_single = precision == Precision::float32;
-            WARN(shape << (is_single ? ", float32: " : ", float64: ") << error << ", " << n_off << " of " << frame.counts.volume_pixels
-                       << " pixels beyond 1e-6, " << n_estimated << " estimated");
+            WARN(shape << (is_single ? ", float32: " : ", float64: ") << error << ", " << n_off << " of "
+                       << frame.counts.volume_pixels << " pixels beyond 1e-6, " << n_estimated << " estimated");
             CHECK(frame.counts.volume_pixels > 1000);
             CHECK(error <= (is_single ? 2e-5 : 1e-12));
             // Single precision loses parts of rays that are shorter than what rounding makes of them, at edges.
@@ -125,8 +125,8 @@ TEST_CASE("cutting a box in a thousand loses nothing and counts nothing twice") 
         for (std::size_t i = 0; i < a.color.size(); ++i) {
             largest = std::max(largest, std::abs(a.color[i] - b.color[i]));
         }
-        WARN((precision == Precision::float32 ? "float32: " : "float64: ") << largest << ", " << a.counts.volume_segments << " and "
-                                                                           << b.counts.volume_segments << " segments");
+        WARN((precision == Precision::float32 ? "float32: " : "float64: ")
+             << largest << ", " << a.counts.volume_segments << " and " << b.counts.volume_segments << " segments");
         CHECK(a.counts.volume_pixels > 1000);
         CHECK(largest <= 1e-5);
     }
@@ -227,7 +227,8 @@ TEST_CASE("a volume goes between surfaces, and what is passed over changes nothi
         for (std::size_t pixel = 0; pixel < frame.counts.pixels; ++pixel) {
             n_off += std::isnan(frame.color[4 * pixel]);
         }
-        WARN((precision == Precision::float32 ? "float32: " : "float64: ") << error << ", " << frame.counts.volume_pixels << " pixels");
+        WARN((precision == Precision::float32 ? "float32: " : "float64: ")
+             << error << ", " << frame.counts.volume_pixels << " pixels");
         CHECK(error <= (precision == Precision::float32 ? 1e-5 : 1e-12));
         CHECK(n_off == 0);
     }
@@ -276,8 +277,9 @@ TEST_CASE("expressions have volumes, and the eye may be in one") {
                     const double middle = ray.origin[2] + (from + 0.5 * length) * ray.direction[2];
                     return over({1, 1, 1}, std::exp(-0.1 * (middle + 2) * length), request.background);
                 });
-                WARN((is_inside ? "inside, " : "outside, ") << (is_parallel ? "parallel, " : "perspective, ")
-                                                            << (precision == Precision::float32 ? "float32: " : "float64: ") << error);
+                WARN((is_inside ? "inside, " : "outside, ")
+                     << (is_parallel ? "parallel, " : "perspective, ")
+                     << (precision == Precision::float32 ? "float32: " : "float64: ") << error);
                 CHECK(frame.counts.volume_pixels > 1000);
                 CHECK(error <= (precision == Precision::float32 ? 1e-5 : 1e-12));
             }

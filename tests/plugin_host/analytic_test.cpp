@@ -88,7 +88,8 @@ TEST_CASE("a bad analytic file is refused with its line") {
     CHECK_THAT(error_for("field u\n"), Contains("line 2: the number of components"));
     CHECK_THAT(error_for("field u 0\n"), Contains("line 2") && Contains("1 to 16"));
     CHECK_THAT(error_for("field u 1\nterm 0 sine 1 2 3\n"), Contains("line 3: parameter of the term is missing"));
-    CHECK_THAT(error_for("field u 1\nterm 1 sine 1 2 3 4 5\n"), Contains("line 3: the component must be from 0 to 0, and is 1"));
+    CHECK_THAT(error_for("field u 1\nterm 1 sine 1 2 3 4 5\n"),
+               Contains("line 3: the component must be from 0 to 0, and is 1"));
     CHECK_THAT(error_for("field u 1\nterm 0 tan 1\n"), Contains("line 3: unknown term 'tan'"));
     CHECK_THAT(error_for("field u 1\nterm 0 gaussian 1 0 0 0 0\n"), Contains("line 3: the width"));
     CHECK_THAT(error_for("term 0 sine 1 2 3 4 5\n"), Contains("line 2: a term before any field"));

@@ -26,7 +26,8 @@ inline std::string trouble(const std::string& name) { return "{\"trouble\": \"" 
 class BlamesPlugin : public Catch::MatcherBase<std::string> {
 public:
     /** `beginning`: "FILE: plugin ID". */
-    BlamesPlugin(std::string beginning, std::string function) : m_beginning(std::move(beginning)), m_function(std::move(function)) {}
+    BlamesPlugin(std::string beginning, std::string function)
+        : m_beginning(std::move(beginning)), m_function(std::move(function)) {}
     bool match(const std::string& text) const override {
         return text.find(m_beginning + " is at fault: " + m_function + " returned ") == 0;
     }

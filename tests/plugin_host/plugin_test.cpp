@@ -52,7 +52,8 @@ TEST_CASE("a library that is no plugin is refused with the reason") {
     CHECK_THAT(refusal("no_symbol"), Contains("does not export elvis_plugin_get_descriptor"));
     CHECK_THAT(refusal("null_descriptor"), Contains("cannot work on this machine"));
     CHECK_THAT(refusal("tiny_descriptor"), Contains("impossible size"));
-    CHECK_THAT(refusal("other_major"), Contains("version " + std::to_string(ELVIS_ABI_VERSION_MAJOR + 1) + ".0") && Contains("a later ElVis"));
+    CHECK_THAT(refusal("other_major"),
+               Contains("version " + std::to_string(ELVIS_ABI_VERSION_MAJOR + 1) + ".0") && Contains("a later ElVis"));
     CHECK_THAT(refusal("draft"), Contains("version 0.9") && Contains("compiled with the headers"));
     CHECK_THAT(refusal("no_name"), Contains("no name"));
     CHECK_THAT(refusal("bad_id"), Contains("My Plugin") && Contains("reverse-domain"));

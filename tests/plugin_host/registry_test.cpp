@@ -66,8 +66,8 @@ TEST_CASE("good plugins are found beside misbehaving ones, and each refusal has 
         ids.push_back(plugin->id());
     }
     CHECK(ids == std::vector<std::string>{"org.elvis.test.good", "org.elvis.test.newer-minor", "org.elvis.test.sampled",
-                                          "org.elvis.test.shorter-table", "org.elvis.test.troubled", "org.elvis.test.troubled-source",
-                                          "org.elvis.test.world-source"});
+                                          "org.elvis.test.shorter-table", "org.elvis.test.troubled",
+                                          "org.elvis.test.troubled-source", "org.elvis.test.world-source"});
     for (const char* name : {"bad_id", "draft", "no_function", "no_interface", "no_name", "no_symbol", "not_a_library",
                              "null_descriptor", "other_major", "tiny_descriptor", "good_again"}) {
         INFO(name);

@@ -108,7 +108,8 @@ TEST_CASE("what a later version may leave out is passed over, what it needs is r
     CHECK(open("later-ability").snippet(0).prefix == "cube");
     CHECK_THAT(error_of([] { (void)open("later-need").snippet(0); }),
                Contains("a.cube: plugin org.elvis.test.troubled needs a later version of ElVis") && Contains("0x20000"));
-    CHECK_THAT(error_of([] { (void)open("later-dependence").buffer(0, 0); }), Contains("a later version") && Contains("'scale'") && Contains("0x40"));
+    CHECK_THAT(error_of([] { (void)open("later-dependence").buffer(0, 0); }),
+               Contains("a later version") && Contains("'scale'") && Contains("0x40"));
 }
 
 TEST_CASE("bounds, ranges, numbers and faces out of range are refused") {

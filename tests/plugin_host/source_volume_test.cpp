@@ -23,7 +23,9 @@ std::string open_error(const std::string& name) {
     return error_of([&] { open(name); });
 }
 
-test::BlamesPlugin blames(const std::string& function) { return {"geometry.dat: plugin org.elvis.test.troubled-source", function}; }
+test::BlamesPlugin blames(const std::string& function) {
+    return {"geometry.dat: plugin org.elvis.test.troubled-source", function};
+}
 
 } // namespace
 

@@ -33,7 +33,9 @@ Scene scene_of(const std::string& animation) {
 } // namespace
 
 TEST_CASE("Time steps are all, or from one to another") {
-    const auto steps = [](const std::string& text, std::size_t n) { return steps_of(parse_time_steps(text).value(), n, "file"); };
+    const auto steps = [](const std::string& text, std::size_t n) {
+        return steps_of(parse_time_steps(text).value(), n, "file");
+    };
     CHECK(steps("all", 3) == std::vector<std::uint32_t>{0, 1, 2});
     CHECK(steps("1:3", 5) == std::vector<std::uint32_t>{1, 2, 3});
     CHECK(steps("0:9:4", 10) == std::vector<std::uint32_t>{0, 4, 8});
@@ -118,7 +120,8 @@ TEST_CASE("Steps and path are spread over the same pictures") {
 }
 
 TEST_CASE("A scene's animation is read, and what is wrong in it is named") {
-    const Scene scene = scene_of(R"({"time_steps": "0:4:2", "turntable": {"frames": 12, "axis": [0, 1, 0], "degrees": -90}, "frames_a_second": 12.5})");
+    const Scene scene = scene_of(
+        R"({"time_steps": "0:4:2", "turntable": {"frames": 12, "axis": [0, 1, 0], "degrees": -90}, "frames_a_second": 12.5})");
     REQUIRE(scene.animation);
     CHECK(scene.animation->time_steps->stride == 2);
     CHECK(scene.animation->turntable->n_frames == 12);
@@ -129,7 +132,8 @@ TEST_CASE("A scene's animation is read, and what is wrong in it is named") {
     CHECK_THROWS_WITH(scene_of(R"({"time_steps": "some"})"), Contains("animation") && Contains("FIRST:LAST"));
     CHECK_THROWS_WITH(scene_of(R"({"turntable": {"frames": 0}})"), Contains("at least 1"));
     CHECK_THROWS_WITH(scene_of(R"({"turntable": {"frames": 3, "axis": [0, 0, 0]}})"), Contains("length zero"));
-    CHECK_THROWS_WITH(scene_of(R"({"turntable": {"frames": 3}, "key_frames": [{"frame": 0}, {"frame": 1}]})"), Contains("two paths"));
+    CHECK_THROWS_WITH(scene_of(R"({"turntable": {"frames": 3}, "key_frames": [{"frame": 0}, {"frame": 1}]})"),
+                      Contains("two paths"));
     CHECK_THROWS_WITH(scene_of(R"({"key_frames": [{"frame": 1}, {"frame": 2}]})"), Contains("ascending from 0"));
     CHECK_THROWS_WITH(scene_of(R"({"key_frame": []})"), Contains("key_frames"));
 }

@@ -135,7 +135,8 @@ TEST_CASE("Tables of every map are within their tolerance on a logarithmic scale
 
 TEST_CASE("Counted contours divide a logarithmic range by ratios") {
     Stage stage;
-    const FrameRequest request = stage.request(scene("bump", ramp + R"(, "range": [1e-4, 1])") + R"(, "contours": {"count": 3})");
+    const FrameRequest request =
+        stage.request(scene("bump", ramp + R"(, "range": [1e-4, 1])") + R"(, "contours": {"count": 3})");
     const std::vector<double>& values = request.surfaces[0].contours->values;
     REQUIRE(values.size() == 3);
     CHECK(values[0] == Approx(1e-3));
@@ -157,7 +158,9 @@ TEST_CASE("A volume on a logarithmic scale has the scale's colours, density and 
         CHECK(interpolated(transfer.color, value, [](const auto& point) { return point.rgb[1]; }) == Approx(t).margin(1.1e-4));
     }
     const auto blue = [&](double value) { return interpolated(transfer.color, value, [](const auto& p) { return p.rgb[2]; }); };
-    const auto green = [&](double value) { return interpolated(transfer.color, value, [](const auto& p) { return p.rgb[1]; }); };
+    const auto green = [&](double value) {
+        return interpolated(transfer.color, value, [](const auto& p) { return p.rgb[1]; });
+    };
     CHECK((blue(5e-5) == 1 && green(5e-5) == 0));
     CHECK((blue(-1) == 0 && green(-1) == 1));
     Frame frame;

@@ -197,5 +197,6 @@ TEST_CASE("A scene that is written elsewhere speaks of the same files") {
 }
 
 TEST_CASE("A scene that cannot be written is an error that names the file") {
-    CHECK_THROWS_WITH(write_scene(Scene{}, "/no/such/folder/scene.json"), Catch::Matchers::Contains("/no/such/folder/scene.json"));
+    CHECK_THROWS_WITH(write_scene(Scene{}, "/no/such/folder/scene.json"),
+                      Catch::Matchers::Contains("/no/such/folder/scene.json"));
 }

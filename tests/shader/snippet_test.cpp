@@ -143,7 +143,8 @@ TEST_CASE("A snippet's debug build compiles without a device") {
 TEST_CASE("A snippet can ask for the version of the interface") {
     KernelRequest request = request_without_device("version");
     std::string& text = request.instances[0].snippet.sources[0].text;
-    const std::string version = std::to_string(ELVIS_ABI_VERSION_MAJOR) + " * 65536 + " + std::to_string(ELVIS_ABI_VERSION_MINOR);
+    const std::string version =
+        std::to_string(ELVIS_ABI_VERSION_MAJOR) + " * 65536 + " + std::to_string(ELVIS_ABI_VERSION_MINOR);
     const std::string plain = text;
     text = "#if ELVIS_GLSL_VERSION < " + version + "\n#error too old\n#endif\n" + plain;
     CHECK_FALSE(compile_shader(compose_text(request), request.name).empty());

@@ -169,7 +169,8 @@ TEST_CASE("A dispatch costs little beside its work") {
 
 namespace {
 
-// Each invocation adds up many numbers, more where its work group's place says so, and writes the place; counts[0] is how many did.
+// Each invocation adds up many numbers, more where its work group's place says so, and writes the place; counts[0] is how many
+// did.
 constexpr const char* slow_places = R"(#version 460
 layout(local_size_x = 8) in;
 layout(std430, binding = 0) buffer result_block { uint result[]; };
@@ -209,7 +210,8 @@ TEST_CASE("A dispatch in parts runs every work group once, whatever their number
     DeviceOptions options;
     options.validation = true;
     const Device device(options);
-    for (const std::array<std::uint32_t, 3>& groups : {std::array<std::uint32_t, 3>{5000, 1, 1}, {3, 700, 2}, {130, 40, 1}, {1, 1, 900}}) {
+    for (const std::array<std::uint32_t, 3>& groups :
+         {std::array<std::uint32_t, 3>{5000, 1, 1}, {3, 700, 2}, {130, 40, 1}, {1, 1, 900}}) {
         const SlowPlaces test(device, groups);
         for (int round = 0; round < 3; ++round) {
             test.run(20000);

@@ -33,8 +33,7 @@ public:
     explicit Application(const Options& options)
         : m_options(options), m_settings(read_settings(settings_file())),
           m_window(with_options(m_settings, options), options.device, options.validation),
-          m_bench(std::make_unique<Session>(options.device, options.validation)),
-          m_ui{m_bench, m_settings, m_window.scale()} {
+          m_bench(std::make_unique<Session>(options.device, options.validation)), m_ui{m_bench, m_settings, m_window.scale()} {
         m_bench.on_file = [this](const std::string& path) {
             m_settings.add_recent(path);
             write_settings(m_settings, settings_file());
@@ -85,9 +84,7 @@ private:
         return m_bench.is_drawing() ? std::clamp(m_panel_seconds / share, frame_seconds, longest) : frame_seconds;
     }
 
-    bool is_moving() {
-        return m_view.is_moving() || m_ui.is_playing || m_ui.is_dragging || m_bench.model().is_in_gesture();
-    }
+    bool is_moving() { return m_view.is_moving() || m_ui.is_playing || m_ui.is_dragging || m_bench.model().is_in_gesture(); }
 
     /** For this start only. */
     static Settings with_options(Settings settings, const Options& options) {
@@ -124,8 +121,8 @@ private:
     }
 
     /** A panel at a side whose width the user can change. */
-    template <class Content> void side_panel(const char* name, float x, float y, float& width, float height, bool is_right,
-                                             const Content& content) {
+    template <class Content>
+    void side_panel(const char* name, float x, float y, float& width, float height, bool is_right, const Content& content) {
         const float scale = m_ui.scale;
         const float shown = width * scale;
         ImGui::SetNextWindowPos(ImVec2(is_right ? x - shown : x, y));

@@ -135,11 +135,13 @@ Camera with_projection(const Camera& camera, bool orthographic) {
 }
 
 const std::vector<StandardView>& standard_views() {
-    static const std::vector<StandardView> views = {
-        {"+x", {1, 0, 0}, {0, 0, 1}},  {"-x", {-1, 0, 0}, {0, 0, 1}},
-        {"+y", {0, 1, 0}, {0, 0, 1}},  {"-y", {0, -1, 0}, {0, 0, 1}},
-        {"+z", {0, 0, 1}, {0, 1, 0}},  {"-z", {0, 0, -1}, {0, 1, 0}},
-        {"corner", unit({0.55, 0.45, 0.7}), {0, 1, 0}}};
+    static const std::vector<StandardView> views = {{"+x", {1, 0, 0}, {0, 0, 1}},
+                                                    {"-x", {-1, 0, 0}, {0, 0, 1}},
+                                                    {"+y", {0, 1, 0}, {0, 0, 1}},
+                                                    {"-y", {0, -1, 0}, {0, 0, 1}},
+                                                    {"+z", {0, 0, 1}, {0, 1, 0}},
+                                                    {"-z", {0, 0, -1}, {0, 1, 0}},
+                                                    {"corner", unit({0.55, 0.45, 0.7}), {0, 1, 0}}};
     return views;
 }
 

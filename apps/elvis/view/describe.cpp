@@ -54,8 +54,11 @@ std::string description(Ui& ui) {
     // At rest: else it would change all the time.
     if (bench.is_settled()) {
         const DeviceUse use = bench.device_use();
-        json["memory"] = {{"resident", resident_bytes()}, {"heap", heap_bytes()},     {"device", use.bytes},
-                          {"buffers", use.n_buffers},     {"kernels", use.n_kernels}};
+        json["memory"] = {{"resident", resident_bytes()},
+                          {"heap", heap_bytes()},
+                          {"device", use.bytes},
+                          {"buffers", use.n_buffers},
+                          {"kernels", use.n_kernels}};
     }
     json["foreign_file"] = bench.foreign_file.value_or("");
     json["dialog"] = static_cast<int>(ui.dialog);

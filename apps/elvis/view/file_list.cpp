@@ -18,8 +18,8 @@ std::vector<FolderEntry> list_folder(const std::filesystem::path& folder, const 
     std::vector<FolderEntry> entries;
     const std::string wanted = lower_case(filter);
     std::error_code error;
-    for (auto entry = std::filesystem::directory_iterator(folder, error); !error && entry != std::filesystem::directory_iterator();
-         entry.increment(error)) {
+    for (auto entry = std::filesystem::directory_iterator(folder, error);
+         !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
         FolderEntry found;
         found.name = entry->path().filename().string();
         std::error_code no_status;

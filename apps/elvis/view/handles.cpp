@@ -57,9 +57,10 @@ std::vector<Handle> handles_of_shape(const CutShape& shape) {
     }
     if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
         const Vector3 out = across(minus(cylinder->to, cylinder->from));
-        return {{Handle::Kind::free, cylinder->from, {}, std::nullopt, "Drag: move this end", "from"},
-                {Handle::Kind::free, cylinder->to, {}, cylinder->from, "Drag: move this end", "to"},
-                {Handle::Kind::along, plus(cylinder->from, scaled(out, cylinder->radius)), out, cylinder->from, grow, "radius"}};
+        return {
+            {Handle::Kind::free, cylinder->from, {}, std::nullopt, "Drag: move this end", "from"},
+            {Handle::Kind::free, cylinder->to, {}, cylinder->from, "Drag: move this end", "to"},
+            {Handle::Kind::along, plus(cylinder->from, scaled(out, cylinder->radius)), out, cylinder->from, grow, "radius"}};
     }
     if (const auto* cone = std::get_if<Cone>(&shape)) {
         return {{Handle::Kind::free, cone->from, {}, std::nullopt, "Drag: move this end", "from"},
@@ -119,12 +120,12 @@ std::vector<Handle> handles_of(const Scene& scene, const ItemId& item, const Vol
 }
 
 Vector3 dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
-                  const PicturePoint& to) {
+                   const PicturePoint& to) {
     if (handle.kind == Handle::Kind::free) {
         const double pixel = pixel_length(camera, size, handle.position);
         const ViewAxes axes = axes_of(camera);
-        return plus(handle.position, plus(scaled(axes.right, (to[0] - from[0]) * pixel),
-                                          scaled(axes.top, -(to[1] - from[1]) * pixel)));
+        return plus(handle.position,
+                    plus(scaled(axes.right, (to[0] - from[0]) * pixel), scaled(axes.top, -(to[1] - from[1]) * pixel)));
     }
     // The point of the line that is nearest to the ray, before and after.
     const auto along = [&](const PicturePoint& place) {

@@ -34,7 +34,7 @@ std::vector<Handle> handles_of(const Scene& scene, const ItemId& item, const Vol
 
 /** Where a handle goes that is dragged from one place of the picture to another. */
 Vector3 dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
-                  const PicturePoint& to);
+                   const PicturePoint& to);
 
 /** The scene after the handle of that number has been moved to a position. */
 Scene with_moved_handle(const Scene& scene, const ItemId& item, const VolumeFacts& volume, std::size_t handle,

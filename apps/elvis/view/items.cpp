@@ -12,17 +12,16 @@ namespace elvis::view {
 
 namespace {
 
-template <class... Functions> struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
+template <class... Functions> struct Overloaded : Functions... { using Functions::operator()...; };
 template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions...>;
 
 std::string shape_text(const CutShape& shape) {
-    return std::visit(Overloaded{[](const Sphere&) { return "sphere"; }, [](const Cylinder&) { return "cylinder"; },
-                                 [](const Cone&) { return "cone"; }, [](const Quadric&) { return "quadric"; },
-                                 [](const Torus&) { return "torus"; }, [](const ImplicitSurface&) { return "implicit surface"; },
-                                 [](const MeshSurface&) { return "mesh"; }, [](const BezierSurface&) { return "Bezier patches"; }},
-                      shape);
+    return std::visit(
+        Overloaded{[](const Sphere&) { return "sphere"; }, [](const Cylinder&) { return "cylinder"; },
+                   [](const Cone&) { return "cone"; }, [](const Quadric&) { return "quadric"; },
+                   [](const Torus&) { return "torus"; }, [](const ImplicitSurface&) { return "implicit surface"; },
+                   [](const MeshSurface&) { return "mesh"; }, [](const BezierSurface&) { return "Bezier patches"; }},
+        shape);
 }
 
 std::string kind_text(const SceneSurface& surface) {
@@ -112,8 +111,7 @@ SurfaceGeometry new_geometry(const VolumeFacts& volume, NewItem item, double val
         // An ellipsoid, so that every coefficient has something to act on.
         const double r = 0.35 * extent;
         const double constant = dot(middle, middle) - r * r;
-        return CutShape(
-            Quadric{{1, 1, 1, 0, 0, 0, -2 * middle[0], -2 * middle[1], -2 * middle[2], constant}});
+        return CutShape(Quadric{{1, 1, 1, 0, 0, 0, -2 * middle[0], -2 * middle[1], -2 * middle[2], constant}});
     }
     case NewItem::implicit: {
         char text[120];

@@ -17,8 +17,8 @@
 namespace elvis::view {
 
 /**
- * Changes are whole scenes. Those that belong to one gesture (a drag, a text being typed) and have the same name are one step of
- * undo. Camera and size of the picture are no steps: undo leaves them alone.
+ * Changes are whole scenes. Those that belong to one gesture (a drag, a text being typed) and have the same name are one step
+ * of undo. Camera and size of the picture are no steps: undo leaves them alone.
  */
 class Model {
 public:

@@ -43,13 +43,15 @@ std::string text_of(const Picked& picked) {
         }
         if (picked.jacobian) {
             text += std::string("Jacobian ") + number(*picked.jacobian);
-            text += picked.scaled_jacobian ? std::string(", scaled ") + number(*picked.scaled_jacobian) + "\n" : std::string("\n");
+            text +=
+                picked.scaled_jacobian ? std::string(", scaled ") + number(*picked.scaled_jacobian) + "\n" : std::string("\n");
         }
     }
     for (const Picked::Field& field : picked.fields) {
         for (std::size_t c = 0; c < field.values.size(); ++c) {
             text += field.name + (field.values.size() > 1 ? std::string("[") + std::to_string(c) + "]" : std::string());
-            text += std::string(" = ") + number(field.values[c]) + (field.unit.empty() ? std::string() : std::string(" ") + field.unit);
+            text += std::string(" = ") + number(field.values[c]) +
+                    (field.unit.empty() ? std::string() : std::string(" ") + field.unit);
             text += std::string(", gradient ") + list(field.gradients.data() + 3 * c, 3);
             text += field.gradient_is_estimated ? " (estimated)\n" : "\n";
         }

@@ -28,8 +28,8 @@ struct Picture {
 };
 
 /**
- * Of `width` and `height`, with annotation of that size: of a smaller frame each pixel is a copy of the nearest. Camera, time and
- * whether it can be refined are left open.
+ * Of `width` and `height`, with annotation of that size: of a smaller frame each pixel is a copy of the nearest. Camera, time
+ * and whether it can be refined are left open.
  */
 Picture picture_of(const Frame& frame, const AnnotationPlan& annotation, std::uint32_t width, std::uint32_t height);
 

@@ -49,7 +49,8 @@ void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkI
 
 } // namespace
 
-PictureImage::PictureImage(VkPhysicalDevice physical, VkDevice device, VkFormat format, std::uint32_t width, std::uint32_t height)
+PictureImage::PictureImage(VkPhysicalDevice physical, VkDevice device, VkFormat format, std::uint32_t width,
+                           std::uint32_t height)
     : m_device(device), m_format(format), m_width(width), m_height(height) {
     try {
         VkBufferCreateInfo buffer{};
@@ -157,8 +158,8 @@ void PictureImage::record_copy(VkCommandBuffer commands, VkImage target, VkExten
         blit.dstOffsets[end].x = to[end][0];
         blit.dstOffsets[end].y = to[end][1];
     }
-    vkCmdBlitImage(commands, m_image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit,
-                   VK_FILTER_LINEAR);
+    vkCmdBlitImage(commands, m_image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                   &blit, VK_FILTER_LINEAR);
 }
 
 } // namespace elvis::view

@@ -276,8 +276,8 @@ struct Presenter::Impl {
         barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
         barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
         // The wait for the acquired image is for this stage, too.
-        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
-                             1, &barrier);
+        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
+                             nullptr, 1, &barrier);
         VkClearColorValue color{};
         std::copy(background.begin(), background.end(), color.float32);
         vkCmdClearColorImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &color, 1, &barrier.subresourceRange);
@@ -286,8 +286,8 @@ struct Presenter::Impl {
         }
         barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
         barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
-                             1, &barrier);
+        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
+                             nullptr, 1, &barrier);
         picture->record_copy(commands, image, swapchain->size(), {box.x, box.y}, {box.width, box.height});
     }
 
@@ -386,7 +386,8 @@ void Presenter::set_picture(std::uint32_t width, std::uint32_t height, std::span
     Impl& impl = *m_impl;
     if (!impl.picture || impl.picture->width() != width || impl.picture->height() != height) {
         impl.picture.reset();
-        impl.picture = std::make_unique<PictureImage>(impl.target.physical, impl.target.device, impl.format.format, width, height);
+        impl.picture =
+            std::make_unique<PictureImage>(impl.target.physical, impl.target.device, impl.format.format, width, height);
     }
     impl.picture->write(rgba);
     impl.submit_and_wait([&](VkCommandBuffer commands) { impl.picture->record_upload(commands); });

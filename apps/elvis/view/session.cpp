@@ -74,8 +74,7 @@ Picture Session::draw(const Scene& scene, const FrameSchedule::Step& step) {
     const FrameRequest request = drawn_request(scene);
     const Frame frame = m_renderer->render(request_for(request, step.stage, step.divisor, step.with_lines), &m_control);
     const Clock::time_point drawn = Clock::now();
-    Picture picture =
-        picture_of(frame, annotation_of(scene, request, frame, *m_volume), request.width, request.height);
+    Picture picture = picture_of(frame, annotation_of(scene, request, frame, *m_volume), request.width, request.height);
     picture.camera = request.camera;
     picture.remarks.insert(picture.remarks.end(), request.remarks.begin(), request.remarks.end());
     picture.is_refinable = has_refinement(request);

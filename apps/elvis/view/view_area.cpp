@@ -67,8 +67,8 @@ void ViewArea::go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by) 
         model.set_camera(panned(camera, m_size, by));
         break;
     case Drag::zoom:
-        model.set_camera(zoomed(camera, m_size, {0.5 * m_size.width, 0.5 * m_size.height},
-                                std::exp(-3 * (by[0] - by[1]) / m_size.height)));
+        model.set_camera(
+            zoomed(camera, m_size, {0.5 * m_size.width, 0.5 * m_size.height}, std::exp(-3 * (by[0] - by[1]) / m_size.height)));
         break;
     case Drag::roll:
         model.set_camera(rolled(camera, 180 * by[0] / m_size.width));
@@ -168,7 +168,8 @@ StageMark mark_of(const Workbench& bench) {
     case FrameStage::moving: {
         std::string words = "moving, 1 : ";
         words += std::to_string(bench.divisor());
-        return {words, amber, "Stage 1 of 3: fewer pixels, perhaps without lines, to keep up with the hand. All comes when it rests"};
+        return {words, amber,
+                "Stage 1 of 3: fewer pixels, perhaps without lines, to keep up with the hand. All comes when it rests"};
     }
     case FrameStage::full:
         return {"full", blue,

@@ -86,8 +86,9 @@ Window::Window(const Settings& settings, const std::string& device, bool validat
     }
     try {
         if (glfwVulkanSupported() != GLFW_TRUE) {
-            throw Error("window", "this machine has no Vulkan driver; without a GPU, install a driver for the CPU (Debian package "
-                                  "mesa-vulkan-drivers)");
+            throw Error("window",
+                        "this machine has no Vulkan driver; without a GPU, install a driver for the CPU (Debian package "
+                        "mesa-vulkan-drivers)");
         }
         glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
         m_window = glfwCreateWindow(settings.window_size[0], settings.window_size[1], "ElVis", nullptr, nullptr);

@@ -52,8 +52,8 @@ public:
 private:
     static void on_event(GLFWwindow* window);
     /**
-     * ImGui 1.86 takes a press for what was below the cursor in the frame before. A press that comes with a movement waits for the
-     * next frame, which knows what the cursor has come to.
+     * ImGui 1.86 takes a press for what was below the cursor in the frame before. A press that comes with a movement waits for
+     * the next frame, which knows what the cursor has come to.
      */
     void hold_presses();
     /** It misses keys that go up again before the next frame: in that one they are down. */

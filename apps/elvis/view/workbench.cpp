@@ -28,8 +28,7 @@ double MotionStatistics::frames_per_second() const {
     return sum > 0 ? static_cast<double>(frame_seconds.size()) / sum : 0;
 }
 
-Workbench::Workbench(std::unique_ptr<Session> session)
-    : m_device(&session->device()), m_worker(std::move(session)) {}
+Workbench::Workbench(std::unique_ptr<Session> session) : m_device(&session->device()), m_worker(std::move(session)) {}
 
 void Workbench::say(Message::Kind kind, std::string text) {
     constexpr std::size_t most_messages = 500;
@@ -117,32 +116,34 @@ void Workbench::save_scene(const std::string& path) {
 void Workbench::save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits) {
     Scene scene = m_model.scene();
     scene.size = size;
-    m_worker.post("drawing " + std::filesystem::path(path).filename().string(),
-                  [this, scene = std::move(scene), path, bits](Session& session) -> FrameWorker::Answer {
-                      std::vector<std::string> remarks = session.save_picture(scene, path, bits);
-                      return [this, path, remarks = std::move(remarks), size = scene.size] {
-                          say(Message::Kind::info, "saved the picture as " + path + ", " + std::to_string(size[0]) + "x" +
-                                                       std::to_string(size[1]));
-                          for (const std::string& remark : remarks) {
-                              say(Message::Kind::warning, remark);
-                          }
-                      };
-                  },
-                  [this](const std::string& error) { say(Message::Kind::error, error); });
+    m_worker.post(
+        "drawing " + std::filesystem::path(path).filename().string(),
+        [this, scene = std::move(scene), path, bits](Session& session) -> FrameWorker::Answer {
+            std::vector<std::string> remarks = session.save_picture(scene, path, bits);
+            return [this, path, remarks = std::move(remarks), size = scene.size] {
+                say(Message::Kind::info,
+                    "saved the picture as " + path + ", " + std::to_string(size[0]) + "x" + std::to_string(size[1]));
+                for (const std::string& remark : remarks) {
+                    say(Message::Kind::warning, remark);
+                }
+            };
+        },
+        [this](const std::string& error) { say(Message::Kind::error, error); });
 }
 
 void Workbench::pick(const PicturePoint& place) {
     const Scene& scene = m_model.scene();
-    m_worker.post("picking",
-                  [this, scene, place, number = m_volume_number](Session& session) -> FrameWorker::Answer {
-                      Picked picked = session.pick(scene, place);
-                      return [this, picked = std::move(picked), number] {
-                          if (number == m_volume_number) {
-                              m_picked = picked;
-                          }
-                      };
-                  },
-                  [this](const std::string& error) { say(Message::Kind::error, error); });
+    m_worker.post(
+        "picking",
+        [this, scene, place, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+            Picked picked = session.pick(scene, place);
+            return [this, picked = std::move(picked), number] {
+                if (number == m_volume_number) {
+                    m_picked = picked;
+                }
+            };
+        },
+        [this](const std::string& error) { say(Message::Kind::error, error); });
 }
 
 std::string Workbench::field_key(const std::optional<std::string>& field) const {
@@ -167,16 +168,17 @@ std::optional<FieldRange> Workbench::range(const std::optional<std::string>& fie
     const auto [found, is_new] = m_ranges.try_emplace(key);
     if (is_new) {
         const Scene& scene = m_model.scene();
-        m_worker.post("finding a range",
-                      [this, scene, field, key, number = m_volume_number](Session& session) -> FrameWorker::Answer {
-                          const FieldRange range = session.range(scene, field);
-                          return [this, range, key, number] {
-                              if (number == m_volume_number) {
-                                  m_ranges[key] = range;
-                              }
-                          };
-                      },
-                      [](const std::string&) {}); // The picture says it.
+        m_worker.post(
+            "finding a range",
+            [this, scene, field, key, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+                const FieldRange range = session.range(scene, field);
+                return [this, range, key, number] {
+                    if (number == m_volume_number) {
+                        m_ranges[key] = range;
+                    }
+                };
+            },
+            [](const std::string&) {}); // The picture says it.
     }
     return found->second;
 }
@@ -202,20 +204,21 @@ void Workbench::sample(const std::optional<std::string>& field, const std::strin
     constexpr std::size_t n_points = 500;
     constexpr unsigned n_pieces = 24;
     const Scene& scene = m_model.scene();
-    m_worker.post_later("sampling the field",
-                        [this, scene, field, key, piece, number = m_volume_number](Session& session) -> FrameWorker::Answer {
-                            return [this, values = session.samples(scene, field, n_points, piece + 1), field, key, piece, number] {
-                                const auto found = m_histograms.find(key);
-                                if (number != m_volume_number || found == m_histograms.end()) {
-                                    return;
-                                }
-                                found->second->add(values);
-                                if (piece + 1 < n_pieces) {
-                                    sample(field, key, piece + 1);
-                                }
-                            };
-                        },
-                        [](const std::string&) {});
+    m_worker.post_later(
+        "sampling the field",
+        [this, scene, field, key, piece, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+            return [this, values = session.samples(scene, field, n_points, piece + 1), field, key, piece, number] {
+                const auto found = m_histograms.find(key);
+                if (number != m_volume_number || found == m_histograms.end()) {
+                    return;
+                }
+                found->second->add(values);
+                if (piece + 1 < n_pieces) {
+                    sample(field, key, piece + 1);
+                }
+            };
+        },
+        [](const std::string&) {});
 }
 
 void Workbench::convert(const std::string& input, const std::string& output) {
@@ -343,8 +346,7 @@ void Workbench::go_on(bool is_moving) {
 bool Workbench::is_settled() const {
     const std::uint64_t revision = m_model.revision();
     const bool is_drawn = m_stage == FrameStage::exact && m_shown_revision == revision;
-    return m_worker.is_idle() && !m_conversion.is_running() &&
-           (!m_model.volume() || is_drawn || m_failed_revision == revision);
+    return m_worker.is_idle() && !m_conversion.is_running() && (!m_model.volume() || is_drawn || m_failed_revision == revision);
 }
 
 std::string Workbench::activity() const { return m_worker.activity(); }

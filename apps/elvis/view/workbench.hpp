@@ -67,7 +67,8 @@ public:
     void convert(const std::string& input, const std::string& output);
     ConversionTask& conversion() { return m_conversion; }
 
-    /** To be called often: takes what has come. Returns whether there is a new picture. `showing`: what a picture takes to show. */
+    /** To be called often: takes what has come. Returns whether there is a new picture. `showing`: what a picture takes to
+     * show. */
     bool collect(double showing_milliseconds);
     /** To be called after that, and after changes: sees to the next picture. `is_moving`: the hand is at work. */
     void go_on(bool is_moving);

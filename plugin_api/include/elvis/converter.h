@@ -5,8 +5,8 @@
  * The plugin says which elements there are and evaluates mapping and fields where the host asks; the host chooses the points,
  * projects, measures the projection error at other points, and writes. No GPU code is needed.
  *
- * Elements are numbered 0 .. n_elements-1 in the order of the source file, whatever their shape. Their geometry is the same at every
- * time step.
+ * Elements are numbered 0 .. n_elements-1 in the order of the source file, whatever their shape. Their geometry is the same at
+ * every time step.
  *
  * Threads: `probe` and `open` as in runtime.h. On one source, get_elements, evaluate_mapping and sample may run at the same
  * time on several threads; every other call is made alone.

@@ -9,8 +9,8 @@
  * class by class, 0 .. n_elements-1: first all of class 0, then all of class 1. "Element" below means this number, "local
  * element" its position in its class. The snippet is compiled once per class, with the class's constants as #defines.
  *
- * Time. Fields change from one time step to another, geometry does not: mapping, elvis_inside, bounds, faces and signs of Jacobians
- * are the same at every step. A moving mesh is a volume for each of its positions.
+ * Time. Fields change from one time step to another, geometry does not: mapping, elvis_inside, bounds, faces and signs of
+ * Jacobians are the same at every step. A moving mesh is a volume for each of its positions.
  *
  * Life of a volume: probe -> open -> any number of other calls -> close. The host closes every volume it has opened.
  *
@@ -58,21 +58,21 @@ typedef struct elvis_element_class {
     /** May be 0. */
     uint64_t n_elements;
     /**
-     * Polynomial order of the mapping in each direction, at least 1; 0 0 0 if the mapping is not polynomial. For simplices, and for
-     * the triangles of prisms, the largest is the total degree. Never below the true order: `elvis export` writes cells of it, and
-     * mesh lines and bent faces are fitted with it.
+     * Polynomial order of the mapping in each direction, at least 1; 0 0 0 if the mapping is not polynomial. For simplices, and
+     * for the triangles of prisms, the largest is the total degree. Never below the true order: `elvis export` writes cells of
+     * it, and mesh lines and bent faces are fitted with it.
      */
     uint32_t geometry_order[3];
     /**
-     * Non-zero if the mapping is affine in xi (a parallelepiped or straight simplex) for every element of the class. Then mesh lines
-     * are straight, and coordinates in expressions have certified bounds; in doubt leave it 0.
+     * Non-zero if the mapping is affine in xi (a parallelepiped or straight simplex) for every element of the class. Then mesh
+     * lines are straight, and coordinates in expressions have certified bounds; in doubt leave it 0.
      */
     uint32_t is_affine;
 } elvis_element_class;
 
 /**
- * A named integer that the snippet sees as a #define. Names match [A-Z][A-Z0-9_]* and start with the snippet's prefix. Values fit into
- * GLSL's 32 bits, with sign or without: -2^31 .. 2^32 - 1.
+ * A named integer that the snippet sees as a #define. Names match [A-Z][A-Z0-9_]* and start with the snippet's prefix. Values
+ * fit into GLSL's 32 bits, with sign or without: -2^31 .. 2^32 - 1.
  */
 typedef struct elvis_constant {
     uint32_t struct_size;
@@ -88,9 +88,9 @@ typedef struct elvis_class_field {
     /** Constants of this class and field, orders among them; n_constants entries. */
     const elvis_constant* constants;
     /**
-     * Polynomial order of the field in each direction, as for geometry_order, or -1 -1 -1 if it is not polynomial in xi. Never below
-     * the true order: `elvis export` writes cells of it. It is also what `order` is in expressions, and what elements are chosen by;
-     * pictures do not rest on it.
+     * Polynomial order of the field in each direction, as for geometry_order, or -1 -1 -1 if it is not polynomial in xi. Never
+     * below the true order: `elvis export` writes cells of it. It is also what `order` is in expressions, and what elements are
+     * chosen by; pictures do not rest on it.
      */
     int32_t order[3];
     uint32_t reserved;
@@ -173,8 +173,8 @@ typedef struct elvis_fill_request {
 /**
  * Bits of elvis_snippet.capabilities: what the snippet gives beyond mapping, Jacobian and field value. See glsl_interface.md.
  *
- * Bits of the lower half may be passed over by a host that does not know them: what they give is not used. Bits of the upper half,
- * ELVIS_SNIPPET_REQUIRED, say what has to be known for a right picture: a host that does not know one refuses the volume.
+ * Bits of the lower half may be passed over by a host that does not know them: what they give is not used. Bits of the upper
+ * half, ELVIS_SNIPPET_REQUIRED, say what has to be known for a right picture: a host that does not know one refuses the volume.
  */
 #define ELVIS_SNIPPET_REQUIRED 0xffff0000u
 /** elvis_field_gradient: value and gradient in xi at once. */
@@ -182,8 +182,8 @@ typedef struct elvis_fill_request {
 /** elvis_mapping_jacobian: mapping and Jacobian at once. */
 #define ELVIS_SNIPPET_MAPPING_JACOBIAN 2u
 /**
- * elvis_inverse_mapping: from position to reference coordinates. Draft: checked by `elvis check-plugin`, and not used for pictures, whose
- * error bounds rest on Newton's method.
+ * elvis_inverse_mapping: from position to reference coordinates. Draft: checked by `elvis check-plugin`, and not used for
+ * pictures, whose error bounds rest on Newton's method.
  */
 #define ELVIS_SNIPPET_INVERSE_MAPPING 4u
 /** The field that the snippet returns lacks elvis_fill_request.field_offset. */
@@ -196,8 +196,8 @@ typedef struct elvis_fill_request {
 #define ELVIS_SNIPPET_MAPPING_HESSIAN 64u
 /**
  * elvis_inside, elvis_inside_bounds: the class has a reference shape of its own, the part of `shape` in which a function is not
- * positive (cut cells). Mapping and fields are defined on all of `shape`; bounds, ranges and checks of the Jacobian may be of all
- * of it, too. See "Shapes of one's own" in glsl_interface.md. Since 1.0.
+ * positive (cut cells). Mapping and fields are defined on all of `shape`; bounds, ranges and checks of the Jacobian may be of
+ * all of it, too. See "Shapes of one's own" in glsl_interface.md. Since 1.0.
  */
 #define ELVIS_SNIPPET_INSIDE 128u
 
@@ -228,17 +228,18 @@ typedef struct elvis_snippet {
 /**
  * How much a bound or range can be trusted. Where it is an output, the host has set it to ELVIS_ESTIMATED before the call.
  *
- * What has to lie inside, and whose rounding is meant: bounds and ranges are those of the mapping and the field that the data in double
- * precision stand for, and of these as evaluate_mapping and evaluate_field compute them, whose sums are rounded in double precision. A
- * sum of n terms c_i phi_i, each phi_i good to a few units in the last place, is off by no more than about
+ * What has to lie inside, and whose rounding is meant: bounds and ranges are those of the mapping and the field that the data
+ * in double precision stand for, and of these as evaluate_mapping and evaluate_field compute them, whose sums are rounded in
+ * double precision. A sum of n terms c_i phi_i, each phi_i good to a few units in the last place, is off by no more than about
  *
  *   n 2^-52 sum over i of |c_i| max |phi_i|
  *
- * so a bound that is exact on paper is widened by that, and by the rounding of its own computation. What single precision adds (data
- * rounded to float in buffers, the snippet's sums), with or without ELVIS_SNIPPET_LOCAL_ORIGIN and ELVIS_SNIPPET_FIELD_OFFSET, is the
- * host's affair: it looks into every element whose box lies within a few roundings of the point, where rounding is relative to the size
- * of the element with a local origin and to its coordinates without one. Widening by single precision, too, does no harm but costs time.
- * get_field_derivative_bounds says by itself what its bounds are to hold for.
+ * so a bound that is exact on paper is widened by that, and by the rounding of its own computation. What single precision adds
+ * (data rounded to float in buffers, the snippet's sums), with or without ELVIS_SNIPPET_LOCAL_ORIGIN and
+ * ELVIS_SNIPPET_FIELD_OFFSET, is the host's affair: it looks into every element whose box lies within a few roundings of the
+ * point, where rounding is relative to the size of the element with a local origin and to its coordinates without one. Widening
+ * by single precision, too, does no harm but costs time. get_field_derivative_bounds says by itself what its bounds are to hold
+ * for.
  */
 typedef uint32_t elvis_certainty;
 /** The plugin proves that nothing lies outside, rounding as above included. */
@@ -365,10 +366,10 @@ typedef struct elvis_runtime {
                                                 uint64_t count, double* bounds, elvis_certainty* certainty);
 
     /**
-     * Optional. Sign of the Jacobian determinant in elements first .. first+count-1, one check each; entries left alone are UNDECIDED. An element whose smallest
-     * determinant lies within `tolerance` (>= 0) times its largest magnitude of zero may be left undecided; a larger tolerance
-     * may take less time. ELVIS_CERTIFIED if every POSITIVE, NEGATIVE and `lower` is proven, rounding included. Without it, the
-     * host samples evaluate_mapping and says so. Only for volumes of dimension 3.
+     * Optional. Sign of the Jacobian determinant in elements first .. first+count-1, one check each; entries left alone are
+     * UNDECIDED. An element whose smallest determinant lies within `tolerance` (>= 0) times its largest magnitude of zero may
+     * be left undecided; a larger tolerance may take less time. ELVIS_CERTIFIED if every POSITIVE, NEGATIVE and `lower` is
+     * proven, rounding included. Without it, the host samples evaluate_mapping and says so. Only for volumes of dimension 3.
      *
      * The whole question, and not bounds over boxes, so that a plugin may divide its own polynomials, which is faster.
      */

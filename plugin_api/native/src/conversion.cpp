@@ -121,18 +121,19 @@ Conversion::Axes Conversion::build_axes(const Space& space, const DeviceSpace& d
     } else if (space.shape == Shape::triangle) {
         axes[0] = projected_matrix(space, Projector(device, space.order[1]), gather);
     } else if (space.shape == Shape::hexahedron) {
-        static_cast<std::array<Matrix, 3>&>(axes) = {axis_matrix(space, 0, 1, a), axis_matrix(space, 1, n_p, b), axis_matrix(space, 2, n_p * n_q, c)};
+        static_cast<std::array<Matrix, 3>&>(axes) = {axis_matrix(space, 0, 1, a), axis_matrix(space, 1, n_p, b),
+                                                     axis_matrix(space, 2, n_p * n_q, c)};
         // The three lines each carry the other directions' first functions at the corner: their product is too large twice.
         axes[0] /= std::pow(corner_value(space), 2);
     } else if (space.shape == Shape::pyramid && space.basis == Basis::tensor) {
-        static_cast<std::array<Matrix, 3>&>(axes) = {axis_matrix(space, 2, 1, c), axis_matrix(space, 1, n_r, b), axis_matrix(space, 0, n_q * n_r, a)};
+        static_cast<std::array<Matrix, 3>&>(axes) = {axis_matrix(space, 2, 1, c), axis_matrix(space, 1, n_r, b),
+                                                     axis_matrix(space, 0, n_q * n_r, a)};
         axes[0] /= std::pow(corner_value(space), 2);
     } else if (space.shape == Shape::prism) {
         gather = gather_prism(device);
         DeviceSpace triangle = device;
         triangle.q_max = 0;
-        const std::vector<std::size_t> modes(gather.begin(),
-                                             gather.begin() + static_cast<std::ptrdiff_t>(triangle.n_modes()));
+        const std::vector<std::size_t> modes(gather.begin(), gather.begin() + static_cast<std::ptrdiff_t>(triangle.n_modes()));
         axes[0] = projected_matrix(space, Projector(triangle, space.order[2]), modes) / corner_value(space);
         axes[1] = axis_matrix(space, 1, n_r, b);
     } else {

@@ -157,8 +157,7 @@ private:
 
 class FieldFile::Builder {
 public:
-    Builder(FieldFile& fields, const Mesh& mesh, FieldContent content)
-        : m_target(fields), m_mesh(mesh), m_content(content) {}
+    Builder(FieldFile& fields, const Mesh& mesh, FieldContent content) : m_target(fields), m_mesh(mesh), m_content(content) {}
 
     void read(const XmlFile& file) {
         read_time(file);
@@ -232,9 +231,8 @@ private:
         const std::uint64_t expected = per_field * n_fields;
         const std::vector<std::uint64_t> words = unpack(file, node, expected);
         if (words.size() != expected) {
-            file.fail(node, "the content holds " + std::to_string(words.size()) + " coefficients; " +
-                                std::to_string(n_fields) + " fields in " + std::to_string(n_elements) + " elements have " +
-                                std::to_string(expected));
+            file.fail(node, "the content holds " + std::to_string(words.size()) + " coefficients; " + std::to_string(n_fields) +
+                                " fields in " + std::to_string(n_elements) + " elements have " + std::to_string(expected));
         }
         for (const std::uint64_t word : words) {
             m_target.m_coefficients.push_back(std::bit_cast<double>(word));

@@ -184,8 +184,8 @@ public:
         m_volume.evaluate_mapping(element, xi, positions, jacobians);
     }
 
-    void evaluate_field(std::uint32_t field, std::uint32_t step, std::uint64_t element, std::span<const double> xi, double* values,
-                        double* gradients) {
+    void evaluate_field(std::uint32_t field, std::uint32_t step, std::uint64_t element, std::span<const double> xi,
+                        double* values, double* gradients) {
         require_field(field, step);
         require_elements(element, 1);
         m_volume.evaluate_field(field, step, element, xi, values, gradients);

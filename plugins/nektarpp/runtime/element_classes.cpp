@@ -35,7 +35,8 @@ void check_order(const Space& space, const MeshElement& element, const std::stri
 /** A space where the file has no data: it holds the same NaN everywhere, whatever its modes are. */
 Space space_without_data(Shape shape) { return native_space(modified_modes(shape, 2)); }
 
-void add_space(std::vector<elvis_constant>& list, const std::array<const char*, 4>& names, const Space& space, std::size_t width) {
+void add_space(std::vector<elvis_constant>& list, const std::array<const char*, 4>& names, const Space& space,
+               std::size_t width) {
     // The snippet takes a triangle for a prism's section, whose third direction is the triangle's second.
     const bool is_triangle = space.shape == Shape::triangle;
     list.push_back(elvis::api::constant(names[0], space.order[0]));
@@ -47,8 +48,8 @@ void add_space(std::vector<elvis_constant>& list, const std::array<const char*, 
 void complete(ElementClass& of) {
     for (const Space& field : of.fields) {
         std::vector<elvis_constant> list;
-        add_space(list, {"NEKTAR_GEOMETRY_P", "NEKTAR_GEOMETRY_Q", "NEKTAR_GEOMETRY_R", "NEKTAR_GEOMETRY_SLAB_ROWS"}, of.geometry,
-                  3);
+        add_space(list, {"NEKTAR_GEOMETRY_P", "NEKTAR_GEOMETRY_Q", "NEKTAR_GEOMETRY_R", "NEKTAR_GEOMETRY_SLAB_ROWS"},
+                  of.geometry, 3);
         add_space(list, {"NEKTAR_FIELD_P", "NEKTAR_FIELD_Q", "NEKTAR_FIELD_R", "NEKTAR_FIELD_SLAB_ROWS"}, field, 1);
         list.push_back(elvis::api::constant("NEKTAR_FIELD_BASIS", number_of(field.basis)));
         list.push_back(elvis::api::constant("NEKTAR_FIELD_NODES", field.basis == Basis::gauss_lagrange ? 1 : 0));

@@ -21,9 +21,11 @@ std::vector<elvis_face> find_faces(const Mesh& mesh) {
     std::vector<elvis_face> faces;
     for (std::size_t at = 0; at < sides.size(); ++at) {
         const Side& first = sides[at];
-        elvis_face face{sizeof(elvis_face),    mesh.elements()[first.element].groups[static_cast<std::size_t>(first.local)],
+        elvis_face face{sizeof(elvis_face),
+                        mesh.elements()[first.element].groups[static_cast<std::size_t>(first.local)],
                         static_cast<std::int64_t>(first.element),
-                        ELVIS_NEIGHBOUR_NONE,  first.local,
+                        ELVIS_NEIGHBOUR_NONE,
+                        first.local,
                         -1};
         if (at + 1 < sides.size() && sides[at + 1].id == first.id) {
             ++at;

@@ -3,8 +3,8 @@
  * How the coefficients of a space lie in a record of a device buffer, for glsl/volume.glsl.
  *
  * They are those of the file, in its order; orthogonal modes are scaled so that their polynomials have Jacobi's own
- * normalisation. In hexahedra each r has a slab of its own, padded to rows of four numbers, so that a loop over slabs still knows
- * every position inside one at compile time; other shapes have one slab.
+ * normalisation. In hexahedra each r has a slab of its own, padded to rows of four numbers, so that a loop over slabs still
+ * knows every position inside one at compile time; other shapes have one slab.
  */
 #pragma once
 

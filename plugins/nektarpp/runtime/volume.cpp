@@ -272,14 +272,15 @@ void evaluate(const Space& space, std::span<const double> coefficients, std::spa
 void Volume::evaluate_mapping(std::uint64_t position, std::span<const double> xi, double* positions, double* jacobians) const {
     std::vector<double> coefficients;
     m_mesh.mapping_coefficients(element(position), coefficients);
-    evaluate(m_classes.at_position(position).geometry, coefficients, xi, [&](std::size_t point, std::size_t axis, const Sum& sum) {
-        if (positions) {
-            positions[3 * point + axis] = sum.value;
-        }
-        if (jacobians) {
-            std::ranges::copy(sum.gradient, jacobians + 9 * point + 3 * axis);
-        }
-    });
+    evaluate(m_classes.at_position(position).geometry, coefficients, xi,
+             [&](std::size_t point, std::size_t axis, const Sum& sum) {
+                 if (positions) {
+                     positions[3 * point + axis] = sum.value;
+                 }
+                 if (jacobians) {
+                     std::ranges::copy(sum.gradient, jacobians + 9 * point + 3 * axis);
+                 }
+             });
 }
 
 void Volume::evaluate_field(std::size_t field, std::size_t step, std::uint64_t position, std::span<const double> xi,

@@ -39,7 +39,8 @@ void draw_bar(Ui& ui, const std::string& name, const SceneColorMap& map, const H
     const float above = histogram != nullptr ? 2 * height : 0;
     ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::Dummy(ImVec2(width, height + above));
-    explain(ui, name + "/bar", "The colours from the lower to the upper end of the range; above, how often the field takes each value");
+    explain(ui, name + "/bar",
+            "The colours from the lower to the upper end of the range; above, how often the field takes each value");
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (histogram != nullptr && range[1] > range[0] && (range[0] > 0 || !map.is_logarithmic)) {
         const ColorScale scale(range, map.is_logarithmic);
@@ -53,7 +54,8 @@ void draw_bar(Ui& ui, const std::string& name, const SceneColorMap& map, const H
             const float left = place(static_cast<double>(bin)), right = place(static_cast<double>(bin) + 1);
             // The square root lets rare values be seen, too.
             list->AddRectFilled(ImVec2(left, corner.y + above * (1 - std::sqrt(bins[bin]))),
-                                ImVec2(std::max(right, left + 1), corner.y + above), ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+                                ImVec2(std::max(right, left + 1), corner.y + above),
+                                ImGui::GetColorU32(ImGuiCol_PlotHistogram));
         }
     }
     corner.y += above;
@@ -61,8 +63,8 @@ void draw_bar(Ui& ui, const std::string& name, const SceneColorMap& map, const H
     for (std::size_t i = 1; i < points.size(); ++i) {
         const ImU32 left = packed(points[i - 1].rgb), right = packed(points[i].rgb);
         list->AddRectFilledMultiColor(ImVec2(corner.x + static_cast<float>(points[i - 1].position) * width, corner.y),
-                                      ImVec2(corner.x + static_cast<float>(points[i].position) * width, corner.y + height), left,
-                                      right, right, left);
+                                      ImVec2(corner.x + static_cast<float>(points[i].position) * width, corner.y + height),
+                                      left, right, right, left);
     }
 }
 
@@ -82,7 +84,8 @@ bool edit_points(Ui& ui, const std::string& name, SceneColorMap& map) {
         ImGui::SameLine();
         ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
         double position = map.points[i].position;
-        if (number(ui, point + "/position", "##position", position, 1, "Its place; the first and the last are the ends of the range")) {
+        if (number(ui, point + "/position", "##position", position, 1,
+                   "Its place; the first and the last are the ends of the range")) {
             const double least = i > 0 ? map.points[i - 1].position : -1e300;
             const double most = i + 1 < map.points.size() ? map.points[i + 1].position : 1e300;
             map.points[i].position = std::clamp(position, least, most);
@@ -171,7 +174,8 @@ bool edit_colors(Ui& ui, const std::string& name, SceneColorMap& map) {
 bool edit_range(Ui& ui, const std::string& name, SceneColorMap& map, const std::optional<std::string>& field) {
     bool is_changed = false;
     const std::optional<FieldRange> data = ui.bench.range(field);
-    std::array<double, 2> range = map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1});
+    std::array<double, 2> range =
+        map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1});
     const auto set = [&](double lower, double upper) {
         if (lower < upper && (lower > 0 || !map.is_logarithmic)) {
             map.range = {lower, upper};
@@ -179,7 +183,8 @@ bool edit_range(Ui& ui, const std::string& name, SceneColorMap& map, const std::
         }
     };
     if (check(ui, name + "/logarithmic", "Logarithmic", map.is_logarithmic,
-              "Equal parts of the colours are for equal ratios of values; those not above 0 have the colour of what is not a number")) {
+              "Equal parts of the colours are for equal ratios of values; those not above 0 have the colour of what is not a "
+              "number")) {
         is_changed = true;
         if (map.is_logarithmic && !(range[0] > 0)) {
             // The range must be above 0: some decades below its upper end.
@@ -219,11 +224,13 @@ bool edit_range(Ui& ui, const std::string& name, SceneColorMap& map, const std::
     ImGui::SameLine();
     const Histogram* histogram = ui.bench.histogram(field);
     ImGui::BeginDisabled(histogram == nullptr);
-    if (button(ui, name + "/percentiles", "2-98 %", "Leaves out the lowest and the highest hundredths of the volume") && histogram != nullptr) {
+    if (button(ui, name + "/percentiles", "2-98 %", "Leaves out the lowest and the highest hundredths of the volume") &&
+        histogram != nullptr) {
         set(histogram->quantile(0.02), histogram->quantile(0.98));
     }
     ImGui::SameLine();
-    if (button(ui, name + "/percentiles10", "10-90 %", "Leaves out the lowest and the highest tenth of the volume") && histogram != nullptr) {
+    if (button(ui, name + "/percentiles10", "10-90 %", "Leaves out the lowest and the highest tenth of the volume") &&
+        histogram != nullptr) {
         set(histogram->quantile(0.1), histogram->quantile(0.9));
     }
     ImGui::EndDisabled();
@@ -238,13 +245,20 @@ bool edit_color_map(Ui& ui, const std::string& name, SceneColorMap& map, const s
     const std::optional<FieldRange> data = ui.bench.range(field);
     const Histogram* histogram = ui.bench.histogram(field);
     if (map.range || data) {
-        draw_bar(ui, name, map, histogram, map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1}));
+        draw_bar(ui, name, map, histogram,
+                 map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1}));
     }
     is_changed = edit_range(ui, name, map, field) || is_changed;
     if (ImGui::TreeNode("Outside of the range")) {
-        is_changed = optional_color(ui, name + "/below", "Below", map.below, {0, 0, 0}, "Colour of smaller values; else that of the lower end") || is_changed;
-        is_changed = optional_color(ui, name + "/above", "Above", map.above, {1, 1, 1}, "Colour of larger values; else that of the upper end") || is_changed;
-        is_changed = optional_color(ui, name + "/nan", "Not a number", map.nan, {1, 0, 1}, "Colour of what is not a finite number") || is_changed;
+        is_changed = optional_color(ui, name + "/below", "Below", map.below, {0, 0, 0},
+                                    "Colour of smaller values; else that of the lower end") ||
+                     is_changed;
+        is_changed = optional_color(ui, name + "/above", "Above", map.above, {1, 1, 1},
+                                    "Colour of larger values; else that of the upper end") ||
+                     is_changed;
+        is_changed =
+            optional_color(ui, name + "/nan", "Not a number", map.nan, {1, 0, 1}, "Colour of what is not a finite number") ||
+            is_changed;
         ImGui::TreePop();
     }
     ImGui::PopID();
@@ -255,7 +269,9 @@ namespace {
 
 bool edit_line_style(Ui& ui, const std::string& name, SceneLineStyle& style) {
     bool is_changed = slider(ui, name + "/width", "Width", style.width, 1, 16, "In pixels");
-    is_changed = optional_color(ui, name + "/color", "Own colour", style.color, {0, 0, 0}, "Else that of the map at their value; of mesh lines black") || is_changed;
+    is_changed = optional_color(ui, name + "/color", "Own colour", style.color, {0, 0, 0},
+                                "Else that of the map at their value; of mesh lines black") ||
+                 is_changed;
     is_changed = optional_color(ui, name + "/undecided", "Mark undecided", style.undecided_color, {1, 0, 1},
                                 "Colour of pixels for which it stays open whether they meet a line") ||
                  is_changed;
@@ -289,7 +305,9 @@ bool edit_contours(Ui& ui, const std::string& name, std::optional<SceneContours>
         }
         explain(ui, name + "/count", "So many that divide the range of the colours evenly; 0 for values of your own");
         if (contours->count == 0) {
-            is_changed = number_list(ui, name + "/values", "Values", contours->values, "Values of the lines, separated by blanks") || is_changed;
+            is_changed =
+                number_list(ui, name + "/values", "Values", contours->values, "Values of the lines, separated by blanks") ||
+                is_changed;
         }
         is_changed = edit_line_style(ui, name, contours->style) || is_changed;
         ImGui::Unindent();

@@ -41,7 +41,8 @@ struct Plot {
 };
 
 /** What the density is without peaks, however it is given. */
-std::vector<DensityPoint> base_density(const SceneVolumeRendering& rendering, const std::array<double, 2>& range, double usual) {
+std::vector<DensityPoint> base_density(const SceneVolumeRendering& rendering, const std::array<double, 2>& range,
+                                       double usual) {
     if (!rendering.density.empty()) {
         return rendering.density;
     }
@@ -155,16 +156,21 @@ bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array
               ColorScale(range, is_logarithmic),
               // Room above the highest point, which otherwise could not be dragged upwards.
               most > 0 ? 1.25 * most : usual};
-    ImGui::InvisibleButton("curve", ImVec2(plot.width, plot.height), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+    ImGui::InvisibleButton("curve", ImVec2(plot.width, plot.height),
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     const bool is_hovered = ImGui::IsItemHovered(), is_active = ImGui::IsItemActive(), is_started = ImGui::IsItemActivated();
-    explain(ui, "volume/curve", is_active ? "" : "Density by value, over the field's histogram. Drag points, and tops and sides of peaks. With a density of its own, a double click adds a point; the right button removes a point or a peak");
+    explain(ui, "volume/curve",
+            is_active ? ""
+                      : "Density by value, over the field's histogram. Drag points, and tops and sides of peaks. With a "
+                        "density of its own, a double click adds a point; the right button removes a point or a peak");
     ImGuiStorage* storage = ImGui::GetStateStorage();
     const ImGuiID held_id = ImGui::GetID("held"), top_id = ImGui::GetID("top");
     if (is_started) {
         storage->SetFloat(top_id, static_cast<float>(plot.top));
         storage->SetInt(held_id, -1);
     } else if (is_active) {
-        plot.top = static_cast<double>(storage->GetFloat(top_id, static_cast<float>(plot.top))); // It stays while the hand is at work.
+        plot.top =
+            static_cast<double>(storage->GetFloat(top_id, static_cast<float>(plot.top))); // It stays while the hand is at work.
     }
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const std::vector<std::pair<Grip, ImVec2>> grips = grips_of(rendering, plot);

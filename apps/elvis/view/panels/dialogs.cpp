@@ -43,7 +43,8 @@ bool folder_list(Ui& ui) {
     if (ImGui::BeginChild("files", ImVec2(0, -3.2f * ImGui::GetFrameHeightWithSpacing()), true)) {
         for (const FolderEntry& entry : list_folder(state.folder, state.filter)) {
             const std::string label = entry.is_folder ? entry.name + "/" : entry.name;
-            if (ImGui::Selectable(label.c_str(), !entry.is_folder && entry.name == state.name, ImGuiSelectableFlags_AllowDoubleClick)) {
+            if (ImGui::Selectable(label.c_str(), !entry.is_folder && entry.name == state.name,
+                                  ImGuiSelectableFlags_AllowDoubleClick)) {
                 if (entry.is_folder) {
                     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
                         state.folder = (fs::path(state.folder) / entry.name).string();
@@ -120,7 +121,8 @@ void save_picture_dialog(Ui& ui) {
     explain(ui, "dialog/height", "Height in pixels");
     ImGui::SameLine();
     check(ui, "dialog/16", "16 bits", state.has_16_bits, "Bits a channel; else 8");
-    state.size = {static_cast<std::uint32_t>(std::clamp(width, 1, 32768)), static_cast<std::uint32_t>(std::clamp(height, 1, 32768))};
+    state.size = {static_cast<std::uint32_t>(std::clamp(width, 1, 32768)),
+                  static_cast<std::uint32_t>(std::clamp(height, 1, 32768))};
     if (name_and_buttons(ui, "Save", is_closed)) {
         fs::path path = chosen_path(state);
         if (path.extension().empty()) {
@@ -151,9 +153,10 @@ void convert_dialog(Ui& ui) {
         ImGui::CloseCurrentPopup(); // It is done.
         return;
     }
-    ImGui::TextWrapped("%s is a foreign file. ElVis can convert it to a native volume, which takes a while and is exact where the "
-                       "spaces allow; the report says where it is not.",
-                       bench.foreign_file->c_str());
+    ImGui::TextWrapped(
+        "%s is a foreign file. ElVis can convert it to a native volume, which takes a while and is exact where the "
+        "spaces allow; the report says where it is not.",
+        bench.foreign_file->c_str());
     ImGui::InputText("Volume", &state.name);
     explain(ui, "dialog/name", "Where the native volume is written");
     if (button(ui, "dialog/do", "Convert", "")) {

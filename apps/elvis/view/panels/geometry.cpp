@@ -32,7 +32,8 @@ bool edit(Ui& ui, CutPlane& plane) {
         if (axis > 0) {
             ImGui::SameLine();
         }
-        if (button(ui, std::string("plane/") + labels[axis], labels[axis], "Across this axis, through the middle of the volume")) {
+        if (button(ui, std::string("plane/") + labels[axis], labels[axis],
+                   "Across this axis, through the middle of the volume")) {
             plane.plane = {};
             plane.plane[axis] = 1;
             plane.plane[3] = -0.5 * (b[axis] + b[axis + 3]);
@@ -148,7 +149,8 @@ bool edit(Ui& ui, ElementSelection& selection) {
     if (selection.orders) {
         orders = {double((*selection.orders)[0]), double((*selection.orders)[1])};
     }
-    if (edit_interval(ui, "elements/orders", "Order of the field", orders, {1, 4}, "Elements whose order is in this interval")) {
+    if (edit_interval(ui, "elements/orders", "Order of the field", orders, {1, 4},
+                      "Elements whose order is in this interval")) {
         selection.orders.reset();
         if (orders) {
             selection.orders = {static_cast<std::int32_t>(std::lround(std::clamp((*orders)[0], -1.0, 1000.0))),
@@ -182,7 +184,8 @@ bool edit(Ui& ui, ElementSelection& selection) {
     }
     static const std::vector<std::string> words = {"all", "outer", "inner"};
     auto faces = static_cast<std::size_t>(selection.faces);
-    if (choice(ui, "elements/faces", "Faces", faces, words, "All of the chosen elements, those to others, or those between them")) {
+    if (choice(ui, "elements/faces", "Faces", faces, words,
+               "All of the chosen elements, those to others, or those between them")) {
         selection.faces = static_cast<ElementSelection::Faces>(faces);
         is_changed = true;
     }
@@ -232,7 +235,8 @@ bool edit(Ui& ui, CutShape& shape) {
         const Cone before = *cone;
         bool is_changed = vector(ui, "shape/from", "From", cone->from, extent, "Middle of one end");
         is_changed = vector(ui, "shape/to", "To", cone->to, extent, "Middle of the other end") || is_changed;
-        is_changed = number(ui, "shape/from radius", "Radius there", cone->from_radius, extent, "At the first end") || is_changed;
+        is_changed =
+            number(ui, "shape/from radius", "Radius there", cone->from_radius, extent, "At the first end") || is_changed;
         is_changed = number(ui, "shape/to radius", "and there", cone->to_radius, extent, "At the other end") || is_changed;
         is_changed = check(ui, "shape/capped", "Closed", cone->is_capped, "Whether discs close its ends") || is_changed;
         if (cone->from == cone->to || cone->from_radius < 0 || cone->to_radius < 0 ||
@@ -245,7 +249,9 @@ bool edit(Ui& ui, CutShape& shape) {
         const Torus before = *torus;
         bool is_changed = vector(ui, "shape/center", "Centre", torus->center, extent, "Of the torus");
         is_changed = vector(ui, "shape/axis", "Axis", torus->axis, 1, "Of any length but zero") || is_changed;
-        is_changed = positive_number(ui, "shape/radius", "Ring", torus->major_radius, extent, "From the centre to the middle of the tube") || is_changed;
+        is_changed = positive_number(ui, "shape/radius", "Ring", torus->major_radius, extent,
+                                     "From the centre to the middle of the tube") ||
+                     is_changed;
         is_changed = positive_number(ui, "shape/tube", "Tube", torus->minor_radius, extent, "Radius of the tube") || is_changed;
         if (length(torus->axis) == 0) {
             *torus = before;
@@ -280,7 +286,8 @@ bool edit(Ui& ui, CutShape& shape) {
 bool edit(Ui& ui, Isosurfaces& isosurfaces) {
     std::vector<double> values = isosurfaces.values;
     bool is_changed = false;
-    if (number_list(ui, "isosurface/values", "Values", values, "What the field is there; several are separated by blanks") && !values.empty()) {
+    if (number_list(ui, "isosurface/values", "Values", values, "What the field is there; several are separated by blanks") &&
+        !values.empty()) {
         isosurfaces.values = values;
         is_changed = true;
     }
@@ -295,7 +302,8 @@ bool edit(Ui& ui, Isosurfaces& isosurfaces) {
                        "Moves this value through the range of the field")) {
                 // Neighbours are passed only in the list above: their order is that of the sliders.
                 const double least = i > 0 ? std::nextafter(isosurfaces.values[i - 1], value) : range->lower;
-                const double most = i + 1 < isosurfaces.values.size() ? std::nextafter(isosurfaces.values[i + 1], value) : range->upper;
+                const double most =
+                    i + 1 < isosurfaces.values.size() ? std::nextafter(isosurfaces.values[i + 1], value) : range->upper;
                 isosurfaces.values[i] = std::clamp(value, std::min(least, most), std::max(least, most));
                 is_changed = true;
             }

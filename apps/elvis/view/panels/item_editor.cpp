@@ -90,11 +90,13 @@ bool edit_clip(Ui& ui, SceneSurface& surface) {
 
 bool edit_surface(Ui& ui, SceneSurface& surface) {
     const bool is_wireframe = std::holds_alternative<WireFrame>(surface.geometry);
-    bool is_changed = text(ui, "surface/name", "Name", surface.name, "By which expressions speak of it: distance(NAME)", "none");
+    bool is_changed =
+        text(ui, "surface/name", "Name", surface.name, "By which expressions speak of it: distance(NAME)", "none");
     is_changed = edit_geometry(ui, surface) || is_changed;
     ImGui::Separator();
     is_changed = edit_looks(ui, surface) || is_changed;
-    is_changed = slider(ui, "surface/opacity", "Opacity", surface.opacity, 0, 1, "Below 1, what is behind can be seen") || is_changed;
+    is_changed =
+        slider(ui, "surface/opacity", "Opacity", surface.opacity, 0, 1, "Below 1, what is behind can be seen") || is_changed;
     if (!is_wireframe) {
         is_changed = check(ui, "surface/lit", "Lit", surface.is_lit, "Whether the scene's light falls on it") || is_changed;
         is_changed = edit_contours(ui, "surface/contours", surface.contours) || is_changed;

@@ -15,7 +15,8 @@ void add_menu(Ui& ui) {
     const std::optional<FieldRange> range = ui.bench.range(ui.scene().field);
     const double middle = range ? round_middle({range->lower, range->upper}) : 0;
     for (const NewItemInfo& info : new_items()) {
-        const bool is_possible = can_add(ui.scene(), *ui.model().volume(), info.item) && (range || info.item != NewItem::isosurface);
+        const bool is_possible =
+            can_add(ui.scene(), *ui.model().volume(), info.item) && (range || info.item != NewItem::isosurface);
         if (ImGui::MenuItem(info.name, nullptr, false, is_possible)) {
             Scene scene = ui.scene();
             const ItemId item = add(scene, *ui.model().volume(), info.item, middle);

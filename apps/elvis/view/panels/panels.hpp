@@ -29,7 +29,8 @@ bool edit_color_map(Ui& ui, const std::string& name, SceneColorMap& map, const s
 bool edit_contours(Ui& ui, const std::string& name, std::optional<SceneContours>& contours);
 bool edit_mesh_lines(Ui& ui, const std::string& name, std::optional<SceneLineStyle>& lines);
 bool edit_volume_rendering(Ui& ui, SceneVolumeRendering& rendering);
-/** Density and peaks over the histogram, which may be null. `range`: of the colours. `usual`: a density that shows something. */
+/** Density and peaks over the histogram, which may be null. `range`: of the colours. `usual`: a density that shows something.
+ */
 bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array<double, 2>& range, bool is_logarithmic,
                        double usual, const Histogram* histogram);
 /** As the reader of scenes asks for: its width is not lost in rounding. */

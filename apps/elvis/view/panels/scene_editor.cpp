@@ -21,7 +21,9 @@ bool edit_lighting(Ui& ui, Scene& scene) {
     is_changed = color(ui, "scene/headlight", "Headlight", lighting.headlight, "Light from the eye") || is_changed;
     is_changed = slider(ui, "scene/specular", "Highlights", lighting.specular, 0, 1, "Strength of highlights") || is_changed;
     if (lighting.specular > 0) {
-        is_changed = slider(ui, "scene/exponent", "Sharpness", lighting.exponent, 1, 200, "The larger, the smaller are highlights") || is_changed;
+        is_changed =
+            slider(ui, "scene/exponent", "Sharpness", lighting.exponent, 1, 200, "The larger, the smaller are highlights") ||
+            is_changed;
     }
     ImGui::Unindent();
     return is_changed;
@@ -44,13 +46,16 @@ bool edit_annotation(Ui& ui, Scene& scene) {
         is_changed = true;
     }
     if (annotation.title) {
-        is_changed = text(ui, "scene/title", "Title", *annotation.title, "Written at the top; nothing if empty", "none") || is_changed;
+        is_changed =
+            text(ui, "scene/title", "Title", *annotation.title, "Written at the top; nothing if empty", "none") || is_changed;
     }
     is_changed = check(ui, "scene/bars", "Colour bars", annotation.has_color_bars, "What the colours mean") || is_changed;
     ImGui::SameLine();
     is_changed = check(ui, "scene/left", "at the left", annotation.style.bars_at_left, "Else at the right") || is_changed;
     is_changed = check(ui, "scene/axes", "Axes", annotation.has_axes, "Directions of x, y and z") || is_changed;
-    is_changed = slider(ui, "scene/text size", "Text size", annotation.style.text_size, 0.01, 0.1, "As part of the picture's shorter side") || is_changed;
+    is_changed = slider(ui, "scene/text size", "Text size", annotation.style.text_size, 0.01, 0.1,
+                        "As part of the picture's shorter side") ||
+                 is_changed;
     ImGui::Unindent();
     return is_changed;
 }
@@ -63,7 +68,8 @@ bool edit_image(Ui& ui, Scene& scene) {
     }
     static const std::vector<std::string> words = {"float32", "float64"};
     std::size_t precision = scene.precision.value_or("float32") == "float64" ? 1 : 0;
-    if (choice(ui, "scene/precision", "Precision", precision, words, "float64 is slower, and within 1e-9 of exact arithmetic instead of 0.001")) {
+    if (choice(ui, "scene/precision", "Precision", precision, words,
+               "float64 is slower, and within 1e-9 of exact arithmetic instead of 0.001")) {
         scene.precision = words[precision];
         is_changed = true;
     }
@@ -91,8 +97,9 @@ void draw_scene_editor(Ui& ui) {
                 what = name;
             }
         };
-        did("field", field_choice(ui, "scene/field", "Field", scene.field, false,
-                                  "What is shown: a field, or any expression over fields such as norm(grad(p)) / (1 + u[0]^2)"));
+        did("field",
+            field_choice(ui, "scene/field", "Field", scene.field, false,
+                         "What is shown: a field, or any expression over fields such as norm(grad(p)) / (1 + u[0]^2)"));
         did("colours", edit_color_map(ui, "scene/colors", scene.color_map, scene.field));
         ImGui::Separator();
         did("contours", edit_contours(ui, "scene/contours", scene.contours));

@@ -85,12 +85,16 @@ void draw_camera(Ui& ui) {
         is_changed = true;
     }
     if (camera.orthographic) {
-        is_changed = positive_number(ui, "camera/height", "Height", camera.height, extent, "Of the picture, in world units") || is_changed;
+        is_changed = positive_number(ui, "camera/height", "Height", camera.height, extent, "Of the picture, in world units") ||
+                     is_changed;
     } else {
-        is_changed = slider(ui, "camera/angle", "Angle", camera.field_of_view, 1, 150, "From the lower to the upper edge of the picture, in degrees") || is_changed;
+        is_changed = slider(ui, "camera/angle", "Angle", camera.field_of_view, 1, 150,
+                            "From the lower to the upper edge of the picture, in degrees") ||
+                     is_changed;
     }
     is_changed = vector(ui, "camera/eye", "Eye", camera.eye, extent, "Where the picture is seen from") || is_changed;
-    is_changed = vector(ui, "camera/look at", "Look at", camera.look_at, extent, "What is in the middle of the picture") || is_changed;
+    is_changed =
+        vector(ui, "camera/look at", "Look at", camera.look_at, extent, "What is in the middle of the picture") || is_changed;
     is_changed = vector(ui, "camera/up", "Up", camera.up, 1, "What is up in the picture") || is_changed;
     // A camera that looks nowhere is not taken.
     const Vector3 view = minus(camera.look_at, camera.eye);
@@ -151,7 +155,8 @@ void draw_statistics(Ui& ui) {
         ImGui::TextWrapped("%s: %llu elements, read by %s", volume->path.c_str(),
                            static_cast<unsigned long long>(volume->n_elements), volume->plugin.c_str());
     }
-    if (bench.stage() == FrameStage::exact && ImGui::BeginTable("counts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+    if (bench.stage() == FrameStage::exact &&
+        ImGui::BeginTable("counts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
         ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("count", ImGuiTableColumnFlags_WidthFixed);
         const FrameCounts& counts = bench.picture().counts;

@@ -16,14 +16,16 @@ bool edit_density(Ui& ui, SceneVolumeRendering& rendering) {
     if (!map.range && !data) {
         return false;
     }
-    const std::array<double, 2> range = map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1});
+    const std::array<double, 2> range =
+        map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1});
     if (!(range[0] < range[1])) {
         ImGui::TextWrapped("The field is the same everywhere.");
         return false;
     }
     const double usual = default_density(ui.model().volume()->diagonal());
     bool is_own = !rendering.density.empty();
-    if (rendering.opacity.empty() && check(ui, "volume/own density", "Own density", is_own, "Else it grows evenly over the range of the colours")) {
+    if (rendering.opacity.empty() &&
+        check(ui, "volume/own density", "Own density", is_own, "Else it grows evenly over the range of the colours")) {
         rendering.density.clear();
         if (is_own) {
             rendering.density = {{range[0], 0}, {0.5 * (range[0] + range[1]), 0}, {range[1], usual}};
@@ -38,14 +40,18 @@ bool edit_density(Ui& ui, SceneVolumeRendering& rendering) {
             most = std::max(most, point.density);
         }
         double wanted = most;
-        if (most > 0 && positive_number(ui, "volume/most", "Largest", wanted, most, "Density of the highest point, per world length: a ray keeps exp(-density * length) of the light behind")) {
+        if (most > 0 &&
+            positive_number(
+                ui, "volume/most", "Largest", wanted, most,
+                "Density of the highest point, per world length: a ray keeps exp(-density * length) of the light behind")) {
             for (auto& point : rendering.density) {
                 point.density *= wanted / most;
             }
             is_changed = true;
         }
     }
-    if (small_button(ui, "volume/add peak", "Add a peak", "A thin layer around one value, like a semi-transparent isosurface")) {
+    if (small_button(ui, "volume/add peak", "Add a peak",
+                     "A thin layer around one value, like a semi-transparent isosurface")) {
         rendering.peaks.push_back({round_middle(range), 0.05 * (range[1] - range[0]), 10 * usual, std::nullopt});
         is_changed = true;
     }
@@ -54,14 +60,20 @@ bool edit_density(Ui& ui, SceneVolumeRendering& rendering) {
         ScenePeak& peak = rendering.peaks[i];
         ImGui::PushID(static_cast<int>(i));
         const std::string name = "volume/peak" + std::to_string(i);
-        is_changed = slider(ui, name + "/value", "Peak at", peak.value, range[0], range[1], "Value around which the layer is") || is_changed;
+        is_changed =
+            slider(ui, name + "/value", "Peak at", peak.value, range[0], range[1], "Value around which the layer is") ||
+            is_changed;
         const double width = peak.width;
-        if (positive_number(ui, name + "/width", "Width", peak.width, range[1] - range[0], "Full width of the layer, in values of the field")) {
+        if (positive_number(ui, name + "/width", "Width", peak.width, range[1] - range[0],
+                            "Full width of the layer, in values of the field")) {
             peak.width = is_peak(peak) ? peak.width : width;
             is_changed = true;
         }
-        is_changed = positive_number(ui, name + "/density", "Density", peak.density, 10 * usual, "At that value, per world length") || is_changed;
-        is_changed = optional_color(ui, name + "/color", "Own colour", peak.color, {0.9, 0.9, 0.9}, "Else that of the map") || is_changed;
+        is_changed =
+            positive_number(ui, name + "/density", "Density", peak.density, 10 * usual, "At that value, per world length") ||
+            is_changed;
+        is_changed = optional_color(ui, name + "/color", "Own colour", peak.color, {0.9, 0.9, 0.9}, "Else that of the map") ||
+                     is_changed;
         ImGui::SameLine();
         if (small_button(ui, name + "/remove", "Remove", "Takes this peak away")) {
             removed = i;
@@ -83,7 +95,8 @@ bool edit_integrator(Ui& ui, SceneVolumeRendering& rendering) {
         words.push_back(name);
     }
     bool is_changed = false;
-    if (choice(ui, "volume/integrator", "Integrator", chosen, words, "How the integral along rays is found: exact to a tolerance, or in steps")) {
+    if (choice(ui, "volume/integrator", "Integrator", chosen, words,
+               "How the integral along rays is found: exact to a tolerance, or in steps")) {
         rendering.integrator = integrator_names()[chosen].second;
         is_changed = true;
     }
@@ -94,7 +107,9 @@ bool edit_integrator(Ui& ui, SceneVolumeRendering& rendering) {
             is_changed = true;
         }
     } else {
-        is_changed = slider(ui, "volume/tolerance", "Tolerance", rendering.tolerance, 1e-4, 0.1, "What a colour channel may be off") || is_changed;
+        is_changed =
+            slider(ui, "volume/tolerance", "Tolerance", rendering.tolerance, 1e-4, 0.1, "What a colour channel may be off") ||
+            is_changed;
     }
     return is_changed;
 }
@@ -119,7 +134,9 @@ bool edit_volume_rendering(Ui& ui, SceneVolumeRendering& rendering) {
             is_changed = true;
         }
         if (rendering.color_map) {
-            is_changed = edit_color_map(ui, "volume/colors", *rendering.color_map, rendering.field ? rendering.field : ui.scene().field) || is_changed;
+            is_changed = edit_color_map(ui, "volume/colors", *rendering.color_map,
+                                        rendering.field ? rendering.field : ui.scene().field) ||
+                         is_changed;
         }
         is_changed = edit_density(ui, rendering) || is_changed;
     }

@@ -11,14 +11,15 @@
 
 namespace elvis::native {
 
-/** Bounds of sum_i |df/dxi_i| and of sum_ij |d^2f/dxi_i dxi_j| (all terms, mixed ones twice) over the closed reference shape. */
+/** Bounds of sum_i |df/dxi_i| and of sum_ij |d^2f/dxi_i dxi_j| (all terms, mixed ones twice) over the closed reference shape.
+ */
 struct DerivativeBound {
     double first = 0, second = 0;
 };
 
 /**
- * Bounds for the functions of one space, rounding included. They hold as well for the function that is meant by the coefficients
- * of its device form (elvis/native/conversion.hpp) after these were rounded to single precision.
+ * Bounds for the functions of one space, rounding included. They hold as well for the function that is meant by the
+ * coefficients of its device form (elvis/native/conversion.hpp) after these were rounded to single precision.
  *
  * Two bounds, of which the smaller counts: the coefficients' magnitudes times what each function has at most, and in prisms,
  * triangles and tetrahedra the Bernstein coefficients of the derivatives. Any thread may call; copies are independent.

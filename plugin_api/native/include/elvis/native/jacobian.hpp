@@ -47,8 +47,8 @@ struct JacobianOptions {
      */
     double tolerance = 1e-9;
     /**
-     * Parts that an element may be divided into before it is left undecided. Some tens suffice unless the smallest determinant is
-     * close to zero along a whole line or surface inside the element.
+     * Parts that an element may be divided into before it is left undecided. Some tens suffice unless the smallest determinant
+     * is close to zero along a whole line or surface inside the element.
      */
     std::size_t max_parts = 4096;
 };
