@@ -1,6 +1,8 @@
 // What is written is read back, whole and in parts.
 #include "volume_fixture.hpp"
 
+#include <elvis/native/extrema.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <cstring>
@@ -14,6 +16,32 @@ TEST_CASE("A volume is read back bit by bit") {
         write(folder.path("volume.h5"), data);
         CHECK(identical(read_all(folder.path("volume.h5")), data));
         CHECK(Reader::probe(folder.path("volume.h5")) == 100);
+    }
+}
+
+TEST_CASE("Extrema of fields without a transform are stored with the volume") {
+    const TemporaryFolder folder;
+    for (const VolumeData& data : {small_volume(), large_volume()}) {
+        write(folder.path("volume.h5"), data);
+        const Reader reader(folder.path("volume.h5"));
+        const Description& d = reader.description();
+        for (std::size_t field = 0; field < d.fields.size(); ++field)
+            for (std::size_t step = 0; step < d.times.size(); ++step) {
+                const std::vector<Extrema> stored = reader.read_extrema(field, step);
+                if (d.fields[field].transform != Transform::none) {
+                    CHECK(stored.empty());
+                    continue;
+                }
+                const std::vector<Extrema> found = find_extrema(reader, field, step);
+                REQUIRE(stored.size() == found.size());
+                for (std::size_t entry = 0; entry < found.size(); ++entry) {
+                    CHECK(stored[entry].minimum.value == found[entry].minimum.value);
+                    CHECK(stored[entry].maximum.bound == found[entry].maximum.bound);
+                    CHECK(stored[entry].maximum.element_class == found[entry].maximum.element_class);
+                    CHECK(stored[entry].maximum.element == found[entry].maximum.element);
+                    CHECK(stored[entry].maximum.xi == found[entry].maximum.xi);
+                }
+            }
     }
 }
 

@@ -183,6 +183,10 @@ Handle create_dataset(const Handle& parent, const std::string& name, hid_t type,
             H5Dclose};
 }
 
+bool has_object(const Handle& group, const std::string& name, const Place& place) {
+    return check(H5Lexists(group.id(), name.c_str(), H5P_DEFAULT), place, "is damaged") > 0;
+}
+
 Handle open_dataset(const Handle& parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
                     const Place& place) {
     const Place here = place.child(name);

@@ -148,6 +148,9 @@ Handle create_dataset(const Handle& parent, const std::string& name, hid_t type,
 Handle open_dataset(const Handle& parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
                     const Place& place);
 
+/** Whether the group has an object of that name. */
+bool has_object(const Handle& group, const std::string& name, const Place& place);
+
 /** Reads or writes the box that starts at `start` and is `count` large. */
 void read_box(const Handle& dataset, hid_t type, const std::vector<hsize_t>& start, const std::vector<hsize_t>& count,
               void* data, const Place& place);

@@ -68,11 +68,14 @@ struct Reader::Impl {
     std::vector<Handle> geometry;
     std::vector<Handle> numbers;
     std::vector<std::vector<Handle>> coefficients;
+    /** By field; not valid where the file has none. */
+    std::vector<Handle> extrema;
     Handle faces;
 
     ~Impl() {
         const h5::Lock guard;
         faces.reset();
+        extrema.clear();
         coefficients.clear();
         numbers.clear();
         geometry.clear();
@@ -181,6 +184,12 @@ void Reader::Impl::open_fields() {
                 part, "coefficients", H5T_IEEE_F64LE,
                 {description.times.size(), element_class.n_elements, field.n_components, n_modes(space)}, part_place));
             element_class.fields.push_back(space);
+        }
+        extrema.emplace_back();
+        if (h5::has_object(group, "extrema", here)) {
+            extrema.back() =
+                h5::open_dataset(group, "extrema", H5T_IEEE_F64LE,
+                                 {description.times.size(), n_extrema(field.n_components), 2, format::extremum_numbers}, here);
         }
         description.fields.push_back(std::move(field));
     }
@@ -320,6 +329,32 @@ void Reader::read_faces(std::uint64_t first, std::uint64_t count, std::span<Face
             place.fail(problem + ", in row " + std::to_string(first + index));
         }
     }
+}
+
+std::vector<Extrema> Reader::read_extrema(std::size_t field, std::size_t time_step) const {
+    const Handle& dataset = m_impl->extrema.at(field);
+    if (!dataset.is_valid()) {
+        return {};
+    }
+    const Place place = m_impl->place.child("fields").child(std::to_string(field)).child("extrema");
+    const Description& description = m_impl->description;
+    const std::size_t n = n_extrema(description.fields[field].n_components);
+    std::vector<double> numbers(n * 2 * format::extremum_numbers);
+    const h5::Lock guard;
+    h5::read_box(dataset, H5T_NATIVE_DOUBLE, {time_step, 0, 0, 0}, {1, n, 2, format::extremum_numbers}, numbers.data(), place);
+    std::vector<Extrema> result(n);
+    for (std::size_t at = 0; at < 2 * n; ++at) {
+        const double* row = &numbers[at * format::extremum_numbers];
+        const auto is_below = [](double index, std::uint64_t end) { return index >= 0 && index < static_cast<double>(end); };
+        if (!is_below(row[2], description.classes.size()) ||
+            !is_below(row[3], description.classes[static_cast<std::size_t>(row[2])].n_elements)) {
+            place.fail("names an element that is not there");
+        }
+        Extremum& extremum = at % 2 == 0 ? result[at / 2].minimum : result[at / 2].maximum;
+        extremum = {
+            row[0], row[1], static_cast<std::uint64_t>(row[2]), static_cast<std::uint64_t>(row[3]), {row[4], row[5], row[6]}};
+    }
+    return result;
 }
 
 } // namespace elvis::native

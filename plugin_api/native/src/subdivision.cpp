@@ -8,18 +8,13 @@ namespace elvis::native {
 namespace {
 
 constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
-/**
- * Halvings along a direction: witnesses stay exact in double precision, since xi of eta with 16 bits each is a product of at
- * most three such numbers.
- */
-constexpr std::uint32_t max_depth = 16;
 /** Numbers that an element's parts may take: 256 MB. */
 constexpr std::size_t max_numbers = std::size_t{1} << 25;
 
 } // namespace
 
 Subdivision::Subdivision(Shape shape, const Sizes& sizes, const JacobianOptions& options)
-    : m_shape(shape), m_sizes(sizes), m_places(storage_places(shape)), m_size(product(sizes)), m_tolerance(options.tolerance),
+    : m_shape(shape), m_layout(shape, sizes), m_size(product(sizes)), m_tolerance(options.tolerance),
       m_max_parts(std::min(options.max_parts, max_numbers / product(sizes) + 1)) {}
 
 std::span<double> Subdivision::numbers(const Part& part) { return std::span(m_numbers).subspan(part.place * m_size, m_size); }
@@ -27,22 +22,15 @@ std::span<double> Subdivision::numbers(const Part& part) { return std::span(m_nu
 bool Subdivision::look(Part& part) {
     const std::span<const double> b = numbers(part);
     part.least = *std::min_element(b.begin(), b.end());
-    const Sizes last{m_sizes[0] - 1, m_sizes[1] - 1, m_sizes[2] - 1};
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-        std::size_t at = 0;
-        for (std::size_t place = 0; place < 3; ++place)
-            at = at * m_sizes[place] + ((corner >> place) % 2 != 0 ? last[place] : 0);
-        if (!(b[at] < m_witness_value))
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const double value = b[m_layout.at_corner(corner)];
+        if (!(value < m_witness_value))
             continue;
-        Point eta{};
-        for (std::size_t direction = 0; direction < 3; ++direction) {
-            const std::uint32_t step = (corner >> m_places[direction]) % 2 != 0 ? 1 : 0;
-            eta[direction] = std::ldexp(part.index[direction] + step, 1 - static_cast<int>(part.depth[direction])) - 1;
-        }
+        const Point eta = part.region.corner(corner);
         // xi cannot tell the directions at the apex of a pyramid apart.
         if (m_shape == Shape::pyramid && eta[2] == 1)
             continue;
-        m_witness_value = b[at];
+        m_witness_value = value;
         m_witness = expand(m_shape, eta);
         if (m_witness_value < -part.error)
             return true;
@@ -51,20 +39,12 @@ bool Subdivision::look(Part& part) {
 }
 
 std::size_t Subdivision::direction_to_halve(const Part& part) {
-    const std::span<const double> b = numbers(part);
     std::size_t best = 3;
     double most = -1;
     for (std::size_t direction = 0; direction < 3; ++direction) {
-        const std::size_t place = m_places[direction];
-        if (part.depth[direction] == max_depth || m_sizes[place] == 1)
+        if (part.region.depth[direction] == max_depth || m_layout.n_along(direction) == 1)
             continue;
-        std::size_t stride = 1;
-        for (std::size_t faster = place + 1; faster < 3; ++faster)
-            stride *= m_sizes[faster];
-        double variation = 0;
-        for (std::size_t block = 0; block < m_size; block += stride * m_sizes[place])
-            for (std::size_t k = block; k + stride < block + stride * m_sizes[place]; ++k)
-                variation = std::max(variation, std::abs(b[k + stride] - b[k]));
+        const double variation = m_layout.variation(numbers(part), direction);
         if (variation > most) {
             most = variation;
             best = direction;
@@ -74,28 +54,14 @@ std::size_t Subdivision::direction_to_halve(const Part& part) {
 }
 
 void Subdivision::halve(const Part& part, std::size_t direction, Part& low, Part& high) {
-    const std::size_t place = m_places[direction];
-    std::size_t stride = 1;
-    for (std::size_t faster = place + 1; faster < 3; ++faster)
-        stride *= m_sizes[faster];
-    const std::size_t n = m_sizes[place];
     low = high = part;
     low.place = m_numbers.size() / m_size;
     m_numbers.resize(m_numbers.size() + m_size);
-    low.index[direction] = 2 * part.index[direction];
-    high.index[direction] = low.index[direction] + 1;
-    low.depth[direction] = high.depth[direction] = part.depth[direction] + 1;
+    low.region = part.region.half(direction, false);
+    high.region = part.region.half(direction, true);
     // Every level of means rounds once.
-    low.error = high.error = part.error + static_cast<double>(n) * unit * m_scale;
-    double* const b = numbers(high).data();
-    double* const left = numbers(low).data();
-    for (std::size_t block = 0; block < m_size; block += stride * n)
-        for (std::size_t level = 0; level < n; ++level) {
-            std::copy_n(b + block, stride, left + block + level * stride);
-            const std::size_t end = block + (n - 1 - level) * stride;
-            for (std::size_t k = block; k < end; ++k)
-                b[k] = 0.5 * (b[k] + b[k + stride]);
-        }
+    low.error = high.error = part.error + static_cast<double>(m_layout.n_along(direction)) * unit * m_scale;
+    m_layout.halve(numbers(high), numbers(low), direction);
 }
 
 JacobianCheck Subdivision::decide(std::span<const double> coefficients, double error) {

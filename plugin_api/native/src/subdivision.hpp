@@ -6,7 +6,7 @@
  */
 #pragma once
 
-#include "derivative_forms.hpp"
+#include "halving.hpp"
 
 #include <elvis/native/jacobian.hpp>
 
@@ -26,12 +26,11 @@ public:
     JacobianCheck decide(std::span<const double> coefficients, double error);
 
 private:
-    /** Part of the cube: along each direction halved `depth` times, the `index`-th of the parts. */
     struct Part {
+        CubePart region;
         double least = 0;
         double error = 0;
         std::size_t place = 0; // of its coefficients in m_numbers, in units of the form's size
-        std::array<std::uint32_t, 3> index{}, depth{};
     };
 
     std::span<double> numbers(const Part& part);
@@ -42,7 +41,7 @@ private:
     void halve(const Part& part, std::size_t direction, Part& low, Part& high);
 
     Shape m_shape;
-    Sizes m_sizes, m_places;
+    FormLayout m_layout;
     std::size_t m_size;
     double m_tolerance;
     std::size_t m_max_parts;

@@ -3,7 +3,7 @@
 #include "format.hpp"
 #include "hdf5.hpp"
 
-#include <elvis/native/volume_file.hpp>
+#include <elvis/native/extrema.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -68,6 +68,8 @@ struct Writer::Impl {
     /** By field, class and time step. */
     std::vector<std::vector<std::vector<Coverage>>> written_coefficients;
     Coverage written_faces;
+    /** By field and time step; none for fields with a transform. */
+    std::vector<std::vector<ExtremaSearch>> searches;
     /** Element numbers that have been given out. */
     std::vector<bool> number_is_used;
     /** Whether the temporary file is there and ours to remove. */
@@ -93,7 +95,9 @@ struct Writer::Impl {
     void create_file();
     void create_classes();
     void create_fields();
+    std::vector<Space> spaces_of(std::size_t field) const;
     void check_complete() const;
+    void write_extrema(std::size_t field);
 };
 
 void Writer::Impl::create_file() {
@@ -161,6 +165,11 @@ void Writer::Impl::create_fields() {
         h5::write_text(group, "transform", format::name_of(format::transforms, field.transform), here);
         coefficients.emplace_back();
         written_coefficients.emplace_back(description.classes.size(), std::vector<Coverage>(description.times.size()));
+        searches.emplace_back();
+        if (field.transform == Transform::none) {
+            const ExtremaSearch search(spaces_of(index), field.n_components);
+            searches.back() = std::vector<ExtremaSearch>(description.times.size(), search);
+        }
         for (std::size_t element_class = 0; element_class < description.classes.size(); ++element_class) {
             const Space& space = description.classes[element_class].fields.at(index);
             const std::string class_name = std::to_string(element_class);
@@ -173,6 +182,38 @@ void Writer::Impl::create_fields() {
                 field.n_components * modes * sizeof(double), here.child(class_name)));
         }
     }
+}
+
+std::vector<Space> Writer::Impl::spaces_of(std::size_t field) const {
+    std::vector<Space> spaces;
+    for (const ElementClass& element_class : description.classes) {
+        spaces.push_back(element_class.fields.at(field));
+    }
+    return spaces;
+}
+
+void Writer::Impl::write_extrema(std::size_t field) {
+    const Place here = place.child("fields").child(std::to_string(field));
+    const std::uint32_t n_components = description.fields[field].n_components;
+    std::vector<double> rows;
+    for (std::size_t step = 0; step < searches[field].size(); ++step) {
+        const auto read = [&](std::size_t element_class, std::uint64_t first, std::uint64_t count, std::span<double> out) {
+            const std::size_t modes = n_modes(description.classes[element_class].fields[field]);
+            h5::read_box(coefficients[field][element_class], H5T_NATIVE_DOUBLE, {step, first, 0, 0},
+                         {1, count, n_components, modes}, out.data(), here);
+        };
+        for (const Extrema& extrema : searches[field][step].finish(read)) {
+            for (const Extremum& extremum : {extrema.minimum, extrema.maximum}) {
+                rows.insert(rows.end(),
+                            {extremum.value, extremum.bound, static_cast<double>(extremum.element_class),
+                             static_cast<double>(extremum.element), extremum.xi[0], extremum.xi[1], extremum.xi[2]});
+            }
+        }
+    }
+    const std::vector<hsize_t> shape = {description.times.size(), n_extrema(n_components), 2, format::extremum_numbers};
+    const Handle dataset = h5::create_dataset(field_groups[field], "extrema", H5T_IEEE_F64LE, shape, 0,
+                                              rows.size() / description.times.size() * sizeof(double), here);
+    h5::write_box(dataset, H5T_NATIVE_DOUBLE, {0, 0, 0, 0}, shape, rows.data(), here.child("extrema"));
 }
 
 void Writer::Impl::check_complete() const {
@@ -236,6 +277,9 @@ void Writer::write_field(std::size_t field, std::size_t time_step, std::size_t e
     const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).fields.at(field));
     const std::uint32_t n_components = m_impl->description.fields[field].n_components;
     assert(coefficients.size() == count * n_components * modes);
+    if (m_impl->description.fields[field].transform == Transform::none) {
+        m_impl->searches[field].at(time_step).add(element_class, first, count, coefficients);
+    }
     const h5::Lock guard;
     h5::write_box(m_impl->coefficients[field][element_class], H5T_NATIVE_DOUBLE, {time_step, first, 0, 0},
                   {1, count, n_components, modes}, coefficients.data(), m_impl->place);
@@ -306,6 +350,9 @@ void Writer::commit() {
             h5::write_text(m_impl->field_groups[index], "continuity",
                            format::name_of(format::continuities, description.fields[index].continuity), here);
             h5::write_attribute(m_impl->field_groups[index], "max_jump", description.fields[index].max_jump, here);
+            if (description.fields[index].transform == Transform::none) {
+                m_impl->write_extrema(index);
+            }
         }
         h5::write_attribute(m_impl->file, "n_notes", static_cast<std::uint32_t>(description.notes.size()), m_impl->place);
         if (!description.notes.empty()) {

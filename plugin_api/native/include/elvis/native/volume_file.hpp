@@ -61,6 +61,25 @@ struct Face {
     std::int32_t group = -1;
 };
 
+/** A smallest or largest value of a field, and where it is taken. */
+struct Extremum {
+    /** NaN if no element has finite coefficients. */
+    double value = std::numeric_limits<double>::quiet_NaN();
+    /** Certified: no value of the field lies beyond. */
+    double bound = std::numeric_limits<double>::quiet_NaN();
+    std::uint64_t element_class = 0;
+    /** Place of the element in its class. */
+    std::uint64_t element = 0;
+    Point xi{};
+};
+
+struct Extrema {
+    Extremum minimum, maximum;
+};
+
+/** Entries of a field's list of extrema: its components, and the magnitude if there are several. */
+inline std::size_t n_extrema(std::uint32_t n_components) { return n_components > 1 ? n_components + 1u : 1u; }
+
 /** All of a volume but its numbers. */
 struct Description {
     int dimension = 3;
@@ -106,6 +125,12 @@ public:
 
     void read_faces(std::uint64_t first, std::uint64_t count, std::span<Face> faces) const;
 
+    /**
+     * Extrema of a field as the file says: n_extrema(n_components) entries, or none if it does not say (files of version 1.0
+     * and of other writers, fields with a transform). See find_extrema in extrema.hpp.
+     */
+    std::vector<Extrema> read_extrema(std::size_t field, std::size_t time_step) const;
+
 private:
     struct Impl;
     std::unique_ptr<Impl> m_impl;
@@ -113,7 +138,8 @@ private:
 
 /**
  * Writes to a temporary file beside the target; `commit` renames it into place. Destroyed without commit, it leaves nothing.
- * Blocks may come in any order, each element once; `commit` refuses a volume with unwritten blocks.
+ * Blocks may come in any order, each element once; `commit` refuses a volume with unwritten blocks. The extrema of fields
+ * without a transform are found on the way (extrema.hpp).
  */
 class Writer {
 public:
