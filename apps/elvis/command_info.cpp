@@ -1,6 +1,8 @@
 #include "commands.hpp"
 #include "volume_argument.hpp"
 
+#include <core/render/field_range.hpp>
+#include <core/volume/field_extrema.hpp>
 #include <core/volume/jacobian_check.hpp>
 
 #include <nlohmann/json.hpp>
@@ -78,29 +80,67 @@ ordered_json describe_jacobians(const RuntimeVolume& volume, double tolerance, b
     return root;
 }
 
-struct Range {
-    double lower = std::numeric_limits<double>::infinity();
-    double upper = -std::numeric_limits<double>::infinity();
-};
+/** Sum of the elements' enclosures, from the plugin: one range a component. */
+ordered_json enclosures(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step, elvis_certainty& certainty) {
+    ordered_json result = ordered_json::array();
+    for (const FieldRange& range : ranges_from_plugin(volume, field, time_step, certainty)) {
+        result.push_back({number(range.lower), number(range.upper)});
+    }
+    return result;
+}
 
-/** Range of each component over the volume, from the plugin. */
-std::vector<Range> component_ranges(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step,
-                                    elvis_certainty& certainty) {
-    const std::size_t n_components = volume.fields()[field].n_components;
-    std::vector<Range> total(n_components);
-    constexpr std::uint64_t block = 65536;
-    std::vector<FieldRange> ranges;
-    certainty = ELVIS_CERTIFIED;
-    for (std::uint64_t first = 0; first < volume.n_elements(); first += block) {
-        ranges.resize(std::min(block, volume.n_elements() - first) * n_components);
-        certainty = std::max(certainty, volume.field_ranges(field, time_step, first, ranges.size() / n_components, ranges));
-        for (std::size_t index = 0; index < ranges.size(); ++index) {
-            Range& range = total[index % n_components];
-            range.lower = std::min(range.lower, ranges[index].lower);
-            range.upper = std::max(range.upper, ranges[index].upper);
+ordered_json describe_extremum(const RuntimeVolume& volume, const FieldExtremum& extremum) {
+    std::int64_t element_number = 0;
+    volume.element_numbers(extremum.element, 1, std::span(&element_number, 1));
+    ordered_json entry = {{"value", number(extremum.value)},
+                          {"bound", number(extremum.bound)},
+                          {"element", element_number},
+                          {"xi", point(extremum.xi)}};
+    if (volume.has_evaluation()) {
+        std::array<double, 3> x{};
+        volume.evaluate_mapping(extremum.element, extremum.xi, x, {});
+        entry["x"] = point(x);
+    }
+    return entry;
+}
+
+ordered_json describe_extrema(const RuntimeVolume& volume, const FieldExtrema& extrema) {
+    return {{"range", {number(extrema.minimum.value), number(extrema.maximum.value)}},
+            {"certainty", extrema.certainty == ELVIS_CERTIFIED ? "certified" : "sampled"},
+            {"minimum", describe_extremum(volume, extrema.minimum)},
+            {"maximum", describe_extremum(volume, extrema.maximum)}};
+}
+
+/**
+ * What the field's values are, and what encloses them: the former is what colours go by, the latter what pictures leave out by.
+ * Not of plugins that evaluate on the device alone.
+ */
+void describe_range(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step, ordered_json& entry) {
+    ordered_json ranges = ordered_json::array(), extrema = ordered_json::array();
+    elvis_certainty worst = ELVIS_CERTIFIED;
+    const auto n_components = static_cast<int>(volume.fields()[field].n_components);
+    for (int component = 0; component < n_components; ++component) {
+        if (const auto found = find_extrema(volume, field, component, time_step)) {
+            extrema.push_back(describe_extrema(volume, *found));
+            ranges.push_back(extrema.back()["range"]);
+            worst = std::max(worst, found->certainty);
         }
     }
-    return total;
+    if (!ranges.empty()) {
+        entry["range_by_component"] = ranges;
+        entry["range_certainty"] = worst == ELVIS_CERTIFIED ? "certified" : "sampled";
+        entry["extrema_by_component"] = extrema;
+    }
+    if (n_components > 1 && !ranges.empty()) {
+        if (const auto found = find_extrema(volume, field, -1, time_step)) {
+            entry["magnitude"] = describe_extrema(volume, *found);
+        }
+    }
+    if (volume.has_field_ranges()) {
+        elvis_certainty certainty = ELVIS_ESTIMATED;
+        entry["enclosure_by_component"] = enclosures(volume, field, time_step, certainty);
+        entry["enclosure_certainty"] = certainty == ELVIS_CERTIFIED ? "certified" : "sampled";
+    }
 }
 
 ordered_json describe_fields(const RuntimeVolume& volume, std::uint32_t time_step) {
@@ -118,15 +158,7 @@ ordered_json describe_fields(const RuntimeVolume& volume, std::uint32_t time_ste
             orders.push_back({info.order[0], info.order[1], info.order[2]});
         }
         entry["order_by_class"] = orders;
-        if (volume.has_field_ranges()) {
-            elvis_certainty certainty = ELVIS_ESTIMATED;
-            ordered_json ranges = ordered_json::array();
-            for (const Range& range : component_ranges(volume, index, time_step, certainty)) {
-                ranges.push_back({number(range.lower), number(range.upper)});
-            }
-            entry["range_by_component"] = ranges;
-            entry["range_certainty"] = certainty == ELVIS_CERTIFIED ? "certified" : "estimated";
-        }
+        describe_range(volume, index, time_step, entry);
         fields.push_back(entry);
     }
     return fields;
@@ -146,7 +178,9 @@ ordered_json describe(const RuntimeVolume& volume, const Arguments& arguments) {
                                    {"geometry_order", {info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]}},
                                    {"cut", volume.is_cut(index)}});
     }
-    Range bounds[3];
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<FieldRange, 3> bounds;
+    bounds.fill({infinity, -infinity});
     std::vector<double> boxes(6 * volume.n_elements());
     const elvis_certainty certainty = volume.bounds(0, volume.n_elements(), boxes);
     for (std::size_t at = 0; at < boxes.size(); at += 6) {
@@ -190,6 +224,30 @@ void print_jacobians(const ordered_json& root) {
     print_list(root["undecided"], root["n_undecided"], "undecided, smallest seen");
 }
 
+/** One line for a scalar, and one a component and for the magnitude else. */
+void print_ranges(const ordered_json& field) {
+    const auto print_extrema = [](const std::string& name, const ordered_json& extrema) {
+        std::printf("    %s%s (%s)", name.c_str(), extrema["range"].dump().c_str(), text_of(extrema["certainty"]).c_str());
+        if (extrema["minimum"].contains("x")) {
+            std::printf(", at x %s and %s", extrema["minimum"]["x"].dump().c_str(), extrema["maximum"]["x"].dump().c_str());
+        }
+        std::printf("\n");
+    };
+    if (field.contains("extrema_by_component")) {
+        const ordered_json& extrema = field["extrema_by_component"];
+        for (std::size_t component = 0; component < extrema.size(); ++component) {
+            print_extrema(extrema.size() > 1 ? "range of [" + std::to_string(component) + "] " : "range ", extrema[component]);
+        }
+    }
+    if (field.contains("magnitude")) {
+        print_extrema("range of the magnitude ", field["magnitude"]);
+    }
+    if (field.contains("enclosure_by_component")) {
+        std::printf("    enclosed by the elements' bounds %s (%s)\n", field["enclosure_by_component"].dump().c_str(),
+                    text_of(field["enclosure_certainty"]).c_str());
+    }
+}
+
 void print_table(const ordered_json& root) {
     std::printf("%s\n  served by %s\n  %s elements, %s faces\n", text_of(root["path"]).c_str(), text_of(root["plugin"]).c_str(),
                 root["n_elements"].dump().c_str(), root["n_faces"].dump().c_str());
@@ -206,10 +264,7 @@ void print_table(const ordered_json& root) {
                     continuity == "unknown" ? "continuity unknown" : continuity.c_str(),
                     field["max_jump"].is_null() ? "unknown" : field["max_jump"].dump().c_str(),
                     field["order_by_class"].dump().c_str());
-        if (field.contains("range_by_component")) {
-            std::printf("    range %s (%s)\n", field["range_by_component"].dump().c_str(),
-                        text_of(field["range_certainty"]).c_str());
-        }
+        print_ranges(field);
     }
     std::printf("  times %s\n  boundary groups %s\n", root["times"].dump().c_str(), root["boundary_groups"].dump().c_str());
     if (root.contains("negative_jacobians")) {

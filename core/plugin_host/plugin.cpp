@@ -17,6 +17,7 @@ struct Plugin::Impl {
     std::uint32_t abi_version = 0;
     std::optional<elvis_runtime> runtime;
     std::optional<elvis_converter> converter;
+    std::optional<elvis_extrema> extrema;
 };
 
 namespace {
@@ -68,6 +69,8 @@ const char* missing_function(const elvis_converter& table) {
            : !table.sample && !table.sample_world ? "sample (or sample_world)"
                                                   : nullptr;
 }
+
+const char* missing_function(const elvis_extrema& table) { return table.get_field_extrema ? nullptr : "get_field_extrema"; }
 
 template <class Table>
 std::optional<Table> read_interface(const std::filesystem::path& library, const elvis_plugin_descriptor& descriptor,
@@ -130,6 +133,7 @@ std::shared_ptr<const Plugin> Plugin::load(const std::filesystem::path& library)
     }
     impl.runtime = read_interface<elvis_runtime>(library, descriptor, ELVIS_RUNTIME_INTERFACE);
     impl.converter = read_interface<elvis_converter>(library, descriptor, ELVIS_CONVERTER_INTERFACE);
+    impl.extrema = read_interface<elvis_extrema>(library, descriptor, ELVIS_EXTREMA_INTERFACE);
     if (!impl.runtime && !impl.converter) {
         refuse(library, "offers neither " ELVIS_RUNTIME_INTERFACE " nor " ELVIS_CONVERTER_INTERFACE);
     }
@@ -145,6 +149,7 @@ const std::string& Plugin::description() const { return m_impl->description; }
 std::uint32_t Plugin::abi_version() const { return m_impl->abi_version; }
 const elvis_runtime* Plugin::runtime() const { return m_impl->runtime ? &*m_impl->runtime : nullptr; }
 const elvis_converter* Plugin::converter() const { return m_impl->converter ? &*m_impl->converter : nullptr; }
+const elvis_extrema* Plugin::extrema() const { return m_impl->extrema ? &*m_impl->extrema : nullptr; }
 
 std::string abi_version_text(std::uint32_t version) {
     return std::to_string(version >> 16) + "." + std::to_string(version & 0xffffu);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <elvis/converter.h>
+#include <elvis/extrema.h>
 #include <elvis/plugin.h>
 #include <elvis/runtime.h>
 
@@ -38,6 +39,7 @@ public:
      */
     const elvis_runtime* runtime() const;
     const elvis_converter* converter() const;
+    const elvis_extrema* extrema() const;
 
 private:
     Plugin();

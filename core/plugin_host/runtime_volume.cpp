@@ -396,6 +396,36 @@ elvis_certainty RuntimeVolume::field_ranges(std::uint32_t field, std::uint32_t t
     return certainty;
 }
 
+std::optional<FieldExtrema> RuntimeVolume::extrema(std::uint32_t field, int component, std::uint32_t time_step) const {
+    const elvis_extrema* table = m_impl->plugin->extrema();
+    if (!table) {
+        return {};
+    }
+    constexpr const char* function = "get_field_extrema";
+    auto minimum = sized<elvis_extremum>(), maximum = sized<elvis_extremum>();
+    elvis_certainty certainty = ELVIS_ESTIMATED;
+    m_impl->services->begin(function);
+    m_impl->check(table->get_field_extrema(m_impl->volume, field,
+                                           component < 0 ? ELVIS_MAGNITUDE : static_cast<std::uint32_t>(component), time_step,
+                                           &minimum, &maximum, &certainty),
+                  function);
+    m_impl->check_certainty(certainty, function);
+    if (certainty != ELVIS_CERTIFIED) {
+        return {};
+    }
+    const bool has_values = !std::isnan(minimum.value) || !std::isnan(maximum.value);
+    if (has_values && !(minimum.bound <= minimum.value && minimum.value <= maximum.value && maximum.value <= maximum.bound)) {
+        m_impl->refuse(function, "values and bounds in the wrong order, or NaN");
+    }
+    if (minimum.element >= n_elements() || maximum.element >= n_elements()) {
+        m_impl->refuse(function, "an element that is not there");
+    }
+    const auto read = [](const elvis_extremum& from) {
+        return FieldExtremum{from.value, from.bound, from.element, {from.xi[0], from.xi[1], from.xi[2]}};
+    };
+    return FieldExtrema{read(minimum), read(maximum), certainty};
+}
+
 bool RuntimeVolume::has_derivative_bounds() const { return m_impl->table->get_field_derivative_bounds != nullptr; }
 
 elvis_certainty RuntimeVolume::derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,

@@ -72,6 +72,20 @@ struct FieldRange {
     double upper = 0;
 };
 
+/** A smallest or largest value of a field and where it is taken. NaN if there is no finite value. */
+struct FieldExtremum {
+    double value = 0;
+    /** Certified: the field takes no value beyond. Else the value. */
+    double bound = 0;
+    std::uint64_t element = 0;
+    std::array<double, 3> xi{};
+};
+
+struct FieldExtrema {
+    FieldExtremum minimum, maximum;
+    elvis_certainty certainty = ELVIS_ESTIMATED;
+};
+
 /** See elvis_runtime.get_field_derivative_bounds; NaN where the plugin cannot tell. */
 struct DerivativeBounds {
     double first = 0;  ///< L
@@ -131,6 +145,13 @@ public:
     /** n_components ranges an element. Needs has_field_ranges(). */
     elvis_certainty field_ranges(std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
                                  std::span<FieldRange> out) const;
+
+    /**
+     * Extrema of a component, or of the magnitude (component -1) of a field with several, from a plugin that offers
+     * elvis_extrema and has an answer. Checked: a minimum that is no larger than the maximum, bounds beyond both, places in the
+     * volume.
+     */
+    std::optional<FieldExtrema> extrema(std::uint32_t field, int component, std::uint32_t time_step) const;
 
     bool has_derivative_bounds() const;
     /** n_components entries an element. Needs has_derivative_bounds(). Checked: each finite and >= 0, or NaN. */

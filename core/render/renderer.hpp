@@ -40,7 +40,12 @@ public:
 
     /** Bounds of the whole volume: min x y z, max x y z. */
     std::array<double, 6> bounds() const;
-    /** Range of a field (component or magnitude) over the volume at a time step, and whether it is certified. */
+    /**
+     * The values that a field (component or magnitude) takes over the volume at a time step: its extrema, to a thousandth of
+     * their distance where the plugin has bounds, else of samples. An empty range if none is finite.
+     */
+    FieldRange field_values(const FieldChoice& field, std::uint32_t time_step);
+    /** What encloses them, wider, and whether it is certified. */
     FieldRange field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
     /**
      * About what rounding costs its values, to tell whether the range is more than that. 0 for components of fields, which lack

@@ -1,8 +1,10 @@
 #include <core/render/field_range.hpp>
 #include <core/render/shown_field.hpp>
+#include <core/volume/field_extrema.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace elvis {
 
@@ -128,15 +130,40 @@ const ShownFields::Ranges& ShownFields::of_components(std::uint32_t field, std::
     auto found = m_of_components.find({field, time_step});
     if (found == m_of_components.end()) {
         elvis_certainty certainty = ELVIS_ESTIMATED;
-        const std::uint32_t n_components = m_volume.fields()[field].n_components;
         std::vector<FieldRange> all;
         if (m_volume.has_field_ranges()) {
             all = ranges_from_plugin(m_volume, field, time_step, certainty);
         } else {
-            m_data.select({{{field, std::vector<double>(n_components, 0.0)}}, time_step, nullptr});
-            all = ranges_from_samples(m_device, m_volume, m_data, n_components);
+            all = sampled(field, time_step);
         }
         found = m_of_components.try_emplace({field, time_step}, std::move(all), certainty).first;
+    }
+    return found->second;
+}
+
+std::vector<FieldRange> ShownFields::sampled(std::uint32_t field, std::uint32_t time_step) {
+    const std::uint32_t n_components = m_volume.fields()[field].n_components;
+    m_data.select({{{field, std::vector<double>(n_components, 0.0)}}, time_step, nullptr});
+    return ranges_from_samples(m_device, m_volume, m_data, n_components);
+}
+
+FieldRange ShownFields::values(const FieldChoice& field, std::uint32_t time_step) {
+    if (field.expression) {
+        return range(field, time_step);
+    }
+    const std::tuple key(field.field, field.component, time_step);
+    auto found = m_values.find(key);
+    if (found == m_values.end()) {
+        FieldRange all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+        if (const auto extrema = find_extrema(m_volume, field.field, field.component, time_step)) {
+            if (extrema->minimum.value <= extrema->maximum.value) {
+                all = {extrema->minimum.value, extrema->maximum.value};
+            }
+        } else {
+            const std::vector<FieldRange> components = sampled(field.field, time_step);
+            all = field.component < 0 ? magnitude_range(components) : components[static_cast<std::size_t>(field.component)];
+        }
+        found = m_values.try_emplace(key, all).first;
     }
     return found->second;
 }

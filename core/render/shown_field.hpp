@@ -10,6 +10,7 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -37,7 +38,16 @@ public:
     double offset(const FieldChoice& field) const;
     ShownComponent component(const FieldChoice& field) const;
 
-    /** Over the volume. Expressions are sampled on the device, which then has another selection. */
+    /**
+     * The values that the field takes over the volume, from the smallest to the largest (find_extrema in field_extrema.hpp):
+     * what colours go by. Samples on the device where nothing better is to be had, which then has another selection.
+     */
+    FieldRange values(const FieldChoice& field, std::uint32_t time_step);
+
+    /**
+     * Encloses those: certified where the plugin says so, and several times wider. Expressions are sampled on the device, which
+     * then has another selection.
+     */
     FieldRange range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
 
     /**
@@ -50,11 +60,14 @@ private:
     using Ranges = std::pair<std::vector<FieldRange>, elvis_certainty>;
     std::vector<double> middles(std::uint32_t field, std::uint32_t time_step);
     const Ranges& of_components(std::uint32_t field, std::uint32_t time_step);
+    std::vector<FieldRange> sampled(std::uint32_t field, std::uint32_t time_step);
 
     const Device& m_device;
     const RuntimeVolume& m_volume;
     DeviceVolume& m_data;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Ranges> m_of_components;
+    /** By field, component and time step. */
+    std::map<std::tuple<std::uint32_t, int, std::uint32_t>, FieldRange> m_values;
     std::map<std::pair<std::string, std::uint32_t>, FieldRange> m_of_expressions;
     std::map<std::pair<std::string, std::uint32_t>, double> m_errors;
 };

@@ -127,9 +127,9 @@ std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& fiel
         return *map.range;
     }
     const std::vector<std::uint32_t> steps = scene.range_steps.empty() ? std::vector{scene.time_step} : scene.range_steps;
-    FieldRange all = renderer.field_range(field, steps.front());
+    FieldRange all = renderer.field_values(field, steps.front());
     for (const std::uint32_t step : steps) {
-        const FieldRange range = renderer.field_range(field, step);
+        const FieldRange range = renderer.field_values(field, step);
         all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
     }
     if (map.is_logarithmic || !(all.lower <= all.upper)) {

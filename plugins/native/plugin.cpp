@@ -187,6 +187,27 @@ public:
         return m_volume.field_ranges(field, time_step, first, n, ranges);
     }
 
+    elvis_certainty get_field_extrema(std::uint32_t field, std::uint32_t component, std::uint32_t time_step,
+                                      elvis_extremum& minimum, elvis_extremum& maximum) {
+        check_field(field);
+        check_time_step(time_step);
+        const std::uint32_t n_components = m_description.fields[field].n_components;
+        require(component < n_components || (component == ELVIS_MAGNITUDE && n_components > 1), "component out of range");
+        const std::vector<native::Extrema> extrema = m_volume.extrema(field, time_step);
+        if (extrema.empty())
+            return ELVIS_ESTIMATED;
+        const native::Extrema& found = extrema[component == ELVIS_MAGNITUDE ? n_components : component];
+        const auto put = [&](const native::Extremum& from, elvis_extremum& to) {
+            to.value = from.value;
+            to.bound = from.bound;
+            to.element = m_volume.first_element(from.element_class) + from.element;
+            std::copy(from.xi.begin(), from.xi.end(), to.xi);
+        };
+        put(found.minimum, minimum);
+        put(found.maximum, maximum);
+        return ELVIS_CERTIFIED;
+    }
+
     elvis_certainty get_field_derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
                                                 std::uint64_t n, std::span<double> bounds) {
         check_field(field);
@@ -252,4 +273,5 @@ private:
 
 ELVIS_PLUGIN(.id = "org.elvis.native", .name = "Native volume", .version = "0.1.0", .vendor = "ElVis",
              .description = "Serves ElVis's own HDF5 volumes for rendering.",
-             .runtime = elvis::api::runtime_table<elvis::native_plugin::NativeVolume>());
+             .runtime = elvis::api::runtime_table<elvis::native_plugin::NativeVolume>(),
+             .extrema = elvis::api::extrema_table<elvis::native_plugin::NativeVolume>());

@@ -1,5 +1,7 @@
 #include "volume.hpp"
 
+#include <elvis/native/extrema.hpp>
+
 #include <algorithm>
 #include <fstream>
 
@@ -151,6 +153,20 @@ void Volume::faces(std::uint64_t first, std::span<elvis_face> faces) const {
     for (std::size_t i = 0; i < read.size(); ++i)
         faces[i] = {sizeof(elvis_face),          read[i].group,      position(read[i].element),
                     position(read[i].neighbour), read[i].local_face, read[i].neighbour_local_face};
+}
+
+std::vector<native::Extrema> Volume::extrema(std::size_t field, std::size_t time_step) const {
+    std::vector<native::Extrema> result;
+    if (description().fields[field].transform == Transform::none)
+        read_file([&] {
+            std::vector<native::Extrema>& kept = m_extrema[{field, time_step}];
+            if (kept.empty())
+                kept = m_reader.read_extrema(field, time_step);
+            if (kept.empty())
+                kept = native::find_extrema(m_reader, field, time_step);
+            result = kept;
+        });
+    return result;
 }
 
 std::vector<double> Volume::read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count) const {

@@ -56,6 +56,8 @@ public:
     /** Certified for fields without a transform, else from samples. */
     elvis_certainty field_ranges(std::size_t field, std::size_t time_step, std::uint64_t first, std::uint64_t count,
                                  std::span<double> ranges) const;
+    /** Of each component, then of the magnitude if there are several; none for fields with a transform. */
+    std::vector<native::Extrema> extrema(std::size_t field, std::size_t time_step) const;
     /** Certified; see elvis_runtime.check_jacobians. */
     void check_jacobians(std::uint64_t first, double tolerance, std::span<native::JacobianCheck> checks) const;
 
@@ -116,6 +118,8 @@ private:
     std::string m_path;
     native::Reader m_reader;
     mutable std::mutex m_reader_mutex;
+    /** By field and time step, once they were asked for; under the same mutex. */
+    mutable std::map<std::pair<std::size_t, std::size_t>, std::vector<native::Extrema>> m_extrema;
     /** First element of each class, and the number of all elements. */
     std::vector<std::uint64_t> m_first_elements;
     /** By class, then by field. */

@@ -1,4 +1,4 @@
-// Smallest and largest of 7 x 7 x 7 samples of a field in each element: an estimate of its range, for plugins that give none. A few points
+// Smallest and largest of 7 x 7 x 7 samples of a field in each element, where that is: an estimate of its range, for plugins that give none. A few points
 // in a dispatch, from the first on: drivers end loops that take many turns, those of an evaluation among them.
 
 #include "library/expand.glsl"
@@ -24,7 +24,14 @@ void main() {
 #else
         const elvis_real value = elvis_field_value(core_first + index, xi, core_component);
 #endif
+#if ELVIS_HAS_INSIDE
+        elvis_real inside;
+        elvis_vec3 slope;
+        elvis_inside(core_first + index, xi, inside, slope);
+        const bool is_finite = core_is_finite(value) && inside <= elvis_real(0);
+#else
         const bool is_finite = core_is_finite(value);
+#endif
         lower = is_finite ? min(lower, value) : lower;
         upper = is_finite ? max(upper, value) : upper;
     }

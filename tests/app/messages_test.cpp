@@ -34,3 +34,25 @@ TEST_CASE("Help of render names the colour maps, and info says what is unknown i
     CHECK_THAT(info, Catch::Contains("field sphere: 1 component, "));
     CHECK_THAT(info, !Catch::Contains("null"));
 }
+
+TEST_CASE("Info tells the values that a field takes, and what encloses them") {
+    const Workplace place;
+    const std::string data = ELVIS_TEST_DATA "/mfem/poisson-fichera-q3-p5";
+    REQUIRE(place.run("convert '" + data + "/mesh.mesh' '" + data + "/sol.gf' -o fichera.h5").status == 0);
+    const auto field = nlohmann::json::parse(place.run("info fichera.h5 --json").out)["fields"][0];
+    // The solution of a Poisson problem with load 1 and value 0 on the boundary; its largest value as 1e6 samples show it.
+    const double lower = field["range_by_component"][0][0], upper = field["range_by_component"][0][1];
+    CHECK(lower == Approx(0).margin(1e-3 * 0.1485));
+    CHECK(upper == Approx(0.1485).epsilon(1e-3));
+    CHECK(field["range_certainty"] == "certified");
+    const auto& maximum = field["extrema_by_component"][0]["maximum"];
+    CHECK(maximum["bound"] >= upper);
+    CHECK(maximum["bound"] <= upper + 1e-3 * (upper - lower));
+    const std::string x = maximum["x"].dump();
+    const auto probed = nlohmann::json::parse(place.run("probe fichera.h5 --json --point " + x.substr(1, x.size() - 2)).out);
+    CHECK(probed["points"][0]["fields"]["sol"][0].get<double>() == Approx(upper).epsilon(1e-9));
+    // The elements' bounds are several times wider.
+    CHECK(field["enclosure_by_component"][0][1] > 2 * upper);
+    CHECK(field["enclosure_certainty"] == "certified");
+    CHECK_THAT(place.run("info fichera.h5").out, Catch::Contains("enclosed by the elements' bounds"));
+}

@@ -24,6 +24,7 @@
 #define ELVIS_PLUGIN_HPP
 
 #include "converter.h"
+#include "extrema.h"
 #include "plugin.h"
 #include "runtime.h"
 
@@ -143,6 +144,10 @@ public:
     //   elvis_certainty get_field_derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
     //                                               std::uint64_t count, std::span<double> bounds);
     //   elvis_certainty check_jacobians(std::uint64_t first, double tolerance, StructArray<elvis_jacobian_check> checks);
+    //
+    // For extrema_table (elvis/extrema.h):
+    //   elvis_certainty get_field_extrema(std::uint32_t field, std::uint32_t component, std::uint32_t time_step,
+    //                                     elvis_extremum& minimum, elvis_extremum& maximum);
 
 private:
     Host m_host;
@@ -359,6 +364,24 @@ template <class Volume> const elvis_runtime* runtime_table() {
     return &table;
 }
 
+/** Draft. The table of elvis/extrema.h, of a class derived from RuntimeVolume with get_field_extrema. */
+template <class Volume> const elvis_extrema* extrema_table() {
+    using namespace detail;
+    static const elvis_extrema table = {
+        sizeof(elvis_extrema), 0,
+        [](elvis_volume* volume, std::uint32_t field, std::uint32_t component, std::uint32_t time_step, elvis_extremum* minimum,
+           elvis_extremum* maximum, elvis_certainty* certainty) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) {
+                fill_struct(minimum, [&](elvis_extremum& low) {
+                    fill_struct(maximum, [&](elvis_extremum& high) {
+                        *certainty = v.get_field_extrema(field, component, time_step, low, high);
+                    });
+                });
+            });
+        }};
+    return &table;
+}
+
 /** The table of a class derived from ConverterSource. */
 template <class Source> const elvis_converter* converter_table() {
     using namespace detail;
@@ -443,6 +466,7 @@ struct Description {
     const char* description = nullptr;
     const elvis_runtime* runtime = nullptr;
     const elvis_converter* converter = nullptr;
+    const elvis_extrema* extrema = nullptr;
 };
 
 } // namespace elvis::api
@@ -465,6 +489,9 @@ struct Description {
                                                             }                                                                  \
                                                             if (wanted == ELVIS_CONVERTER_INTERFACE) {                         \
                                                                 return description.converter;                                  \
+                                                            }                                                                  \
+                                                            if (wanted == ELVIS_EXTREMA_INTERFACE) {                           \
+                                                                return description.extrema;                                    \
                                                             }                                                                  \
                                                             return nullptr;                                                    \
                                                         }};                                                                    \
