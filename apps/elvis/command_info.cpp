@@ -224,12 +224,26 @@ void print_jacobians(const ordered_json& root) {
     print_list(root["undecided"], root["n_undecided"], "undecided, smallest seen");
 }
 
-/** One line for a scalar, and one a component and for the magnitude else. */
+/** "[0.25, -1]": six digits, for people. */
+std::string numbers_text(const ordered_json& values) {
+    std::string text;
+    for (const ordered_json& value : values) {
+        std::array<char, 32> one{};
+        value.is_number() ? std::snprintf(one.data(), one.size(), "%.6g", value.get<double>())
+                          : std::snprintf(one.data(), one.size(), "unknown");
+        text += (text.empty() ? "" : ", ") + (value.is_array() ? numbers_text(value) : std::string(one.data()));
+    }
+    return "[" + text + "]";
+}
+
+/** One line for a scalar, else one for each component and one for the magnitude. */
 void print_ranges(const ordered_json& field) {
     const auto print_extrema = [](const std::string& name, const ordered_json& extrema) {
-        std::printf("    %s%s (%s)", name.c_str(), extrema["range"].dump().c_str(), text_of(extrema["certainty"]).c_str());
+        std::printf("    %s%s (%s)", name.c_str(), numbers_text(extrema["range"]).c_str(),
+                    text_of(extrema["certainty"]).c_str());
         if (extrema["minimum"].contains("x")) {
-            std::printf(", at x %s and %s", extrema["minimum"]["x"].dump().c_str(), extrema["maximum"]["x"].dump().c_str());
+            std::printf(", at x %s and %s", numbers_text(extrema["minimum"]["x"]).c_str(),
+                        numbers_text(extrema["maximum"]["x"]).c_str());
         }
         std::printf("\n");
     };
@@ -243,7 +257,7 @@ void print_ranges(const ordered_json& field) {
         print_extrema("range of the magnitude ", field["magnitude"]);
     }
     if (field.contains("enclosure_by_component")) {
-        std::printf("    enclosed by the elements' bounds %s (%s)\n", field["enclosure_by_component"].dump().c_str(),
+        std::printf("    enclosed by the elements' bounds %s (%s)\n", numbers_text(field["enclosure_by_component"]).c_str(),
                     text_of(field["enclosure_certainty"]).c_str());
     }
 }

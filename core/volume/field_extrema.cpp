@@ -35,7 +35,7 @@ struct Box {
     friend bool operator<(const Box& a, const Box& b) { return a.bound < b.bound; }
 };
 
-/** What is known of an element before the search: infinity and NaN where the plugin proves nothing. */
+/** What is known of elements before the search: infinity and NaN where the plugin proves nothing. */
 struct ElementFacts {
     std::vector<FieldRange> ranges;
     std::vector<double> second; ///< H
@@ -48,7 +48,7 @@ public:
           m_n_components(volume.fields()[field].n_components), m_first(component < 0 ? 0u : static_cast<unsigned>(component)),
           m_end(component < 0 ? m_n_components : m_first + 1) {
         read_facts();
-        look_at_middles();
+        look_at_corners();
     }
 
     FieldExtrema run() {
@@ -64,7 +64,7 @@ public:
 
 private:
     void read_facts();
-    void look_at_middles();
+    void look_at_corners();
     FieldExtremum largest(int sign);
     std::vector<Box> parts_of(const Box& box, int sign);
     std::vector<Point> lattice(const Point& middle, double half, int n) const;
@@ -127,13 +127,15 @@ void Search::read_facts() {
     }
 }
 
-void Search::look_at_middles() {
-    constexpr Point middle{};
+/** And at the middle of each element: extrema are often in a corner, and their distance is about known from the start. */
+void Search::look_at_corners() {
+    std::vector<Point> etas = lattice({}, 1, 2);
+    etas.emplace_back();
     for (std::uint64_t element = 0; element < m_volume.n_elements(); ++element) {
         if (m_control && element % elements_at_once == 0) {
             m_control->check();
         }
-        look(element, std::span(&middle, 1), false);
+        look(element, etas, false);
     }
 }
 
@@ -321,6 +323,16 @@ FieldExtremum Search::largest(int sign) {
 
 } // namespace
 
+FieldExtrema search_extrema(const RuntimeVolume& volume, std::uint32_t field, int component, std::uint32_t time_step,
+                            const TaskControl* control) {
+    FieldExtrema found = Search(volume, field, component, time_step, control).run();
+    if (!std::isfinite(found.minimum.value)) {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        found.minimum = found.maximum = {nan, nan, 0, {}};
+    }
+    return found;
+}
+
 std::optional<FieldExtrema> find_extrema(const RuntimeVolume& volume, std::uint32_t field, int component,
                                          std::uint32_t time_step, const TaskControl* control) {
     if (const std::optional<FieldExtrema> known = volume.extrema(field, component, time_step)) {
@@ -329,12 +341,7 @@ std::optional<FieldExtrema> find_extrema(const RuntimeVolume& volume, std::uint3
     if (!volume.has_evaluation() || volume.is_cut()) {
         return {};
     }
-    FieldExtrema found = Search(volume, field, component, time_step, control).run();
-    if (!std::isfinite(found.minimum.value)) {
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        found.minimum = found.maximum = {nan, nan, 0, {}};
-    }
-    return found;
+    return search_extrema(volume, field, component, time_step, control);
 }
 
 } // namespace elvis

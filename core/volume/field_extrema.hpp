@@ -24,10 +24,15 @@ namespace elvis {
 inline constexpr double extrema_tolerance = 1e-3;
 
 /**
- * Of a component, or of the magnitude (-1) of a field with several. Nothing if only the device could tell: the plugin evaluates
- * nothing on the CPU, or elements are only parts of their reference shape. May take long: `control` is asked meanwhile.
+ * Of a component, or of the magnitude (-1) of a field with several: from the plugin if it tells, else by the search. Nothing if
+ * only the device could tell: the plugin evaluates nothing on the CPU, or elements are only parts of their reference shape. May
+ * take long: `control` is asked meanwhile.
  */
 std::optional<FieldExtrema> find_extrema(const RuntimeVolume& volume, std::uint32_t field, int component,
                                          std::uint32_t time_step, const TaskControl* control = nullptr);
+
+/** The search alone, whatever the plugin tells. The volume must have CPU evaluation. */
+FieldExtrema search_extrema(const RuntimeVolume& volume, std::uint32_t field, int component, std::uint32_t time_step,
+                            const TaskControl* control = nullptr);
 
 } // namespace elvis

@@ -10,4 +10,5 @@
 ELVIS_PLUGIN(.id = "org.elvis.nektarpp", .name = "Nektar++ reader", .version = "1.1.0", .vendor = "ElVis",
              .description = "Draws and converts Nektar++ meshes (.xml) and fields (.fld, .chk): all shapes, curved and "
                             "mixed-order elements, partitioned directories.",
-             .runtime = nektarpp::runtime_interface(), .converter = nektarpp::converter_interface());
+             .runtime = nektarpp::runtime_interface(), .converter = nektarpp::converter_interface(),
+             .extrema = nektarpp::extrema_interface());

@@ -148,6 +148,22 @@ public:
         return ELVIS_CERTIFIED;
     }
 
+    elvis_certainty get_field_extrema(std::uint32_t field, std::uint32_t component, std::uint32_t step, elvis_extremum& minimum,
+                                      elvis_extremum& maximum) {
+        require_field(field, step);
+        require(component == 0, "component out of range");
+        const native::Extrema extrema = m_volume.extrema(field, step);
+        const auto put = [&](const native::Extremum& from, elvis_extremum& to) {
+            to.value = from.value;
+            to.bound = from.bound;
+            to.element = m_volume.classes()[from.element_class].first + from.element;
+            std::copy(from.xi.begin(), from.xi.end(), to.xi);
+        };
+        put(extrema.minimum, minimum);
+        put(extrema.maximum, maximum);
+        return ELVIS_CERTIFIED;
+    }
+
     elvis_certainty get_field_derivative_bounds(std::uint32_t field, std::uint32_t step, std::uint64_t first, std::uint64_t n,
                                                 std::span<double> bounds) {
         require_field(field, step);
@@ -222,5 +238,6 @@ private:
 } // namespace
 
 const elvis_runtime* runtime_interface() { return api::runtime_table<DirectVolume>(); }
+const elvis_extrema* extrema_interface() { return api::extrema_table<DirectVolume>(); }
 
 } // namespace nektarpp

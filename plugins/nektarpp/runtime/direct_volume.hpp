@@ -4,10 +4,11 @@
  */
 #pragma once
 
-#include <elvis/runtime.h>
+#include <elvis/extrema.h>
 
 namespace nektarpp {
 
 const elvis_runtime* runtime_interface();
+const elvis_extrema* extrema_interface();
 
 } // namespace nektarpp

@@ -129,6 +129,26 @@ void Volume::field_ranges(std::size_t field, std::size_t step, std::uint64_t fir
     });
 }
 
+native::Extrema Volume::extrema(std::size_t field, std::size_t step) {
+    std::vector<Space> spaces;
+    for (const ElementClass& of : classes()) {
+        spaces.push_back(of.fields[field]);
+    }
+    native::ExtremaSearch search(spaces, 1);
+    FieldReader read(*this, field, step);
+    for_each_element(0, numbers().size(), [&](const ElementClass& of, std::uint64_t position) {
+        search.add(static_cast<std::size_t>(&of - classes().data()), position - of.first, 1, read(of, position));
+    });
+    return search.finish([&](std::size_t index, std::uint64_t first, std::uint64_t count, std::span<double> coefficients) {
+        const ElementClass& of = classes()[index];
+        for (std::uint64_t local = first; local < first + count; ++local) {
+            std::ranges::copy(read(of, of.first + local),
+                              coefficients.begin() +
+                                  static_cast<std::ptrdiff_t>((local - first) * coefficients.size() / count));
+        }
+    })[0];
+}
+
 Volume::Derivatives::Derivatives(const Space& space) : bounder(space) {
     std::vector<double> unit(native::n_modes(space), 0.0);
     for (double& coefficient : unit) {

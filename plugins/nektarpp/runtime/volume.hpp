@@ -9,6 +9,7 @@
 #include "element_classes.hpp"
 
 #include <elvis/native/derivative_bounds.hpp>
+#include <elvis/native/extrema.hpp>
 #include <elvis/native/jacobian.hpp>
 #include <elvis/plugin.hpp>
 
@@ -36,6 +37,8 @@ public:
     void bounds(std::uint64_t first, std::uint64_t count, std::span<double> bounds) const;
     /** Certified: two numbers an element. */
     void field_ranges(std::size_t field, std::size_t step, std::uint64_t first, std::uint64_t count, std::span<double> ranges);
+    /** Certified. */
+    elvis::native::Extrema extrema(std::size_t field, std::size_t step);
     /** Certified, or NaN: two numbers (L, H) an element. */
     void derivative_bounds(std::size_t field, std::size_t step, std::uint64_t first, std::uint64_t count,
                            std::span<double> bounds);
