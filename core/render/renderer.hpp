@@ -40,6 +40,8 @@ public:
 
     /** Bounds of the whole volume: min x y z, max x y z. */
     std::array<double, 6> bounds() const;
+    /** How far the volume reaches in every direction (core/volume/outline.hpp); found when it is first asked for. */
+    const std::vector<Vector3>& outline();
     /** Range of a field (component or magnitude) over the volume at a time step, and whether it is certified. */
     FieldRange field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
     /**

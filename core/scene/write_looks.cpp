@@ -92,15 +92,18 @@ SceneJson line_style_json(const SceneLineStyle& style) {
 
 SceneJson contours_json(const SceneContours& contours) {
     SceneJson json;
-    if (contours.count == 0) {
-        json["values"] = contours.values;
-    } else {
+    if (contours.count > 0) {
         json["count"] = contours.count;
-        if (contours.range) {
-            json["range"] = *contours.range;
-        }
+    } else if (!contours.is_round) {
+        json["values"] = contours.values;
+    }
+    if (contours.range) {
+        json["range"] = *contours.range;
     }
     json.update(line_style_json(contours.style));
+    if (contours.has_map_color) {
+        json["color"] = "map";
+    }
     return json;
 }
 

@@ -78,6 +78,8 @@ void Workbench::open_scene(Scene scene, std::string file, std::string path) {
             scene.size = size;
         }
         return [this, scene = std::move(scene), facts = std::move(facts), file, path]() mutable {
+            // The window may have got its size since.
+            scene.size = file.empty() ? m_model.scene().size : scene.size;
             ++m_volume_number;
             m_ranges.clear();
             m_histograms.clear();
