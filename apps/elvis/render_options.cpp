@@ -68,6 +68,7 @@ void apply_surfaces(const RenderArguments& arguments, Scene& scene) {
     }
     if (arguments.has_contours) {
         scene.contours = SceneContours{};
+        scene.contours->style.width = width_by_size;
         scene.contours->is_round = arguments.contours.empty();
         if (!arguments.contours.empty()) {
             scene.contours->values = numbers("--contours", arguments.contours, 1, 1000);

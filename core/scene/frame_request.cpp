@@ -59,6 +59,12 @@ std::array<double, 3> ink_on(const Color& color) {
 
 LineStyle line_style(const SceneLineStyle& style) { return {style.width, style.color, style.undecided_color}; }
 
+/** An odd number of pixels, as only these widths differ; one in small pictures, 3 from about 500 rows on. */
+double line_width(const std::array<std::uint32_t, 2>& size) {
+    constexpr double part = 1.0 / 250;
+    return 2 * std::round(0.5 * (part * std::min(size[0], size[1]) - 1)) + 1;
+}
+
 /** Some ten inside the range: at its ends are extrema, of which lines would be specks. */
 std::vector<double> round_values(const std::array<double, 2>& range, bool is_logarithmic) {
     constexpr int most = 12;
@@ -74,7 +80,8 @@ std::vector<double> round_values(const std::array<double, 2>& range, bool is_log
 }
 
 std::optional<Contours> contours_of(const std::optional<SceneContours>& scene, const SceneColorMap& map,
-                                    const ColorTable& colors, const std::array<double, 2>& color_range) {
+                                    const ColorTable& colors, const std::array<double, 2>& color_range,
+                                    const std::array<std::uint32_t, 2>& size) {
     if (!scene) {
         return {};
     }
@@ -90,6 +97,9 @@ std::optional<Contours> contours_of(const std::optional<SceneContours>& scene, c
     if (contours.values.empty()) {
         return {};
     }
+    if (scene->style.width == width_by_size) {
+        contours.style.width = line_width(size);
+    }
     if (!scene->style.color && !scene->has_map_color) {
         for (const double value : contours.values) {
             contours.inks.push_back(ink_on(table_color(colors, value)));
@@ -103,7 +113,8 @@ std::optional<MeshLines> mesh_lines_of(const std::optional<SceneLineStyle>& scen
         return {};
     }
     MeshLines lines{line_style(*scene)};
-    lines.style.color = scene->color.value_or(Rgb{0, 0, 0});
+    // Dark, but not to be taken for contours.
+    lines.style.color = scene->color.value_or(Rgb{0.3, 0.3, 0.3});
     return lines;
 }
 
@@ -226,7 +237,7 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
         surface.field.offset = 0;
     }
     if (!std::holds_alternative<WireFrame>(surface.geometry)) {
-        surface.contours = contours_of(own.contours ? own.contours : scene.contours, map, surface.colors, range);
+        surface.contours = contours_of(own.contours ? own.contours : scene.contours, map, surface.colors, range, scene.size);
         surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
     }
     surface.subdivisions = scene.subdivisions;

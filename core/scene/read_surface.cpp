@@ -106,7 +106,7 @@ SceneContours read_contours(const JsonObject& object) {
             object.fail("range", "must go from a smaller to a larger value");
         }
     }
-    contours.style.width = object.has("width") ? object.number("width") : contours.style.width;
+    contours.style.width = object.has("width") ? object.number("width") : width_by_size;
     contours.has_map_color = object.has("color") && object.raw("color") == "map";
     if (object.has("color") && !contours.has_map_color) {
         contours.style.color = fixed<3>(object.numbers("color"));

@@ -80,7 +80,9 @@ SceneJson color_map_json(const SceneColorMap& map, const std::string& scene) {
 
 SceneJson line_style_json(const SceneLineStyle& style) {
     SceneJson json;
-    json["width"] = style.width;
+    if (style.width != width_by_size) {
+        json["width"] = style.width;
+    }
     if (style.color) {
         json["color"] = *style.color;
     }

@@ -117,6 +117,10 @@ void Workbench::save_scene(const std::string& path) {
 
 void Workbench::save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits) {
     Scene scene = m_model.scene();
+    // The shift is in pixels: a larger picture has what is looked at in the same place.
+    for (double& shift : scene.camera.image_shift) {
+        shift *= static_cast<double>(size[1]) / scene.size[1];
+    }
     scene.size = size;
     m_worker.post(
         "drawing " + std::filesystem::path(path).filename().string(),
