@@ -1,6 +1,7 @@
 #include "render_options.hpp"
 
 #include <core/base/error.hpp>
+#include <core/scene/line_width.hpp>
 
 #include <algorithm>
 #include <cmath>

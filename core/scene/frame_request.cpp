@@ -7,6 +7,7 @@
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
 #include <core/scene/color_map.hpp>
+#include <core/scene/line_width.hpp>
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
 #include <core/scene/transfer.hpp>
@@ -59,12 +60,6 @@ std::array<double, 3> ink_on(const Color& color) {
 
 LineStyle line_style(const SceneLineStyle& style) { return {style.width, style.color, style.undecided_color}; }
 
-/** An odd number of pixels, as only these widths differ; one in small pictures, 3 from about 500 rows on. */
-double line_width(const std::array<std::uint32_t, 2>& size) {
-    constexpr double part = 1.0 / 250;
-    return 2 * std::round(0.5 * (part * std::min(size[0], size[1]) - 1)) + 1;
-}
-
 /** Some ten inside the range: at its ends are extrema, of which lines would be specks. */
 std::vector<double> round_values(const std::array<double, 2>& range, bool is_logarithmic) {
     constexpr int most = 12;
@@ -98,7 +93,7 @@ std::optional<Contours> contours_of(const std::optional<SceneContours>& scene, c
         return {};
     }
     if (scene->style.width == width_by_size) {
-        contours.style.width = line_width(size);
+        contours.style.width = default_line_width(size);
     }
     if (!scene->style.color && !scene->has_map_color) {
         for (const double value : contours.values) {

@@ -1,4 +1,5 @@
 #include <core/scene/color_map.hpp>
+#include <core/scene/line_width.hpp>
 #include <core/scene/read_parts.hpp>
 #include <core/segment/tables.hpp>
 

@@ -46,9 +46,6 @@ struct SceneCamera {
     std::array<double, 2> image_shift{};
 };
 
-/** A width of contours: a 250th of the picture's shorter side, so that they are seen in pictures of any size. */
-inline constexpr double width_by_size = 0;
-
 struct SceneLineStyle {
     double width = 1;
     std::optional<Rgb> color, undecided_color;

@@ -1,3 +1,4 @@
+#include <core/scene/line_width.hpp>
 #include <core/scene/write_parts.hpp>
 
 namespace elvis {
