@@ -152,7 +152,9 @@ void add_render(CLI::App& app) {
         ->add_option("--volume-tolerance", a->volume_tolerance,
                      "Of a color channel, of exact and adaptive-trapezoid; by default 0.001")
         ->check(CLI::PositiveNumber);
-    command->add_option("--contours", a->contours, "V,V,..: values of contour lines");
+    const CLI::Option* contours =
+        command->add_option("--contours", a->contours, "V,V,..: values of contour lines; round ones if none are given")
+            ->expected(0, 1);
     command->add_flag("--mesh-lines", a->mesh_lines, "Draw where boundaries of elements meet the surfaces");
     std::string maps;
     for (const std::string& name : color_map_names()) {
@@ -198,8 +200,12 @@ void add_render(CLI::App& app) {
     command->add_option("--bits", a->bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));
     command->add_flag("--validation", a->validation, "Run with the Vulkan validation layer; any message is an error");
     command->add_flag("--schema", a->schema, "Print the JSON Schema of scene files");
-    command->callback([a, boundary] {
+    command->callback([a, boundary, contours] {
         a->boundary = boundary->count() > 0;
+        a->has_contours = contours->count() > 0;
+        if (a->contours == "{}") {
+            a->contours.clear(); // What the option's library takes no value for.
+        }
         // Without a name the list holds an empty one.
         std::erase_if(a->boundary_groups, [](const std::string& name) { return name.empty() || name == "{}"; });
         run(*a);

@@ -1,6 +1,7 @@
 #include "render_options.hpp"
 
 #include <core/base/error.hpp>
+#include <core/scene/line_width.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -66,11 +67,14 @@ void apply_surfaces(const RenderArguments& arguments, Scene& scene) {
         std::sort(isosurfaces.values.begin(), isosurfaces.values.end());
         scene.surfaces.push_back({std::move(isosurfaces)});
     }
-    if (!arguments.contours.empty()) {
+    if (arguments.has_contours) {
         scene.contours = SceneContours{};
-        scene.contours->values = numbers("--contours", arguments.contours, 1, 1000);
-        std::sort(scene.contours->values.begin(), scene.contours->values.end());
-        scene.contours->style.color = Rgb{0, 0, 0};
+        scene.contours->style.width = width_by_size;
+        scene.contours->is_round = arguments.contours.empty();
+        if (!arguments.contours.empty()) {
+            scene.contours->values = numbers("--contours", arguments.contours, 1, 1000);
+            std::sort(scene.contours->values.begin(), scene.contours->values.end());
+        }
     }
     if (arguments.mesh_lines) {
         scene.mesh_lines = SceneLineStyle{};

@@ -31,6 +31,7 @@ struct RenderArguments {
     double volume_step = 0;
     double volume_tolerance = 0;
     std::string contours;
+    bool has_contours = false;
     bool mesh_lines = false;
     std::string color_map;
     std::string range;

@@ -7,13 +7,6 @@ namespace elvis {
 
 namespace {
 
-/** Brightness of a pixel over white paper, from 0 to 1: the luma of ITU-R BT.601, made for display values. */
-double brightness(const double* pixel) {
-    const double alpha = std::clamp(pixel[3], 0.0, 1.0);
-    const double luma = 0.299 * pixel[0] + 0.587 * pixel[1] + 0.114 * pixel[2];
-    return alpha * std::clamp(luma, 0.0, 1.0) + (1 - alpha);
-}
-
 struct Backdrop {
     double mean = 1;
     /** Share of pixels on which ink of a given brightness would be hard to see. */
@@ -31,7 +24,8 @@ Backdrop backdrop(const Frame& frame, const PixelBox& box) {
     for (int row = inside.top; row < inside.bottom; ++row) {
         for (int column = inside.left; column < inside.right; ++column) {
             const std::size_t at = static_cast<std::size_t>(row) * frame.width + static_cast<std::size_t>(column);
-            const double value = brightness(&frame.color[4 * at]);
+            const double value =
+                brightness({frame.color[4 * at], frame.color[4 * at + 1], frame.color[4 * at + 2], frame.color[4 * at + 3]});
             sum += value;
             n += 1;
             dark += value < contrast ? 1 : 0;
@@ -45,6 +39,12 @@ Backdrop backdrop(const Frame& frame, const PixelBox& box) {
 }
 
 } // namespace
+
+double brightness(const Color& color) {
+    const double alpha = std::clamp(color[3], 0.0, 1.0);
+    const double luma = 0.299 * color[0] + 0.587 * color[1] + 0.114 * color[2];
+    return alpha * std::clamp(luma, 0.0, 1.0) + (1 - alpha);
+}
 
 void blend(Frame& frame, const Mask& mask, const Color& color) {
     const int width = static_cast<int>(frame.width), height = static_cast<int>(frame.height);
@@ -100,7 +100,7 @@ void Drawing::move(int right, int down) {
 void Drawing::paint(Frame& frame, const std::optional<Color>& ink, double halo_radius) const {
     const Backdrop behind = backdrop(frame, grown(m_box, static_cast<int>(std::ceil(halo_radius))));
     const Color own = ink.value_or(behind.mean > 0.5 ? Color{0, 0, 0, 1} : Color{1, 1, 1, 1});
-    const bool is_dark = brightness(own.data()) < 0.5;
+    const bool is_dark = brightness(own) < 0.5;
     // A pixel here and there does no harm.
     constexpr double harmless = 0.005;
     if ((is_dark ? behind.near_black : behind.near_white) > harmless) {

@@ -45,6 +45,9 @@ private:
     PixelBox m_box;
 };
 
+/** Brightness of a colour over white paper, from 0 to 1: the luma of ITU-R BT.601, made for display values. */
+double brightness(const Color& color);
+
 /** Blends a colour over the pixels that a mask covers; what lies outside the picture is left out. Display values, no gamma. */
 void blend(Frame& frame, const Mask& mask, const Color& color);
 

@@ -113,8 +113,9 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
         numbers.insert(numbers.end(), color.begin(), color.end());
     }
     const LineStyle contour = surface.contours ? surface.contours->style : LineStyle{};
+    const bool has_inks = surface.contours && !surface.contours->inks.empty();
     const LineStyle mesh = surface.mesh_lines ? surface.mesh_lines->style : LineStyle{};
-    for (const auto& color : {contour.color, contour.undecided_color, mesh.color, mesh.undecided_color}) {
+    for (const auto& color : {contour.undecided_color, mesh.color, mesh.undecided_color}) {
         append(numbers, color);
     }
     const std::array<double, 3> outside = surface.outside.value_or(std::array<double, 3>{});
@@ -128,8 +129,9 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
         numbers.insert(numbers.end(), {plane[0], plane[1], plane[2], level});
     }
     const std::vector<double> isovalues = surface.contours ? surface.contours->values : std::vector<double>{};
-    for (const double value : isovalues) {
-        numbers.insert(numbers.end(), {value - offset, 0, 0, 0});
+    for (std::size_t i = 0; i < isovalues.size(); ++i) {
+        const std::array<double, 3> rgb = surface.contours->color(i);
+        numbers.insert(numbers.end(), {isovalues[i] - offset, rgb[0], rgb[1], rgb[2]});
     }
     const Buffer rows(m_device, numbers.size() * real_bytes(m_precision));
     write_reals(rows, m_precision, numbers);
@@ -143,7 +145,7 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      static_cast<std::uint32_t>(surface.clip.size()),
                                      common_flags,
                                      static_cast<std::uint32_t>(index),
-                                     style_bits(contour),
+                                     style_bits(contour) | (has_inks ? with_own_color : 0u),
                                      style_bits(mesh),
                                      reach(contour),
                                      reach(mesh),

@@ -10,6 +10,7 @@
 
 #include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
+#include <core/volume/outline.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -59,6 +60,8 @@ struct Renderer::Impl {
     std::unique_ptr<Layer> layer;
     /** Of the layer's pixels, for lines. */
     std::optional<Buffer> places;
+    /** Empty until it is asked for. */
+    std::vector<Vector3> outline;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
         : device(on), volume(of), precision(with), data(on, of, with, task), color_pass(on, with), merge_pass(on, with),
@@ -340,6 +343,13 @@ std::array<double, 6> Renderer::bounds() const { return m_impl->data.bounds(); }
 
 FieldRange Renderer::field_values(const FieldChoice& field, std::uint32_t time_step) {
     return m_impl->fields.values(field, time_step);
+}
+
+const std::vector<Vector3>& Renderer::outline() {
+    if (m_impl->outline.empty()) {
+        m_impl->outline = outline_points(m_impl->volume);
+    }
+    return m_impl->outline;
 }
 
 FieldRange Renderer::field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {

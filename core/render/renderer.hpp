@@ -40,6 +40,8 @@ public:
 
     /** Bounds of the whole volume: min x y z, max x y z. */
     std::array<double, 6> bounds() const;
+    /** How far the volume reaches in every direction (core/volume/outline.hpp); found when it is first asked for. */
+    const std::vector<Vector3>& outline();
     /**
      * The values that a field (component or magnitude) takes over the volume at a time step: its extrema, to a thousandth of
      * their distance where the plugin has bounds, else of samples. An empty range if none is finite.

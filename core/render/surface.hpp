@@ -128,6 +128,13 @@ struct LineStyle {
 struct Contours {
     std::vector<double> values; ///< ascending
     LineStyle style;
+    /** Colour of each, in place of the style's, if there are any. */
+    std::vector<std::array<double, 3>> inks{};
+
+    /** Of contour `index`; any where that is the colour map's. */
+    std::array<double, 3> color(std::size_t index) const {
+        return inks.empty() ? style.color.value_or(std::array<double, 3>{}) : inks[index];
+    }
 };
 
 /** Where the boundaries of elements meet the surface. */

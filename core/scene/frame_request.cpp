@@ -1,9 +1,13 @@
 #include <core/scene/frame_request.hpp>
 
+#include <core/annotation/annotation.hpp>
+#include <core/annotation/drawing.hpp>
+#include <core/annotation/ticks.hpp>
 #include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
 #include <core/scene/color_map.hpp>
+#include <core/scene/line_width.hpp>
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
 #include <core/scene/transfer.hpp>
@@ -48,18 +52,52 @@ std::vector<CutPlane> planes_looked_at(const std::vector<SceneSurface>& surfaces
     return planes.size() == surfaces.size() ? planes : std::vector<CutPlane>{};
 }
 
+/** Black or white, whichever stands out more. */
+std::array<double, 3> ink_on(const Color& color) {
+    const double level = brightness(color) > 0.5 ? 0 : 1;
+    return {level, level, level};
+}
+
 LineStyle line_style(const SceneLineStyle& style) { return {style.width, style.color, style.undecided_color}; }
 
+/** Some ten inside the range: at its ends are extrema, of which lines would be specks. */
+std::vector<double> round_values(const std::array<double, 2>& range, bool is_logarithmic) {
+    constexpr int most = 12;
+    const Ticks ticks = is_logarithmic ? logarithmic_ticks(range[0], range[1], most) : round_ticks(range[0], range[1], most);
+    const double near = 1e-6 * (range[1] - range[0]);
+    std::vector<double> values;
+    for (const Tick& tick : ticks.ticks) {
+        if (tick.value > range[0] + near && tick.value < range[1] - near) {
+            values.push_back(tick.value);
+        }
+    }
+    return values;
+}
+
 std::optional<Contours> contours_of(const std::optional<SceneContours>& scene, const SceneColorMap& map,
-                                    const std::array<double, 2>& color_range) {
-    if (!scene || (scene->values.empty() && scene->count == 0)) {
+                                    const ColorTable& colors, const std::array<double, 2>& color_range,
+                                    const std::array<std::uint32_t, 2>& size) {
+    if (!scene) {
         return {};
     }
     Contours contours{scene->values, line_style(scene->style)};
-    if (scene->count > 0) {
-        const ColorScale scale(scene->range.value_or(color_range), map.is_logarithmic);
-        for (std::uint32_t i = 1; i <= scene->count; ++i) {
-            contours.values.push_back(scale.value(i / (scene->count + 1.0)));
+    const std::array<double, 2> range = scene->range.value_or(color_range);
+    const ColorScale scale(range, map.is_logarithmic);
+    for (std::uint32_t i = 1; i <= scene->count; ++i) {
+        contours.values.push_back(scale.value(i / (scene->count + 1.0)));
+    }
+    if (scene->is_round) {
+        contours.values = round_values(range, map.is_logarithmic);
+    }
+    if (contours.values.empty()) {
+        return {};
+    }
+    if (scene->style.width == width_by_size) {
+        contours.style.width = default_line_width(size);
+    }
+    if (!scene->style.color && !scene->has_map_color) {
+        for (const double value : contours.values) {
+            contours.inks.push_back(ink_on(table_color(colors, value)));
         }
     }
     return contours;
@@ -70,7 +108,8 @@ std::optional<MeshLines> mesh_lines_of(const std::optional<SceneLineStyle>& scen
         return {};
     }
     MeshLines lines{line_style(*scene)};
-    lines.style.color = scene->color.value_or(Rgb{0, 0, 0});
+    // Dark, but not to be taken for contours.
+    lines.style.color = scene->color.value_or(Rgb{0.3, 0.3, 0.3});
     return lines;
 }
 
@@ -193,7 +232,7 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
         surface.field.offset = 0;
     }
     if (!std::holds_alternative<WireFrame>(surface.geometry)) {
-        surface.contours = contours_of(own.contours ? own.contours : scene.contours, map, range);
+        surface.contours = contours_of(own.contours ? own.contours : scene.contours, map, surface.colors, range, scene.size);
         surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
     }
     surface.subdivisions = scene.subdivisions;
@@ -243,8 +282,8 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
     request.lighting = scene.lighting;
     request.time_step = scene.time_step;
     const std::vector<SceneSurface> surfaces = surfaces_of(scene, volume, renderer);
-    request.camera = resolve_camera(scene.camera, renderer.bounds(), planes_looked_at(surfaces, volume, renderer),
-                                    static_cast<double>(request.width) / request.height);
+    const VolumeExtent extent{renderer.bounds(), is_placed(scene.camera) ? std::vector<Vector3>() : renderer.outline()};
+    request.camera = resolve_camera(scene, extent, planes_looked_at(surfaces, volume, renderer));
     for (const SceneSurface& surface : surfaces) {
         request.surfaces.push_back(make_surface(surface, scene, volume, renderer, request.remarks));
     }

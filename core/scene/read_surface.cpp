@@ -1,4 +1,5 @@
 #include <core/scene/color_map.hpp>
+#include <core/scene/line_width.hpp>
 #include <core/scene/read_parts.hpp>
 #include <core/segment/tables.hpp>
 
@@ -85,15 +86,16 @@ SceneLineStyle read_line_style(const JsonObject& object) {
 
 SceneContours read_contours(const JsonObject& object) {
     SceneContours contours;
-    if (object.has("values") == object.has("count")) {
-        object.fail("values", "or 'count' must say which values are wanted, and only one of the two");
+    if (object.has("values") && object.has("count")) {
+        object.fail("values", "and 'count' say both which values are wanted; give one of the two, or none for round values");
     }
+    contours.is_round = !object.has("values") && !object.has("count");
     if (object.has("values")) {
         contours.values = object.numbers("values");
         if (!std::is_sorted(contours.values.begin(), contours.values.end())) {
             object.fail("values", "must be in ascending order");
         }
-    } else {
+    } else if (object.has("count")) {
         contours.count = object.integer("count");
     }
     if (object.has("range")) {
@@ -105,8 +107,9 @@ SceneContours read_contours(const JsonObject& object) {
             object.fail("range", "must go from a smaller to a larger value");
         }
     }
-    contours.style.width = object.has("width") ? object.number("width") : 1;
-    if (object.has("color")) {
+    contours.style.width = object.has("width") ? object.number("width") : width_by_size;
+    contours.has_map_color = object.has("color") && object.raw("color") == "map";
+    if (object.has("color") && !contours.has_map_color) {
         contours.style.color = fixed<3>(object.numbers("color"));
     }
     if (object.has("undecided_color")) {

@@ -61,9 +61,14 @@ struct SceneView {
 struct SceneContours {
     std::vector<double> values;
     std::uint32_t count = 0;
+    /** Instead of both: some ten round values of the range. */
+    bool is_round = false;
     /** Of the colour map if absent. */
     std::optional<std::array<double, 2>> range;
+    /** Without a colour, each line is black or white, whichever stands out from the colour map at its value. */
     SceneLineStyle style;
+    /** The lines have the colour map's colour at their value. */
+    bool has_map_color = false;
 };
 
 /** What it lacks it takes from the scene. */

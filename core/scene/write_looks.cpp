@@ -1,3 +1,4 @@
+#include <core/scene/line_width.hpp>
 #include <core/scene/write_parts.hpp>
 
 namespace elvis {
@@ -80,7 +81,9 @@ SceneJson color_map_json(const SceneColorMap& map, const std::string& scene) {
 
 SceneJson line_style_json(const SceneLineStyle& style) {
     SceneJson json;
-    json["width"] = style.width;
+    if (style.width != width_by_size) {
+        json["width"] = style.width;
+    }
     if (style.color) {
         json["color"] = *style.color;
     }
@@ -92,15 +95,18 @@ SceneJson line_style_json(const SceneLineStyle& style) {
 
 SceneJson contours_json(const SceneContours& contours) {
     SceneJson json;
-    if (contours.count == 0) {
-        json["values"] = contours.values;
-    } else {
+    if (contours.count > 0) {
         json["count"] = contours.count;
-        if (contours.range) {
-            json["range"] = *contours.range;
-        }
+    } else if (!contours.is_round) {
+        json["values"] = contours.values;
+    }
+    if (contours.range) {
+        json["range"] = *contours.range;
     }
     json.update(line_style_json(contours.style));
+    if (contours.has_map_color) {
+        json["color"] = "map";
+    }
     return json;
 }
 

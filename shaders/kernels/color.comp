@@ -15,9 +15,10 @@ layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_
 #endif
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
-// In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of contours, of undecided
-// ones, of mesh lines and undecided ones; opacity, and colour outside of elements; limits of values: up to the first they have no
-// place on the table's scale, and below the second and above the third they are outside of it; planes that clip; isovalues.
+// In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of undecided contours, of
+// mesh lines and undecided ones; opacity, and colour outside of elements; limits of values: up to the first they have no
+// place on the table's scale, and below the second and above the third they are outside of it; planes that clip; isovalues with
+// the colours of their contours.
 layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
@@ -62,19 +63,20 @@ bool core_is_clipped(uint pixel, elvis_real depth) {
     const elvis_vec3 position = core_position(pixel, depth, direction);
     bool is_clipped = false;
     for (uint i = 0u; i < core_n_clips; ++i) {
-        const elvis_vec4 plane = core_special(10u + i);
+        const elvis_vec4 plane = core_special(9u + i);
         is_clipped = is_clipped || dot(plane.xyz, position) + plane.w < elvis_real(0);
     }
     return is_clipped;
 }
 
-// The isovalue nearest to a value.
-elvis_real core_nearest_isovalue(elvis_real value) {
-    elvis_real nearest = value, distance = elvis_real(3.0e38LF);
+// The isovalue nearest to a value, of which there is at least one, and the colour of its contour.
+elvis_vec4 core_nearest_isovalue(elvis_real value) {
+    elvis_vec4 nearest = core_special(9u + core_n_clips);
+    elvis_real distance = elvis_real(3.0e38LF);
     for (uint i = 0u; i < core_n_isovalues; ++i) {
-        const elvis_real isovalue = core_special(10u + core_n_clips + i).x;
-        nearest = abs(isovalue - value) < distance ? isovalue : nearest;
-        distance = min(distance, abs(isovalue - value));
+        const elvis_vec4 isovalue = core_special(9u + core_n_clips + i);
+        nearest = abs(isovalue.x - value) < distance ? isovalue : nearest;
+        distance = min(distance, abs(isovalue.x - value));
     }
     return nearest;
 }
@@ -126,8 +128,11 @@ void main() {
     }
     const bool is_nan = !core_is_finite(value) && !is_outside;
 #if CORE_HAS_LINES
-    if (is_contour && !is_nan && (core_contour_style & CORE_STYLE_COLOR) == 0u) {
-        value = core_nearest_isovalue(value);
+    elvis_vec4 contour_color = elvis_vec4(0);
+    if (is_contour) {
+        const elvis_vec4 isovalue = core_nearest_isovalue(value);
+        value = is_nan || (core_contour_style & CORE_STYLE_COLOR) != 0u ? value : isovalue.x;
+        contour_color = elvis_vec4(isovalue.yzw, elvis_real(1));
     }
 #endif
 
@@ -146,12 +151,12 @@ void main() {
     const elvis_real t = extent > elvis_real(0) ? (value - from.x) / extent : elvis_real(0);
     const bool is_below = low == 0u, is_above = low == core_n_points && value > from.x;
     const bool is_seen = is_drawn && !is_clipped;
-    const elvis_vec4 limits = core_special(9u);
+    const elvis_vec4 limits = core_special(8u);
     const bool has_no_place = is_nan || (value <= limits.x && !is_outside);
     const uint special = is_seen ? (has_no_place ? 2u : (is_below ? 0u : 1u)) : 3u;
     const bool is_special = !is_seen || has_no_place || is_below || is_above;
     elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
-    color = is_seen && is_outside ? elvis_vec4(core_special(8u).yzw, elvis_real(1)) : color;
+    color = is_seen && is_outside ? elvis_vec4(core_special(7u).yzw, elvis_real(1)) : color;
 #if CORE_IS_LIT
     if (is_seen) {
         elvis_vec3 direction;
@@ -174,12 +179,12 @@ void main() {
     const bool shows_undecided_contour = is_contour_undecided && !is_contour;
     const bool has_mesh_color = is_mesh_line && (core_mesh_style & CORE_STYLE_COLOR) != 0u;
     const bool shows_undecided_mesh = is_mesh_undecided && !is_mesh_line;
-    color = is_seen && shows_undecided_mesh ? core_special(7u) : color;
-    color = is_seen && has_mesh_color ? core_special(6u) : color;
-    color = is_seen && shows_undecided_contour ? core_special(5u) : color;
-    color = is_seen && has_contour_color ? core_special(4u) : color;
+    color = is_seen && shows_undecided_mesh ? core_special(6u) : color;
+    color = is_seen && has_mesh_color ? core_special(5u) : color;
+    color = is_seen && shows_undecided_contour ? core_special(4u) : color;
+    color = is_seen && has_contour_color ? contour_color : color;
 #endif
-    color.w *= is_seen ? core_special(8u).x : elvis_real(1);
+    color.w *= is_seen ? core_special(7u).x : elvis_real(1);
     if (is_inside) {
         core_colors[pixel] = color;
     }

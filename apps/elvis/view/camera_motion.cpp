@@ -1,7 +1,5 @@
 #include "camera_motion.hpp"
 
-#include <core/scene/resolve.hpp>
-
 #include <cmath>
 #include <numbers>
 
@@ -145,22 +143,11 @@ const std::vector<StandardView>& standard_views() {
     return views;
 }
 
-Camera from_standard_view(const Camera& camera, const StandardView& view, const std::array<double, 6>& bounds, double aspect) {
+Camera from_standard_view(const Camera& camera, const StandardView& view, const VolumeExtent& extent, const PictureRoom& room) {
     Camera result = camera;
-    result.look_at = {0.5 * (bounds[0] + bounds[3]), 0.5 * (bounds[1] + bounds[4]), 0.5 * (bounds[2] + bounds[5])};
-    result.eye = plus(result.look_at, view.to_eye);
+    result.eye = plus(camera.look_at, view.to_eye);
     result.up = view.up;
-    return fitted(result, bounds, aspect);
-}
-
-Camera fitted(const Camera& camera, const std::array<double, 6>& bounds, double aspect) {
-    Camera result = camera;
-    const Vector3 to_eye = scaled(axes_of(camera).forward, -1);
-    result.look_at = {0.5 * (bounds[0] + bounds[3]), 0.5 * (bounds[1] + bounds[4]), 0.5 * (bounds[2] + bounds[5])};
-    const double distance = fitting_distance(bounds, result.look_at, to_eye, camera.up, camera.field_of_view, aspect);
-    result.eye = plus(result.look_at, scaled(to_eye, distance));
-    result.height = 2 * slope(camera) * distance;
-    return result;
+    return fitted(result, extent, room);
 }
 
 } // namespace elvis::view

@@ -6,6 +6,7 @@
 
 #include <core/base/vector3.hpp>
 #include <core/render/frame.hpp>
+#include <core/scene/resolve.hpp>
 
 #include <array>
 #include <optional>
@@ -63,9 +64,7 @@ struct StandardView {
     Vector3 to_eye, up;
 };
 const std::vector<StandardView>& standard_views();
-/** The whole of the bounds from there. */
-Camera from_standard_view(const Camera& camera, const StandardView& view, const std::array<double, 6>& bounds, double aspect);
-/** The whole of the bounds in the present direction. */
-Camera fitted(const Camera& camera, const std::array<double, 6>& bounds, double aspect);
+/** The whole of the volume from there. */
+Camera from_standard_view(const Camera& camera, const StandardView& view, const VolumeExtent& extent, const PictureRoom& room);
 
 } // namespace elvis::view

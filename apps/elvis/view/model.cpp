@@ -28,9 +28,8 @@ void Model::open(Scene scene, VolumeFacts facts, std::string file) {
     m_redo.clear();
     m_gesture.clear();
     m_selection = items_of(m_scene).empty() ? std::nullopt : std::optional(items_of(m_scene).front());
-    const double aspect = static_cast<double>(m_scene.size[0]) / m_scene.size[1];
     const std::vector<CutPlane> planes = m_volume->dimension == 2 ? plane_of_flat(m_volume->bounds) : planes_of(m_scene);
-    set_camera(resolve_camera(m_scene.camera, m_volume->bounds, planes, aspect));
+    set_camera(resolve_camera(m_scene, m_volume->extent(), planes));
     m_is_changed = false;
 }
 

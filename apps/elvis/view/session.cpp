@@ -54,7 +54,7 @@ VolumeFacts Session::open(const Scene& scene) {
         m_precision = precision;
         m_key = key;
     }
-    return facts_of(*m_volume, m_renderer->bounds());
+    return facts_of(*m_volume, *m_renderer);
 }
 
 void Session::need_precision(const Scene& scene) {

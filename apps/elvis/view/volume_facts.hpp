@@ -5,6 +5,8 @@
 #pragma once
 
 #include <core/plugin_host/runtime_volume.hpp>
+#include <core/render/renderer.hpp>
+#include <core/scene/resolve.hpp>
 
 #include <array>
 #include <cstdint>
@@ -19,6 +21,7 @@ struct VolumeFacts {
     std::uint32_t dimension = 3;
     std::uint64_t n_elements = 0;
     std::array<double, 6> bounds{}; ///< min x y z, max x y z
+    std::vector<Vector3> outline;   ///< core/volume/outline.hpp
     std::vector<FieldInfo> fields;
     std::vector<double> times;
     std::vector<std::string> boundary_groups;
@@ -26,9 +29,10 @@ struct VolumeFacts {
     std::vector<std::uint32_t> shapes; ///< ELVIS_SHAPE_..., each once
 
     double diagonal() const;
+    VolumeExtent extent() const { return {bounds, outline}; }
 };
 
-VolumeFacts facts_of(const RuntimeVolume& volume, const std::array<double, 6>& bounds);
+VolumeFacts facts_of(const RuntimeVolume& volume, Renderer& renderer);
 
 /** "hexahedron", as scenes call it. */
 const char* shape_name(std::uint32_t shape);

@@ -78,6 +78,8 @@ void Workbench::open_scene(Scene scene, std::string file, std::string path) {
             scene.size = size;
         }
         return [this, scene = std::move(scene), facts = std::move(facts), file, path]() mutable {
+            // The window may have got its size since.
+            scene.size = file.empty() ? m_model.scene().size : scene.size;
             ++m_volume_number;
             m_ranges.clear();
             m_histograms.clear();
@@ -115,6 +117,10 @@ void Workbench::save_scene(const std::string& path) {
 
 void Workbench::save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits) {
     Scene scene = m_model.scene();
+    // The shift is in pixels: a larger picture has what is looked at in the same place.
+    for (double& shift : scene.camera.image_shift) {
+        shift *= static_cast<double>(size[1]) / scene.size[1];
+    }
     scene.size = size;
     m_worker.post(
         "drawing " + std::filesystem::path(path).filename().string(),

@@ -270,7 +270,7 @@ namespace {
 bool edit_line_style(Ui& ui, const std::string& name, SceneLineStyle& style) {
     bool is_changed = slider(ui, name + "/width", "Width", style.width, 1, 16, "In pixels");
     is_changed = optional_color(ui, name + "/color", "Own colour", style.color, {0, 0, 0},
-                                "Else that of the map at their value; of mesh lines black") ||
+                                "Else black or white, whichever stands out; of mesh lines black") ||
                  is_changed;
     is_changed = optional_color(ui, name + "/undecided", "Mark undecided", style.undecided_color, {1, 0, 1},
                                 "Colour of pixels for which it stays open whether they meet a line") ||
@@ -287,14 +287,20 @@ bool edit_contours(Ui& ui, const std::string& name, std::optional<SceneContours>
     if (is_changed) {
         contours = has ? std::optional(SceneContours{}) : std::nullopt;
         if (contours) {
-            contours->count = 9;
-            contours->style.color = Rgb{0, 0, 0};
+            contours->is_round = true;
         }
     }
     if (contours) {
         ImGui::Indent();
+        if (check(ui, name + "/round", "Round values", contours->is_round,
+                  "Some ten round values in the range of the colours")) {
+            contours->count = contours->is_round ? 0 : 9;
+            contours->values.clear();
+            is_changed = true;
+        }
         int count = static_cast<int>(contours->count);
-        if (ImGui::SliderInt("Number", &count, 0, 50, count == 0 ? "given values" : "%d", ImGuiSliderFlags_AlwaysClamp)) {
+        if (!contours->is_round &&
+            ImGui::SliderInt("Number", &count, 0, 50, count == 0 ? "given values" : "%d", ImGuiSliderFlags_AlwaysClamp)) {
             contours->count = static_cast<std::uint32_t>(count);
             is_changed = true;
             if (count > 0) {
@@ -303,8 +309,10 @@ bool edit_contours(Ui& ui, const std::string& name, std::optional<SceneContours>
                 contours->range.reset();
             }
         }
-        explain(ui, name + "/count", "So many that divide the range of the colours evenly; 0 for values of your own");
-        if (contours->count == 0) {
+        if (!contours->is_round) {
+            explain(ui, name + "/count", "So many that divide the range of the colours evenly; 0 for values of your own");
+        }
+        if (!contours->is_round && contours->count == 0) {
             is_changed =
                 number_list(ui, name + "/values", "Values", contours->values, "Values of the lines, separated by blanks") ||
                 is_changed;

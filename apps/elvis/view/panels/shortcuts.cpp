@@ -34,15 +34,15 @@ void handle_with_control(Ui& ui, const KeyPress& key) {
 void handle_alone(Ui& ui, const KeyPress& key) {
     Model& model = ui.model();
     const auto is = [&key](char letter) { return key.letter == letter; };
-    const double aspect = static_cast<double>(ui.scene().size[0]) / ui.scene().size[1];
-    const auto& bounds = model.volume()->bounds;
+    const VolumeExtent extent = model.volume()->extent();
+    const PictureRoom room = room_for_volume(ui.scene());
     for (std::size_t i = 0; i < standard_views().size(); ++i) {
         if (is(static_cast<char>('1' + i))) {
-            model.set_camera(from_standard_view(model.camera(), standard_views()[i], bounds, aspect));
+            model.set_camera(from_standard_view(model.camera(), standard_views()[i], extent, room));
         }
     }
     if (is('F')) {
-        model.set_camera(fitted(model.camera(), bounds, aspect));
+        model.set_camera(fitted(model.camera(), extent, room));
     } else if (is('O')) {
         model.set_camera(with_projection(model.camera(), !model.camera().orthographic));
     } else if (is('H')) {

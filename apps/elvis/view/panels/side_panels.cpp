@@ -53,20 +53,20 @@ void draw_camera(Ui& ui) {
     }
     const Camera before = model.camera();
     Camera camera = before;
-    const auto& bounds = model.volume()->bounds;
-    const double aspect = static_cast<double>(ui.scene().size[0]) / ui.scene().size[1];
+    const VolumeExtent whole = model.volume()->extent();
+    const PictureRoom room = room_for_volume(ui.scene());
     const double extent = model.volume()->diagonal();
     bool is_changed = false;
     for (const StandardView& view : standard_views()) {
         if (button(ui, "camera/" + view.name, view.name.c_str(), "Looks at the whole volume from there")) {
-            camera = from_standard_view(camera, view, bounds, aspect);
+            camera = from_standard_view(camera, view, whole, room);
             is_changed = true;
         }
         ImGui::SameLine();
     }
     ImGui::NewLine();
     if (button(ui, "camera/fit", "Fit", "Moves the camera until the whole volume is seen (F)")) {
-        camera = fitted(camera, bounds, aspect);
+        camera = fitted(camera, whole, room);
         is_changed = true;
     }
     ImGui::SameLine();

@@ -1,0 +1,204 @@
+#include <core/volume/outline.hpp>
+
+#include <core/base/bounds.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace elvis {
+
+namespace {
+
+/** Directions are this far apart: about 0.28, of which a half turns a sphere's outline inwards by a percent. */
+constexpr std::size_t n_spread = 162;
+/** Bounds that reach less far beyond what is known, as a part of the diagonal, are not worth a look at their element. */
+constexpr double worth_a_look = 0.01;
+/** Fewer elements than this may be large and strongly bent. */
+constexpr std::uint64_t few_elements = 128;
+
+using Box = std::array<double, 6>;
+
+/** Along the axes, and spread evenly over the sphere (Fibonacci's lattice). */
+std::vector<Vector3> all_around() {
+    std::vector<Vector3> directions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (std::size_t i = 0; i < n_spread; ++i) {
+        const double z = 1 - (2 * static_cast<double>(i) + 1) / n_spread;
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / std::numbers::phi;
+        const double radius = std::sqrt(1 - z * z);
+        directions.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+    return directions;
+}
+
+Vector3 farthest_corner(const Box& box, const Vector3& direction) {
+    return {box[direction[0] > 0 ? 3 : 0], box[direction[1] > 0 ? 4 : 1], box[direction[2] > 0 ? 5 : 2]};
+}
+
+/** Points on the faces of a shape: a grid of `n` on each edge of the cube, collapsed as in Karniadakis & Sherwin. */
+std::vector<double> points_on_faces(elvis_shape shape, int n) {
+    const bool is_flat = shape == ELVIS_SHAPE_QUADRILATERAL || shape == ELVIS_SHAPE_TRIANGLE;
+    const auto place = [n](int i) { return 2.0 * i / (n - 1) - 1; };
+    const auto is_end = [n](int i) { return i == 0 || i == n - 1; };
+    std::vector<double> xi;
+    for (int node = 0; node < (is_flat ? n * n : n * n * n); ++node) {
+        const int i = node % n, j = node / n % n, k = node / (n * n);
+        if (!is_flat && !is_end(i) && !is_end(j) && !is_end(k)) {
+            continue;
+        }
+        double x = place(i), y = place(j);
+        const double z = is_flat ? 0 : place(k);
+        if (shape == ELVIS_SHAPE_PYRAMID || shape == ELVIS_SHAPE_TETRAHEDRON) {
+            y = 0.5 * (1 + y) * (1 - z) - 1;
+        }
+        if (shape == ELVIS_SHAPE_PRISM || shape == ELVIS_SHAPE_PYRAMID) {
+            x = 0.5 * (1 + x) * (1 - z) - 1;
+        } else if (shape == ELVIS_SHAPE_TETRAHEDRON) {
+            x = 0.5 * (1 + x) * (-y - z) - 1;
+        } else if (shape == ELVIS_SHAPE_TRIANGLE) {
+            x = 0.5 * (1 + x) * (1 - y) - 1;
+        }
+        xi.insert(xi.end(), {x, y, z});
+    }
+    return xi;
+}
+
+/** The farthest points that are known so far. */
+class Outline {
+public:
+    explicit Outline(const RuntimeVolume& volume)
+        : m_volume(volume), m_directions(all_around()), m_points(m_directions.size()),
+          m_reach(m_directions.size(), -std::numeric_limits<double>::infinity()) {
+        for (const ClassInfo& info : volume.classes()) {
+            m_xi.push_back(points_on_faces(info.shape, info.is_affine ? 2 : volume.n_elements() < few_elements ? 5 : 3));
+        }
+    }
+
+    /** Without such directions in which nothing was found. */
+    std::vector<Vector3> points() const {
+        std::vector<Vector3> found;
+        for (std::size_t i = 0; i < m_points.size(); ++i) {
+            if (std::isfinite(m_reach[i])) {
+                found.push_back(m_points[i]);
+            }
+        }
+        return found;
+    }
+
+    void take(const Vector3& point) {
+        for (std::size_t i = 0; i < m_directions.size(); ++i) {
+            const double reach = dot(m_directions[i], point);
+            if (std::isfinite(reach) && reach > m_reach[i]) {
+                m_reach[i] = reach;
+                m_points[i] = point;
+            }
+        }
+    }
+
+    /** Samples of an element's mapping; those that are no numbers are left out. */
+    void take_element(std::size_t element_class, std::uint64_t element) {
+        const std::vector<double>& xi = m_xi[element_class];
+        m_positions.resize(xi.size());
+        m_volume.evaluate_mapping(element, xi, m_positions, {});
+        for (std::size_t at = 0; at < m_positions.size(); at += 3) {
+            take({m_positions[at], m_positions[at + 1], m_positions[at + 2]});
+        }
+    }
+
+    /** Of each direction the element whose bounds reach farthest. */
+    std::vector<std::uint64_t> first_candidates(const std::vector<double>& boxes) const {
+        std::vector<std::uint64_t> elements(m_directions.size());
+        std::vector<double> reach = m_reach;
+        for (std::uint64_t element = 0; element < boxes.size() / 6; ++element) {
+            for (std::size_t i = 0; i < m_directions.size(); ++i) {
+                const double here = dot(m_directions[i], farthest_corner(box_of(boxes, element), m_directions[i]));
+                elements[i] = here > reach[i] ? element : elements[i];
+                reach[i] = std::max(reach[i], here);
+            }
+        }
+        std::sort(elements.begin(), elements.end());
+        elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+        return elements;
+    }
+
+    bool may_reach_beyond(const Box& box, double tolerance) const {
+        for (std::size_t i = 0; i < m_directions.size(); ++i) {
+            if (dot(m_directions[i], farthest_corner(box, m_directions[i])) > m_reach[i] + tolerance) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    static Box box_of(const std::vector<double>& boxes, std::uint64_t element) {
+        Box box{};
+        std::copy_n(boxes.begin() + static_cast<std::ptrdiff_t>(6 * element), box.size(), box.begin());
+        return box;
+    }
+
+private:
+    const RuntimeVolume& m_volume;
+    std::vector<Vector3> m_directions;
+    std::vector<Vector3> m_points;
+    std::vector<double> m_reach;
+    /** Reference points of each class. */
+    std::vector<std::vector<double>> m_xi;
+    std::vector<double> m_positions;
+};
+
+std::vector<double> all_bounds(const RuntimeVolume& volume) {
+    constexpr std::uint64_t block = 65536;
+    std::vector<double> boxes(6 * volume.n_elements());
+    for (std::uint64_t first = 0; first < volume.n_elements(); first += block) {
+        const std::uint64_t count = std::min(block, volume.n_elements() - first);
+        volume.bounds(first, count, std::span<double>(boxes).subspan(6 * first, 6 * count));
+    }
+    return boxes;
+}
+
+double diagonal_of_all(const std::vector<double>& boxes) {
+    Box all = Outline::box_of(boxes, 0);
+    for (std::size_t at = 0; at < boxes.size(); ++at) {
+        const std::size_t axis = at % 6;
+        all[axis] = axis < 3 ? std::min(all[axis], boxes[at]) : std::max(all[axis], boxes[at]);
+    }
+    return diagonal_of(all);
+}
+
+std::size_t class_of(const RuntimeVolume& volume, std::uint64_t element) {
+    const std::vector<ClassInfo>& classes = volume.classes();
+    const auto after = std::upper_bound(classes.begin(), classes.end(), element,
+                                        [](std::uint64_t e, const ClassInfo& info) { return e < info.first_element; });
+    return static_cast<std::size_t>(std::prev(after) - classes.begin());
+}
+
+} // namespace
+
+std::vector<Vector3> outline_points(const RuntimeVolume& volume) {
+    Outline outline(volume);
+    const std::vector<double> boxes = all_bounds(volume);
+    const std::vector<std::uint64_t> first = outline.first_candidates(boxes);
+    if (!volume.has_evaluation()) {
+        for (const std::uint64_t element : first) {
+            const Box box = Outline::box_of(boxes, element);
+            for (unsigned corner = 0; corner < 8; ++corner) {
+                outline.take({box[(corner & 1) ? 3 : 0], box[(corner & 2) ? 4 : 1], box[(corner & 4) ? 5 : 2]});
+            }
+        }
+        return outline.points();
+    }
+    for (const std::uint64_t element : first) {
+        outline.take_element(class_of(volume, element), element);
+    }
+    const double tolerance = worth_a_look * diagonal_of_all(boxes);
+    for (std::uint64_t element = 0; element < volume.n_elements(); ++element) {
+        if (outline.may_reach_beyond(Outline::box_of(boxes, element), tolerance) &&
+            !std::binary_search(first.begin(), first.end(), element)) {
+            outline.take_element(class_of(volume, element), element);
+        }
+    }
+    return outline.points();
+}
+
+} // namespace elvis
