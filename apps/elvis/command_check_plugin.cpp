@@ -1,5 +1,6 @@
 #include "commands.hpp"
 
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/base/nearest_word.hpp>
 #include <core/conformance/runner.hpp>
@@ -101,13 +102,19 @@ void run(const Arguments& arguments) {
     // A bare name would be searched for along the loader's path.
     subject.library = std::filesystem::absolute(subject.library).string();
     ordered_json checks = ordered_json::array();
-    std::size_t counts[5] = {};
+    std::size_t counts[6] = {};
     double seconds = 0;
     Causes causes;
     for (const Check* check : wanted) {
-        const CheckResult result = run_in_process(*check, subject, arguments.timeout);
+        CheckResult result = run_in_process(*check, subject, arguments.timeout);
+        if (result.outcome == Outcome::not_applicable && !arguments.checks.empty()) {
+            result.outcome = Outcome::skipped; // It was asked for by name, and has an answer.
+        }
         ++counts[static_cast<std::size_t>(result.outcome)];
         seconds += result.seconds;
+        if (result.outcome == Outcome::not_applicable) {
+            continue;
+        }
         if (arguments.json) {
             checks.push_back(to_json(result));
         } else {
@@ -127,16 +134,18 @@ void run(const Arguments& arguments) {
                                 {"checks", checks}};
         std::printf("%s\n", root.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
     } else {
-        std::printf("%zu passed, %zu failed, %zu skipped in %.1f s (seed %llu)\n", count(Outcome::passed), n_bad,
-                    count(Outcome::skipped), seconds, static_cast<unsigned long long>(subject.seed));
+        std::printf("%zu passed, %zu skipped, %zu failed in %.1f s (seed %llu)\n", count(Outcome::passed),
+                    count(Outcome::skipped), n_bad, seconds, static_cast<unsigned long long>(subject.seed));
     }
     if (n_bad > 0) {
         const std::size_t n_same = arguments.json ? 0 : count(Outcome::failed) - causes.size();
         if (n_same > 0) {
-            std::printf("%zu further checks failed for the same reason as another; mend that first\n", n_same);
+            std::printf("%s failed for the same reason as another; mend that first\n",
+                        counted(n_same, "further check").c_str());
         }
-        throw Error(arguments.subject.library,
-                    std::to_string(n_bad) + " of " + std::to_string(wanted.size()) + " checks failed");
+        throw Error(arguments.subject.library, std::to_string(n_bad) + " of " +
+                                                   counted(wanted.size() - count(Outcome::not_applicable), "check") +
+                                                   " failed");
     }
 }
 

@@ -1,7 +1,9 @@
 #include "commands.hpp"
 #include "crash_report.hpp"
 #include "long_task.hpp"
+#include "output_endings.hpp"
 
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/convert/request.hpp>
 
@@ -32,14 +34,14 @@ struct Arguments {
 
 void print_table(const ConvertReport& report, const std::string& output) {
     for (const auto& [shape, count] : report.elements) {
-        std::printf("%llu %s elements\n", static_cast<unsigned long long>(count), shape.c_str());
+        std::printf("%s\n", counted(count, shape + " element").c_str());
     }
     for (const FieldReport& field : report.fields) {
         std::printf("field %s: %s, residual %.3g of its range, largest jump %.3g\n", field.name.c_str(),
                     field.exact ? "exact but for round-off" : "NOT exact", field.residual, field.max_jump);
     }
     if (report.n_unknown_faces > 0) {
-        std::printf("%llu faces whose neighbour is unknown\n", static_cast<unsigned long long>(report.n_unknown_faces));
+        std::printf("%s whose neighbour is unknown\n", counted(report.n_unknown_faces, "face").c_str());
     }
     std::printf("%s written in %.2f s\n", output.c_str(), report.seconds);
 }
@@ -92,6 +94,10 @@ void answer(const Arguments& arguments) {
 }
 
 void run(const Arguments& arguments) {
+    need_hdf5_ending("--output", arguments.output);
+    if (!arguments.report.empty()) {
+        need_ending("--report", arguments.report, {".json"});
+    }
     const ConvertReport report = arguments.is_separate ? convert_apart(arguments) : convert_here(arguments);
     if (!arguments.report.empty()) {
         write_report(report, arguments.report);

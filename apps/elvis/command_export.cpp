@@ -1,7 +1,9 @@
 #include "commands.hpp"
 #include "long_task.hpp"
+#include "output_endings.hpp"
 #include "volume_argument.hpp"
 
+#include <core/base/counted.hpp>
 #include <core/export/vtu_export.hpp>
 
 #include <cstdio>
@@ -20,9 +22,7 @@ struct Arguments {
 };
 
 void run(const Arguments& arguments) {
-    if (!arguments.output.ends_with(".vtu")) {
-        throw UsageError("--output", "'" + arguments.output + "' does not end in .vtu, the one format that is written");
-    }
+    need_ending("--output", arguments.output, {".vtu"});
     const PluginRegistry registry;
     const RuntimeVolume volume = open_volume(registry, arguments.volume, arguments.plugin, {});
     ExportOptions options;
@@ -34,9 +34,8 @@ void run(const Arguments& arguments) {
     const ProgressBar progress(control);
     const InterruptGuard guard(control);
     const ExportReport report = export_vtu(volume, arguments.output, options, control);
-    std::printf("%llu cells of order up to %u with %llu points written to %s\n",
-                static_cast<unsigned long long>(report.n_cells), report.largest_order,
-                static_cast<unsigned long long>(report.n_points), arguments.output.c_str());
+    std::printf("%s of order up to %u with %s written to %s\n", counted(report.n_cells, "cell").c_str(), report.largest_order,
+                counted(report.n_points, "point").c_str(), arguments.output.c_str());
 }
 
 } // namespace

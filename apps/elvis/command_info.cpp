@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "volume_argument.hpp"
 
+#include <core/base/counted.hpp>
 #include <core/render/field_range.hpp>
 #include <core/volume/field_extrema.hpp>
 #include <core/volume/jacobian_check.hpp>
@@ -207,9 +208,9 @@ ordered_json describe(const RuntimeVolume& volume, const Arguments& arguments) {
 std::string text_of(const ordered_json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 void print_jacobians(const ordered_json& root) {
-    std::printf("  Jacobian determinant (%s): negative somewhere in %s elements, undecided in %s, positive in %s\n",
-                text_of(root["certainty"]).c_str(), root["n_elements"].dump().c_str(), root["n_undecided"].dump().c_str(),
-                root["n_positive"].dump().c_str());
+    std::printf("  Jacobian determinant (%s): negative somewhere in %s, undecided in %s, positive in %s\n",
+                text_of(root["certainty"]).c_str(), counted(root["n_elements"], "element").c_str(),
+                root["n_undecided"].dump().c_str(), root["n_positive"].dump().c_str());
     const auto print_list = [](const ordered_json& list, const ordered_json& n_all, const char* word) {
         for (const ordered_json& entry : list) {
             std::printf("    element %s: %s %s at xi %s%s%s\n", entry["element"].dump().c_str(), word,
@@ -225,15 +226,19 @@ void print_jacobians(const ordered_json& root) {
 }
 
 /** "[0.25, -1]": six digits, for people. */
-std::string numbers_text(const ordered_json& values) {
-    std::string text;
-    for (const ordered_json& value : values) {
-        std::array<char, 32> one{};
-        value.is_number() ? std::snprintf(one.data(), one.size(), "%.6g", value.get<double>())
-                          : std::snprintf(one.data(), one.size(), "unknown");
-        text += (text.empty() ? "" : ", ") + (value.is_array() ? numbers_text(value) : std::string(one.data()));
+std::string numbers_text(const ordered_json& value) {
+    if (value.is_array()) {
+        std::string text;
+        for (const ordered_json& item : value) {
+            text += (text.empty() ? "" : ", ") + numbers_text(item);
+        }
+        return "[" + text + "]";
     }
-    return "[" + text + "]";
+    std::array<char, 32> text{};
+    if (!value.is_number() || std::snprintf(text.data(), text.size(), "%.6g", value.get<double>()) < 0) {
+        return "unknown";
+    }
+    return text.data();
 }
 
 /** One line for a scalar, else one for each component and one for the magnitude. */
@@ -263,8 +268,8 @@ void print_ranges(const ordered_json& field) {
 }
 
 void print_table(const ordered_json& root) {
-    std::printf("%s\n  served by %s\n  %s elements, %s faces\n", text_of(root["path"]).c_str(), text_of(root["plugin"]).c_str(),
-                root["n_elements"].dump().c_str(), root["n_faces"].dump().c_str());
+    std::printf("%s\n  served by %s\n  %s, %s\n", text_of(root["path"]).c_str(), text_of(root["plugin"]).c_str(),
+                counted(root["n_elements"], "element").c_str(), counted(root["n_faces"], "face").c_str());
     for (const ordered_json& element_class : root["classes"]) {
         std::printf("    %s %s, geometry order %s%s\n", element_class["n_elements"].dump().c_str(),
                     text_of(element_class["shape"]).c_str(), element_class["geometry_order"].dump().c_str(),
@@ -273,8 +278,8 @@ void print_table(const ordered_json& root) {
     std::printf("  bounds %s (%s)\n", root["bounds"].dump().c_str(), text_of(root["bounds_certainty"]).c_str());
     for (const ordered_json& field : root["fields"]) {
         const std::string continuity = text_of(field["continuity"]);
-        std::printf("  field %s: %s component%s, %s, largest jump %s\n    orders %s\n", text_of(field["name"]).c_str(),
-                    field["components"].dump().c_str(), field["components"] == 1 ? "" : "s",
+        std::printf("  field %s: %s, %s, largest jump %s\n    orders %s\n", text_of(field["name"]).c_str(),
+                    counted(field["components"], "component").c_str(),
                     continuity == "unknown" ? "continuity unknown" : continuity.c_str(),
                     field["max_jump"].is_null() ? "unknown" : field["max_jump"].dump().c_str(),
                     field["order_by_class"].dump().c_str());
@@ -309,7 +314,7 @@ void add_info(CLI::App& app) {
         const PluginRegistry registry;
         const RuntimeVolume volume = open_volume(registry, a->volume, a->plugin, {});
         if (a->time_step >= volume.times().size()) {
-            throw Error(a->volume, "has " + std::to_string(volume.times().size()) + " time steps, counted from 0");
+            throw Error(a->volume, "has " + counted(volume.times().size(), "time step") + ", counted from 0");
         }
         const ordered_json root = describe(volume, *a);
         a->json ? static_cast<void>(std::printf("%s\n", root.dump(2).c_str())) : print_table(root);

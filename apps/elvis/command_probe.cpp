@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "volume_argument.hpp"
 
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
 #include <core/plugin_host/plugin.hpp>
@@ -195,8 +196,8 @@ void run(const Arguments& arguments) {
     for (const ProbedPoint& point : points)
         n_unknown += !point.element && point.n_failures > 0;
     if (n_unknown > 0)
-        throw Error(arguments.volume, "the inverse mapping failed at " + std::to_string(n_unknown) +
-                                          " points: whether they lie in the volume is not known");
+        throw Error(arguments.volume, "the inverse mapping failed at " + counted(n_unknown, "point") +
+                                          ": whether they lie in the volume is not known");
 }
 
 } // namespace

@@ -1,4 +1,7 @@
 #include "commands.hpp"
+#include "field_samples.hpp"
+#include "missed_surfaces.hpp"
+#include "output_endings.hpp"
 #include "render_animation.hpp"
 #include "render_options.hpp"
 #include "render_stats.hpp"
@@ -72,7 +75,25 @@ void render_picture(const RenderArguments& arguments, const Scene& scene, const 
             stats_json(device, is_double, frame, renderer, times.load, milliseconds_since(times.start), repeated);
         write_text_file(arguments.stats, stats.dump(2) + "\n");
     }
+    MissedSurfaces missed;
+    missed.add(request, frame);
+    for (const std::string& remark : missed.remarks(scene, request, renderer)) {
+        spdlog::warn("{}", remark);
+    }
     warn_about(frame.counts);
+}
+
+/** Before the work is done: whether the files can be what their names say. */
+void check_names(const RenderArguments& arguments, const Scene& scene) {
+    if (!scene.animation) {
+        need_picture_ending("--output", arguments.output);
+    }
+    if (!arguments.buffers.empty()) {
+        need_hdf5_ending("--buffers", arguments.buffers);
+    }
+    if (!arguments.stats.empty()) {
+        need_ending("--stats", arguments.stats, {".json"});
+    }
 }
 
 void run(const RenderArguments& arguments) {
@@ -92,6 +113,7 @@ void run(const RenderArguments& arguments) {
     }
     apply_options(arguments, scene);
     check_animation(arguments, scene);
+    check_names(arguments, scene);
     if (scene.volume.empty()) {
         throw Error(arguments.input, "'volume' is missing");
     }
@@ -108,6 +130,14 @@ void run(const RenderArguments& arguments) {
     const Device device(arguments.device, arguments.validation);
     spdlog::info("device: {}", device.summary().name);
     Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
+    if (const auto percentiles = percentiles_of(arguments)) {
+        scene.range_steps = scene.animation ? drawn_steps(scene, volume) : std::vector<std::uint32_t>{};
+        scene.color_map.range = percentile_range(scene, volume, renderer.bounds(), *percentiles);
+        if (scene.color_map.is_logarithmic && !((*scene.color_map.range)[0] > 0)) {
+            throw Error("--range", "the lower percentile is not above 0, as it must be on a logarithmic scale");
+        }
+        spdlog::info("range: {:.6g} to {:.6g}", (*scene.color_map.range)[0], (*scene.color_map.range)[1]);
+    }
     if (scene.animation) {
         render_animation(arguments, scene, device, volume, renderer);
     } else {
@@ -163,7 +193,9 @@ void add_render(CLI::App& app) {
     command->add_option("--color-map", a->color_map,
                         "Built-in name (" + maps +
                             "; gray is even in lightness, not linear in RGB), or file (ParaView JSON, ElVis XML)");
-    command->add_option("--range", a->range, "LOW,HIGH: values at the ends of the colour map");
+    command->add_option(
+        "--range", a->range,
+        "LOW,HIGH: values at the ends of the colour map; 2%,98%: those below which these parts of the volume lie");
     command->add_flag("--log-scale", a->log_scale,
                       "Colours by the logarithm of values, which have none of their own where they are not above 0");
     command->add_option("--eye", a->eye, "x,y,z of the camera");

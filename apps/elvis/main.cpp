@@ -1,34 +1,25 @@
 #include "commands.hpp"
 #include "crash_report.hpp"
 #include "hang_report.hpp"
+#include "unknown_word.hpp"
 
 #include <core/base/error.hpp>
 #include <core/base/log.hpp>
-#include <core/scene/json_reader.hpp>
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace {
 
-/** The first word that is no option, where a command should stand. */
-void check_command(const CLI::App& app, int argc, char** argv) {
-    std::vector<std::string> known;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        known.push_back(command->get_name());
-    }
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        if (word.empty() || word.front() != '-') {
-            if (std::ranges::find(known, word) == known.end()) {
-                throw elvis::UsageError(word, "is no command; the nearest is '" + elvis::nearest_word(word, known) +
-                                                  "', and elvis --help lists all");
-            }
-            return;
-        }
+/** The first word that is no option is a command. */
+void check_command(const CLI::App& app, const std::vector<std::string>& words) {
+    const auto first = std::ranges::find_if(words, [](const std::string& word) { return word.empty() || word.front() != '-'; });
+    if (first != words.end()) {
+        elvis::commands::need_command(app, *first);
     }
 }
 
@@ -49,20 +40,30 @@ int run(int argc, char** argv) {
     elvis::commands::add_bench(app);
     elvis::commands::add_check_plugin(app);
     elvis::commands::add_compile_snippet(app);
+    elvis::commands::add_completion(app);
     elvis::commands::add_convert(app);
     elvis::commands::add_devices(app);
     elvis::commands::add_export(app);
+    elvis::commands::add_help(app);
     elvis::commands::add_info(app);
+    elvis::commands::add_manual(app);
     elvis::commands::add_new_plugin(app);
     elvis::commands::add_plugins(app);
     elvis::commands::add_probe(app);
     elvis::commands::add_render(app);
+    elvis::commands::add_version(app);
     elvis::commands::add_view(app);
 
+    const std::vector<std::string> words(argv + 1, argv + argc);
     try {
-        check_command(app, argc, argv);
+        check_command(app, words);
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        const bool is_refused = error.get_exit_code() != 0;
+        if (const auto unknown = is_refused ? elvis::commands::unknown_option(app, words) : std::nullopt) {
+            std::fprintf(stderr, "elvis: %s\n", unknown->c_str());
+            return 2;
+        }
         return app.exit(error) == 0 ? 0 : 2;
     } catch (const elvis::UsageError& error) {
         std::fprintf(stderr, "elvis: %s\n", error.what());

@@ -1,8 +1,11 @@
 #include "render_animation.hpp"
 #include "film.hpp"
 #include "long_task.hpp"
+#include "missed_surfaces.hpp"
+#include "output_endings.hpp"
 #include "render_stats.hpp"
 
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/scene/output_file.hpp>
@@ -79,16 +82,20 @@ void check_animation(const RenderArguments& arguments, const Scene& scene) {
         throw UsageError("--output", "'" + arguments.output + "' is the name of one picture; an animation goes into a folder");
     }
     if (!arguments.film.empty()) {
+        need_film_ending("--film", arguments.film);
         require_film_maker();
     }
+}
+
+std::vector<std::uint32_t> drawn_steps(const Scene& scene, const RuntimeVolume& volume) {
+    const auto& wanted = scene.animation->time_steps;
+    return wanted ? steps_of(*wanted, volume.times().size(), scene.volume) : std::vector<std::uint32_t>{};
 }
 
 void render_animation(const RenderArguments& arguments, const Scene& scene, const Device& device, const RuntimeVolume& volume,
                       Renderer& renderer) {
     const SceneAnimation& animation = *scene.animation;
-    const std::vector<std::uint32_t> steps = animation.time_steps
-                                                 ? steps_of(*animation.time_steps, volume.times().size(), scene.volume)
-                                                 : std::vector<std::uint32_t>{};
+    const std::vector<std::uint32_t> steps = drawn_steps(scene, volume);
     Requests requests(scene, steps, volume, renderer);
     const std::vector<AnimationFrame> frames =
         animation_frames(animation, steps, scene.time_step, requests.of(requests.first_step()).camera);
@@ -99,6 +106,7 @@ void render_animation(const RenderArguments& arguments, const Scene& scene, cons
     const ProgressBar progress(control);
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     std::size_t n_kept = 0;
+    MissedSurfaces missed;
     for (std::size_t number = 0; number < frames.size(); ++number) {
         const fs::path path = folder / name_of(number);
         if (arguments.resume && fs::exists(path)) {
@@ -117,6 +125,7 @@ void render_animation(const RenderArguments& arguments, const Scene& scene, cons
             }
         }
         write_png(frame, path.string(), arguments.bits);
+        missed.add(request, frame);
         warn_about(frame.counts);
         list.push_back({{"frame", number},
                         {"file", path.filename().string()},
@@ -125,7 +134,13 @@ void render_animation(const RenderArguments& arguments, const Scene& scene, cons
                         {"device_milliseconds", frame.device_milliseconds},
                         {"counts", counts_json(frame.counts)}});
     }
-    spdlog::info("{} pictures in {}, {} of them kept", frames.size(), folder.string(), n_kept);
+    // Pictures that were kept may show anything.
+    if (n_kept == 0) {
+        for (const std::string& remark : missed.remarks(scene, requests.of(requests.first_step()), renderer)) {
+            spdlog::warn("in all pictures, {}", remark);
+        }
+    }
+    spdlog::info("{} in {}, {} of them kept", counted(frames.size(), "picture"), folder.string(), n_kept);
     if (!arguments.stats.empty()) {
         const nlohmann::ordered_json root = {{"device", device.summary().name}, {"n_frames", frames.size()}, {"frames", list}};
         write_text_file(arguments.stats, root.dump(2) + "\n");

@@ -174,6 +174,23 @@ Sharing sharing_of(const RenderArguments& arguments) {
     throw UsageError("--share", "'" + arguments.share + "' is none of all, none" + names);
 }
 
+std::optional<std::array<double, 2>> percentiles_of(const RenderArguments& arguments) {
+    std::string text = arguments.range;
+    if (text.find('%') == std::string::npos) {
+        return std::nullopt;
+    }
+    const std::size_t comma = text.find(',');
+    if (!text.ends_with('%') || comma == std::string::npos || comma == 0 || text[comma - 1] != '%') {
+        throw UsageError("--range", "'" + text + "' has a percentage beside a number");
+    }
+    std::erase(text, '%');
+    const std::vector<double> list = numbers("--range", text, 2, 2);
+    if (!(0 <= list[0] && list[0] < list[1] && list[1] <= 100)) {
+        throw UsageError("--range", "'" + arguments.range + "' must go from a smaller to a larger percentage, from 0% to 100%");
+    }
+    return std::array<double, 2>{list[0] / 100, list[1] / 100};
+}
+
 void apply_options(const RenderArguments& arguments, Scene& scene) {
     if (!arguments.field.empty()) {
         scene.field = arguments.field;
@@ -186,7 +203,9 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
         scene.color_map.file = is_file ? arguments.color_map : "";
         scene.color_map.points.clear();
     }
-    if (!arguments.range.empty()) {
+    if (percentiles_of(arguments)) {
+        scene.color_map.range.reset(); // Until there is a volume to take them of.
+    } else if (!arguments.range.empty()) {
         const std::vector<double> list = numbers("--range", arguments.range, 2, 2);
         if (!(list[0] < list[1])) {
             throw UsageError("--range", "'" + arguments.range + "' must go from a smaller to a larger value");

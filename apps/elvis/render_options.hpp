@@ -6,6 +6,8 @@
 
 #include <core/scene/scene.hpp>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +59,9 @@ struct RenderArguments {
 
 /** What the command line says goes before what the file says. */
 void apply_options(const RenderArguments& arguments, Scene& scene);
+
+/** Parts of the volume, of --range 2%,98%: 0.02 and 0.98; nothing if it is not given in percent. */
+std::optional<std::array<double, 2>> percentiles_of(const RenderArguments& arguments);
 
 /** What passes share, by --share. */
 Sharing sharing_of(const RenderArguments& arguments);

@@ -46,7 +46,7 @@ bool Context::claims_source() {
 
 void Context::need_runtime_volume() {
     if (!plugin()->runtime()) {
-        throw Skipped("the plugin serves no volumes for rendering");
+        throw NotApplicable("the plugin serves no volumes for rendering");
     }
     need_files();
     if (!claims_runtime()) {
@@ -56,7 +56,7 @@ void Context::need_runtime_volume() {
 
 void Context::need_source() {
     if (!plugin()->converter()) {
-        throw Skipped("the plugin converts no files");
+        throw NotApplicable("the plugin converts no files");
     }
     need_files();
     if (!claims_source()) {

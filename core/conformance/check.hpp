@@ -29,10 +29,16 @@ struct Subject {
     std::uint64_t seed = 1;
 };
 
-/** Thrown by a check that does not apply. */
+/** Thrown by a check that lacks what it needs. */
 class Skipped : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
+};
+
+/** Thrown by a check of an interface that the plugin does not have. */
+class NotApplicable : public Skipped {
+public:
+    using Skipped::Skipped;
 };
 
 /** Where a check's findings go. Thread-safe if `say` is. */
@@ -49,7 +55,7 @@ public:
 
     /** The plugin; Skipped if it does not load, which the check `descriptor` reports. */
     const std::shared_ptr<const Plugin>& plugin();
-    /** Skipped if the plugin does not have the interface, no file was given, or the interface's probe refuses it. */
+    /** NotApplicable if the plugin does not have the interface; Skipped if no file was given, or its probe refuses it. */
     void need_runtime_volume();
     void need_source();
     /** Skipped if no file was given. */

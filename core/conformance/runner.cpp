@@ -26,6 +26,7 @@ constexpr char failure_mark = 'F';
 constexpr char note_mark = 'N';
 constexpr char progress_mark = 'P';
 constexpr char skipped_mark = 'S';
+constexpr char not_applicable_mark = 'A';
 constexpr char done_mark = 'D';
 
 std::vector<std::string> arguments_of(const Check& check, const Subject& subject) {
@@ -74,6 +75,10 @@ void take_line(CheckResult& result, bool& is_done, const std::string& line) {
         result.outcome = Outcome::skipped;
         result.findings.push_back(text);
         break;
+    case not_applicable_mark:
+        result.outcome = Outcome::not_applicable;
+        result.findings.push_back(text);
+        break;
     case done_mark:
         is_done = true;
         break;
@@ -85,7 +90,7 @@ void take_line(CheckResult& result, bool& is_done, const std::string& line) {
 } // namespace
 
 const char* outcome_name(Outcome outcome) {
-    constexpr std::array<const char*, 5> names{"passed", "failed", "crashed", "timed-out", "skipped"};
+    constexpr std::array<const char*, 6> names{"passed", "failed", "crashed", "timed-out", "skipped", "not-applicable"};
     return names[static_cast<std::size_t>(outcome)];
 }
 
@@ -153,6 +158,8 @@ void run_here(const Check& check, const Subject& subject, int answer_descriptor)
     Context context(subject, reporter);
     try {
         check.run(context);
+    } catch (const NotApplicable& reason) {
+        write_answer(answer_descriptor, not_applicable_mark, reason.what());
     } catch (const Skipped& skipped) {
         write_answer(answer_descriptor, skipped_mark, skipped.what());
     } catch (const std::exception& error) {

@@ -11,7 +11,8 @@
 
 namespace elvis::conformance {
 
-enum class Outcome { passed, failed, crashed, timed_out, skipped };
+/** `not_applicable`: it is about an interface that the plugin does not have. */
+enum class Outcome { passed, failed, crashed, timed_out, skipped, not_applicable };
 const char* outcome_name(Outcome outcome);
 
 struct CheckResult {

@@ -3,6 +3,7 @@
  * Checks of conversion plugins: what a source says, where it is sampled, how exact its conversion is.
  */
 #include <core/base/cancel.hpp>
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/conformance/check.hpp>
 #include <core/conformance/description.hpp>
@@ -67,7 +68,7 @@ void check_description(Context& context) {
             break;
         }
     }
-    context.note(std::to_string(source.info().n_elements) + " elements, " + std::to_string(source.fields().size()) + " fields");
+    context.note(counted(source.info().n_elements, "element") + ", " + counted(source.fields().size(), "field"));
 }
 
 void check_source_pieces(Context& context) {

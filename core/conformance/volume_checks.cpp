@@ -2,6 +2,7 @@
  * @file volume_checks.cpp
  * Checks of what a runtime plugin says about a volume, without a device: consistent counts, pieces, threads, faces.
  */
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/conformance/check.hpp>
 #include <core/conformance/description.hpp>
@@ -61,8 +62,8 @@ void check_counts(Context& context) {
     for (const std::string& kind : kinds) {
         shapes += (shapes.empty() ? "" : ", ") + kind;
     }
-    context.note(std::to_string(volume.n_elements()) + " elements (" + shapes + "), " + std::to_string(volume.fields().size()) +
-                 " fields, " + std::to_string(volume.times().size()) + " time steps");
+    context.note(counted(volume.n_elements(), "element") + " (" + shapes + "), " + counted(volume.fields().size(), "field") +
+                 ", " + counted(volume.times().size(), "time step"));
 }
 
 void check_buffers(Context& context) {
@@ -275,7 +276,7 @@ void check_faces(Context& context) {
                          " are mentioned");
         }
     }
-    context.note(std::to_string(volume.n_faces()) + " faces");
+    context.note(counted(volume.n_faces(), "face"));
     if (volume.has_evaluation() && n_complaints == 0) {
         note_coinciding_boundary(context, volume, faces);
     }

@@ -1,5 +1,6 @@
 #include <core/export/vtu_export.hpp>
 
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/export/appended_data.hpp>
 #include <core/export/lagrange_nodes.hpp>
@@ -111,7 +112,7 @@ void Exporter::check() const {
                     "has elements that are only parts of their reference shape (elvis_inside); VTK's cells would be all of it");
     }
     if (m_options.time_step >= m_volume.times().size()) {
-        throw Error(path, "has " + std::to_string(m_volume.times().size()) + " time steps, no step " +
+        throw Error(path, "has " + counted(m_volume.times().size(), "time step") + ", no step " +
                               std::to_string(m_options.time_step) + " (counted from 0)");
     }
     if (m_options.order && (*m_options.order < 1 || *m_options.order > largest_order)) {

@@ -21,8 +21,8 @@ struct ColorParameters {
     std::uint32_t is_plane;
 };
 
-/** Words a surface: whether there are values below, above, and none at all. */
-constexpr std::size_t n_special = 3;
+/** Words a surface: whether there are values below, above, and none at all, and whether a pixel shows it. */
+constexpr std::size_t n_special = 4;
 
 constexpr std::uint32_t with_undecided_color = 1;
 constexpr std::uint32_t with_own_color = 2;
@@ -97,7 +97,7 @@ std::vector<SpecialValues> ColorPass::special_values() const {
     const std::vector<std::uint32_t> words = m_special->read_items<std::uint32_t>(n_special * m_n_surfaces);
     std::vector<SpecialValues> result;
     for (std::size_t at = 0; at < words.size(); at += n_special) {
-        result.push_back({words[at] != 0, words[at + 1] != 0, words[at + 2] != 0});
+        result.push_back({words[at] != 0, words[at + 1] != 0, words[at + 2] != 0, words[at + 3] != 0});
     }
     return result;
 }

@@ -149,6 +149,15 @@ struct FrameCounts {
  */
 struct SpecialValues {
     bool below = false, above = false, nan = false;
+    /** Whether a pixel shows the surface at all. */
+    bool is_shown = false;
+};
+
+/** Whether the rays of the pixels meet one surface, where it is not clipped. What other surfaces hide is met, too. */
+struct SurfaceHits {
+    bool is_met = false;
+    /** Of isosurfaces with several values: each of these. */
+    std::vector<bool> values;
 };
 
 /** One picture, top row first; every vector has width * height entries (times components), if asked for. */
@@ -162,8 +171,10 @@ struct Frame {
     std::vector<double> normal;        ///< 3 a pixel, unit, towards the viewer; NaN where nothing was hit
     std::vector<std::uint32_t> flags;
     FrameCounts counts;
-    /** Of each surface that was asked for. */
+    /** Of each surface that was asked for, and of such as the renderer adds. */
     std::vector<SpecialValues> special_values;
+    /** Of each surface that was asked for. */
+    std::vector<SurfaceHits> hits;
     /** Wall time of this frame, without upload, hierarchy and compilation. */
     double render_milliseconds = 0;
     /** What render_milliseconds would be on a machine with nothing else to do (DeviceTimer). */

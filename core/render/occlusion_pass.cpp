@@ -27,12 +27,14 @@ void OcclusionPass::run(const Layer& layer, const Buffer& depths, Step step) con
 
 void OcclusionPass::begin(const Layer& layer, const Buffer& depths) const { run(layer, depths, Step::put); }
 
-std::uint32_t OcclusionPass::end(const Layer& layer, const Buffer& depths) const {
+std::uint32_t OcclusionPass::counted(const Layer& layer, const Buffer& depths, Step step) const {
     m_counts.fill(0);
-    run(layer, depths, Step::take);
+    run(layer, depths, step);
     return m_counts.read_items<std::uint32_t>(1)[0];
 }
 
-void OcclusionPass::hide(const Layer& layer, const Buffer& depths) const { run(layer, depths, Step::hide); }
+std::uint32_t OcclusionPass::end(const Layer& layer, const Buffer& depths) const { return counted(layer, depths, Step::take); }
+
+std::uint32_t OcclusionPass::hide(const Layer& layer, const Buffer& depths) const { return counted(layer, depths, Step::hide); }
 
 } // namespace elvis

@@ -19,12 +19,13 @@ public:
     void begin(const Layer& layer, const Buffer& depths) const;
     /** Takes them out again, before anything else is done with the layer. Returns in how many pixels they still were. */
     std::uint32_t end(const Layer& layer, const Buffer& depths) const;
-    /** Takes out what they hide, of a layer that was drawn without begin() and end(), too. */
-    void hide(const Layer& layer, const Buffer& depths) const;
+    /** Takes out what they hide, of a layer that was drawn without begin() and end(), too. Returns of how many pixels. */
+    std::uint32_t hide(const Layer& layer, const Buffer& depths) const;
 
 private:
     enum class Step : std::uint32_t { put, take, hide };
     void run(const Layer& layer, const Buffer& depths, Step step) const;
+    std::uint32_t counted(const Layer& layer, const Buffer& depths, Step step) const;
 
     ComposedKernel m_kernel;
     Buffer m_counts;

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -38,7 +39,17 @@ std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
     return order;
 }
 
+bool is_whole_boundary(const Surface& surface) {
+    const auto* boundary = std::get_if<BoundaryFaces>(&surface.geometry);
+    return boundary && boundary->groups.empty();
+}
+
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
+
+void add_to(std::vector<bool>& met, const std::vector<bool>& now) {
+    met.resize(now.size());
+    std::transform(met.begin(), met.end(), now.begin(), met.begin(), std::logical_or<>());
+}
 
 /** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
 constexpr std::uint32_t max_rounds = 64;
@@ -76,9 +87,10 @@ struct Renderer::Impl {
     void provide_volume(const FrameRequest& request);
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
                       std::vector<SurfaceFacts>& facts);
-    void draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target, FrameCounts& counts);
+    void draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target, FrameCounts& counts,
+                       SurfaceHits& hits);
     void draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
-                          const LayerTarget& target, FrameCounts& counts);
+                          const LayerTarget& target, FrameCounts& counts, SurfaceHits& hits);
     void draw_volume(const FrameRequest& request, FrameCounts& counts);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
     CutPlaneGeometry view(const FrameRequest& request, const SurfaceGeometry& geometry) const;
@@ -125,8 +137,7 @@ void Renderer::Impl::check(const FrameRequest& request) const {
 FrameRequest Renderer::Impl::with_own_boundaries(FrameRequest request) const {
     const std::size_t n_surfaces = passes.n_cut_elements() > 0 ? request.surfaces.size() : 0;
     for (std::size_t index = 0; index < n_surfaces; ++index) {
-        const auto* boundary = std::get_if<BoundaryFaces>(&request.surfaces[index].geometry);
-        if (boundary && boundary->groups.empty()) {
+        if (is_whole_boundary(request.surfaces[index])) {
             Surface surface = request.surfaces[index];
             Isosurfaces own;
             own.field.is_own_boundary = true;
@@ -217,12 +228,15 @@ PixelRows Renderer::Impl::rows_of(const FrameRequest& request) const {
 }
 
 void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
-                                      const LayerTarget& target, FrameCounts& counts) {
+                                      const LayerTarget& target, FrameCounts& counts, SurfaceHits& hits) {
     constexpr std::uint32_t first = 1;
     const CutPlaneGeometry rays = view(request, surface.geometry);
     IsosurfacePass& pass = passes.isosurfaces(wanted.field);
     pass.draw(rays, first, target, counts);
     target.after_samples();
+    if (hits.values.empty() || std::ranges::find(hits.values, false) != hits.values.end()) {
+        add_to(hits.values, pass.values_met(target.layer));
+    }
     const ShownComponent component = fields.component(surface.field);
     if (surface.field != wanted.field) {
         passes.point_values().draw(component, target, counts);
@@ -250,7 +264,7 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, FrameCounts& count
 }
 
 void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target,
-                                   FrameCounts& counts) {
+                                   FrameCounts& counts, SurfaceHits& hits) {
     const CutPlaneGeometry rays = view(request, surface.geometry);
     const ShownComponent component = fields.component(surface.field);
     // A layer holds one surface; each class of faces counts as one, so that the nearest wins.
@@ -267,7 +281,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
             passes.lines(surface).draw(rays, component, lines, &pass.bending(), &solver.rows(), target, counts);
         }
     } else if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
-        draw_isosurfaces(request, surface, *isosurfaces, target, counts);
+        draw_isosurfaces(request, surface, *isosurfaces, target, counts, hits);
     } else if (const auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
         passes.edge_pass().draw(passes.edges(wires->faces), request.camera, wires->width, -offset_of(surface), first, target);
     } else {
@@ -300,19 +314,25 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     const bool is_occluded = opaque != nullptr && request.sharing.depths && !surface.has_lines();
     const Buffer* beyond = nullptr;
     MergePass::Wanted wanted{1, 0, layer->height};
+    SurfaceHits& hits = frame.hits[index];
+    std::uint64_t n_hidden = 0;
     for (std::uint32_t round = 0; wanted.n_pixels > 0 && round < max_rounds; ++round) {
         layer->marks.fill(0);
         if (is_occluded) {
             occlusion_pass.begin(*layer, *opaque);
         }
-        const auto after_samples = [&] { frame.counts.hidden_pixels += is_occluded ? occlusion_pass.end(*layer, *opaque) : 0; };
+        const auto after_samples = [&] {
+            const std::uint32_t n_spared = is_occluded ? occlusion_pass.end(*layer, *opaque) : 0;
+            frame.counts.hidden_pixels += n_spared;
+            n_hidden += n_spared;
+        };
         const bool wants_normals = request.with_buffers || is_lit(request, surface) || surface.has_lines();
         draw_geometry(
             request, surface,
             {*layer, beyond, wants_normals, wants_places ? &*places : nullptr, wanted.first_row, wanted.end_row, after_samples},
-            frame.counts);
+            frame.counts, hits);
         if (opaque != nullptr) {
-            occlusion_pass.hide(*layer, *opaque);
+            n_hidden += occlusion_pass.hide(*layer, *opaque);
         }
         color_pass.draw(*layer, surface, index, rays, is_alone ? request.background : Color{}, offset, common_flags,
                         is_lit(request, surface) ? &*request.lighting : nullptr);
@@ -331,6 +351,11 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
         beyond = merge_pass.beyond();
     }
     frame.counts.work_limit_pixels += wanted.n_pixels;
+    // Where nothing was looked for behind others, it may have been there.
+    hits.is_met = n_hidden > 0;
+    if (is_occluded && n_hidden > 0) {
+        hits.values.assign(hits.values.size(), true);
+    }
 }
 
 Renderer::Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control) {
@@ -399,6 +424,7 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     }
     impl.passes.keep(request);
     impl.color_pass.begin(request.surfaces.size());
+    frame.hits.resize(request.surfaces.size());
     std::vector<SurfaceFacts> facts(request.surfaces.size());
     double wall = 0, device = 0;
     for (const std::size_t index : drawing_order(request.surfaces)) {
@@ -422,6 +448,16 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
 
     impl.times.upload_milliseconds = impl.data.upload_milliseconds();
     frame.special_values = impl.color_pass.special_values();
+    for (std::size_t index = 0; index < frame.hits.size(); ++index) {
+        frame.hits[index].is_met = frame.hits[index].is_met || frame.special_values[index].is_shown;
+    }
+    // A boundary with_own_boundaries added belongs to the surface that asked for it.
+    for (std::size_t index = 0, added = wanted.surfaces.size(); added < frame.hits.size(); ++index) {
+        if (is_whole_boundary(request.surfaces[index])) {
+            frame.hits[index].is_met = frame.hits[index].is_met || frame.hits[added++].is_met;
+        }
+    }
+    frame.hits.resize(wanted.surfaces.size());
     const Layer& drawn = is_alone ? *impl.layer : impl.merge_pass.picture();
     read_frame(drawn, impl.precision, facts, request.with_buffers, frame);
     return frame;

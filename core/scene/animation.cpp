@@ -1,3 +1,4 @@
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/scene/animation.hpp>
 
@@ -163,8 +164,8 @@ std::vector<std::uint32_t> steps_of(const TimeStepRange& range, std::size_t n_st
     const std::int64_t first = range.first, last = range.last ? *range.last : static_cast<std::int64_t>(n_steps) - 1;
     for (const std::int64_t step : {first, last}) {
         if (step < 0 || step >= static_cast<std::int64_t>(n_steps)) {
-            throw Error(place, "has " + std::to_string(n_steps) + " time steps, counted from 0; there is no step " +
-                                   std::to_string(step));
+            throw Error(place,
+                        "has " + counted(n_steps, "time step") + ", counted from 0; there is no step " + std::to_string(step));
         }
     }
     std::vector<std::uint32_t> steps;

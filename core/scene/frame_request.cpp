@@ -4,6 +4,7 @@
 #include <core/annotation/drawing.hpp>
 #include <core/annotation/ticks.hpp>
 #include <core/base/bounds.hpp>
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
 #include <core/scene/color_map.hpp>
@@ -272,8 +273,8 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
 
 FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
     if (scene.time_step >= volume.times().size()) {
-        throw Error(scene.volume, "has " + std::to_string(volume.times().size()) +
-                                      " time steps, counted from 0; there is no step " + std::to_string(scene.time_step));
+        throw Error(scene.volume, "has " + counted(volume.times().size(), "time step") + ", counted from 0; there is no step " +
+                                      std::to_string(scene.time_step));
     }
     FrameRequest request;
     request.width = scene.size[0];

@@ -22,8 +22,8 @@ layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_s
 layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
-// Three words a surface: 1 where there are values below, above, and such that are no numbers.
-layout(set = 0, binding = 5, std430) writeonly buffer core_special_block { uint core_special_values[]; };
+// Four words a surface: 1 where there are values below, above, and such that are no numbers; where a pixel shows it.
+layout(set = 0, binding = 5, std430) buffer core_special_block { uint core_special_values[]; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
@@ -170,7 +170,11 @@ void main() {
 
     const bool is_far = !is_outside && (value < limits.y || value > limits.z);
     if (is_seen && (has_no_place || is_far)) {
-        core_special_values[3u * core_surface + (has_no_place ? 2u : (is_below ? 0u : 1u))] = 1u;
+        core_special_values[4u * core_surface + (has_no_place ? 2u : (is_below ? 0u : 1u))] = 1u;
+    }
+    // Few write what nearly all would.
+    if (is_seen && core_special_values[4u * core_surface + 3u] == 0u) {
+        core_special_values[4u * core_surface + 3u] = 1u;
     }
 
 #if CORE_HAS_LINES

@@ -39,13 +39,13 @@ void main() {
         core_layer_marks[pixel].owner = 0u;
     }
     const bool is_drawn = core_step == 2u && is_inside && owner != 0u;
+    const bool is_hidden = is_drawn && core_layer_samples[safe].depth >= depth;
     if (is_drawn) {
-        const bool is_hidden = core_layer_samples[pixel].depth >= depth;
         core_layer_marks[pixel].owner = is_hidden ? 0u : owner;
         core_layer_marks[pixel].flags = is_hidden ? 0u : core_layer_marks[pixel].flags;
     }
-    const uint n_left = subgroupAdd(is_left ? 1u : 0u);
-    if (subgroupElect() && n_left > 0u) {
-        atomicAdd(core_counts[0], n_left);
+    const uint n_taken = subgroupAdd(is_left || is_hidden ? 1u : 0u);
+    if (subgroupElect() && n_taken > 0u) {
+        atomicAdd(core_counts[0], n_taken);
     }
 }

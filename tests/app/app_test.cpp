@@ -22,7 +22,7 @@ TEST_CASE("Elements with a negative Jacobian are listed with a point where it is
     CHECK(found["xi"].size() == 3);
     CHECK(found["x"].size() == 3);
     const Outcome text = place.run("info twisted.h5");
-    CHECK(text.out.find("negative somewhere in 1 elements") != std::string::npos);
+    CHECK(text.out.find("negative somewhere in 1 element,") != std::string::npos);
     CHECK(place.run("info twisted.h5 --jacobian-tolerance -1").status == 2);
 }
 

@@ -88,3 +88,18 @@ TEST_CASE("The conversion plugins pass every check") {
                                   "/mfem/poisson-inline-tet-p6/sol.gf'");
     place.check("elvis_vtk", "--volume '" ELVIS_SOURCES "/tests/data/vtk/cells3.vtu'");
 }
+
+TEST_CASE("Checks of an interface that a plugin lacks do not count, unless they are asked for") {
+    const Workplace place;
+    // It only converts.
+    const std::string call = "check-plugin '" ELVIS_PLUGINS "/elvis_dat.so' --json";
+    CHECK(place.run(call) == 0);
+    const auto answer = nlohmann::json::parse(place.read("out.txt"));
+    for (const auto& check : answer["checks"]) {
+        INFO(check.dump());
+        CHECK(check["findings"].dump().find("serves no volumes") == std::string::npos);
+    }
+    CHECK(answer["passed"].get<std::size_t>() + answer["skipped"].get<std::size_t>() == answer["checks"].size());
+    REQUIRE(place.run(call + " --check bounds") == 0);
+    CHECK(nlohmann::json::parse(place.read("out.txt"))["checks"][0]["outcome"] == "skipped");
+}

@@ -1,5 +1,7 @@
 #include "histogram.hpp"
 
+#include "../field_samples.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,14 +24,6 @@ void Histogram::add(std::span<const double> values) {
     }
 }
 
-double Histogram::quantile(double part) const {
-    if (m_sorted.empty()) {
-        return m_lower;
-    }
-    const double place = std::clamp(part, 0.0, 1.0) * static_cast<double>(m_sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, m_sorted.size() - 1);
-    return std::lerp(m_sorted[below], m_sorted[above], place - static_cast<double>(below));
-}
+double Histogram::quantile(double part) const { return m_sorted.empty() ? m_lower : commands::quantile(m_sorted, part); }
 
 } // namespace elvis::view

@@ -1,39 +1,17 @@
 #include "items.hpp"
 
+#include "../surface_names.hpp"
+
 #include <core/base/vector3.hpp>
 #include <core/scene/color_map.hpp>
 #include <core/scene/resolve.hpp>
 
 #include <algorithm>
 #include <cstdio>
-#include <type_traits>
 
 namespace elvis::view {
 
 namespace {
-
-template <class... Functions> struct Overloaded : Functions... { using Functions::operator()...; };
-template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions...>;
-
-std::string shape_text(const CutShape& shape) {
-    return std::visit(
-        Overloaded{[](const Sphere&) { return "sphere"; }, [](const Cylinder&) { return "cylinder"; },
-                   [](const Cone&) { return "cone"; }, [](const Quadric&) { return "quadric"; },
-                   [](const Torus&) { return "torus"; }, [](const ImplicitSurface&) { return "implicit surface"; },
-                   [](const MeshSurface&) { return "mesh"; }, [](const BezierSurface&) { return "Bezier patches"; }},
-        shape);
-}
-
-std::string kind_text(const SceneSurface& surface) {
-    return std::visit(Overloaded{[](const CutPlane&) { return std::string("cut plane"); },
-                                 [](const BoundaryFaces&) { return std::string("boundary"); },
-                                 [](const FlatElements&) { return std::string("elements"); },
-                                 [](const ElementFaces&) { return std::string("elements"); },
-                                 [](const WireFrame&) { return std::string("wireframe"); },
-                                 [](const CutShape& shape) { return shape_text(shape); },
-                                 [](const Isosurfaces&) { return std::string("isosurface"); }},
-                      surface.geometry);
-}
 
 std::string joined(const std::vector<std::string>& parts) {
     std::string text;
@@ -170,7 +148,7 @@ bool exists(const Scene& scene, const ItemId& item) {
 std::string item_kind_name(const Scene& scene, const ItemId& item) {
     switch (item.kind) {
     case ItemKind::surface:
-        return kind_text(scene.surfaces[item.index]);
+        return commands::kind_name(scene.surfaces[item.index].geometry);
     case ItemKind::volume:
         return "volume";
     default: {

@@ -10,12 +10,13 @@
 #include <core/scene/scene_annotation.hpp>
 #include <core/scene/surface_distance.hpp>
 
+#include "../field_samples.hpp"
+#include "../missed_surfaces.hpp"
 #include "../volume_argument.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <random>
 
 namespace elvis::view {
 
@@ -77,6 +78,12 @@ Picture Session::draw(const Scene& scene, const FrameSchedule::Step& step) {
     Picture picture = picture_of(frame, annotation_of(scene, request, frame, *m_volume), request.width, request.height);
     picture.camera = request.camera;
     picture.remarks.insert(picture.remarks.end(), request.remarks.begin(), request.remarks.end());
+    if (step.divisor == 1) {
+        commands::MissedSurfaces missed;
+        missed.add(request, frame);
+        const std::vector<std::string> remarks = missed.remarks(scene, request, *m_renderer);
+        picture.remarks.insert(picture.remarks.end(), remarks.begin(), remarks.end());
+    }
     picture.is_refinable = has_refinement(request);
     picture.milliseconds = frame.render_milliseconds + milliseconds_since(drawn);
     return picture;
@@ -188,47 +195,13 @@ Picked Session::pick(const Scene& scene, const std::array<double, 2>& place) {
     return picked;
 }
 
-std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count,
-                                     unsigned seed) {
+std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece) {
     need_precision(scene);
-    if (m_volume->dimension() == 2) {
-        throw Error("only volumes of three dimensions can be sampled");
-    }
+    commands::need_samples(*m_volume);
     if (!m_prober) {
         m_prober = std::make_unique<Prober>(*m_volume);
     }
-    const std::string text = with_distances(field.value_or(m_volume->fields().at(0).name), scene.surfaces);
-    const FieldChoice choice = choose_field(*m_volume, text);
-    std::vector<std::shared_ptr<const Expression>> expressions;
-    if (choice.expression) {
-        expressions.push_back(choice.expression);
-    }
-    const std::array<double, 6> bounds = m_renderer->bounds();
-    std::mt19937 random(seed);
-    std::vector<std::array<double, 3>> positions(count);
-    for (auto& position : positions) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            position[axis] = std::uniform_real_distribution<double>(bounds[axis], bounds[axis + 3])(random);
-        }
-    }
-    std::vector<double> values;
-    for (const ProbedPoint& point : m_prober->probe(positions, scene.time_step, expressions)) {
-        if (!point.element) {
-            continue;
-        }
-        if (choice.expression) {
-            values.push_back(point.expressions[0].value);
-            continue;
-        }
-        const std::vector<double>& components = point.fields[choice.field].values;
-        double value = 0;
-        for (const double component : components) {
-            value = std::hypot(value, component);
-        }
-        values.push_back(choice.component < 0 ? value : components[static_cast<std::size_t>(choice.component)]);
-    }
-    std::erase_if(values, [](double value) { return !std::isfinite(value); });
-    return values;
+    return commands::field_samples(*m_prober, *m_volume, m_renderer->bounds(), scene, field, piece);
 }
 
 } // namespace elvis::view

@@ -53,11 +53,8 @@ public:
     FieldRange range(const Scene& scene, const std::optional<std::string>& field);
     /** What is seen at a place of the scene's picture. */
     Picked pick(const Scene& scene, const std::array<double, 2>& place);
-    /**
-     * Values of a field at so many points of the bounds, as far as they lie in elements: what histograms and percentiles are
-     * made of. Equal seeds give equal points.
-     */
-    std::vector<double> samples(const Scene& scene, const std::optional<std::string>& field, std::size_t count, unsigned seed);
+    /** Values of a field at the points of one piece (apps/elvis/field_samples.hpp). */
+    std::vector<double> samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece);
 
 private:
     FrameRequest drawn_request(const Scene& scene);

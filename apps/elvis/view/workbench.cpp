@@ -1,7 +1,10 @@
 #include "workbench.hpp"
 
+#include "../field_samples.hpp"
 #include "../frame_remarks.hpp"
+#include "../output_endings.hpp"
 
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/scene/write_scene.hpp>
 
@@ -86,8 +89,8 @@ void Workbench::open_scene(Scene scene, std::string file, std::string path) {
             m_picked.reset();
             m_picture = {};
             m_stage = FrameStage::none;
-            say(Message::Kind::info, "opened " + path + ": " + std::to_string(facts.n_elements) + " elements, " +
-                                         std::to_string(facts.fields.size()) + " fields");
+            say(Message::Kind::info,
+                "opened " + path + ": " + counted(facts.n_elements, "element") + ", " + counted(facts.fields.size(), "field"));
             try {
                 m_model.open(std::move(scene), std::move(facts), file);
             } catch (const std::exception& error) {
@@ -116,6 +119,12 @@ void Workbench::save_scene(const std::string& path) {
 }
 
 void Workbench::save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits) {
+    try {
+        commands::need_picture_ending("the picture", path);
+    } catch (const std::exception& error) {
+        say(Message::Kind::error, error.what());
+        return;
+    }
     Scene scene = m_model.scene();
     // The shift is in pixels: a larger picture has what is looked at in the same place.
     for (double& shift : scene.camera.image_shift) {
@@ -207,19 +216,17 @@ const Histogram* Workbench::histogram(const std::optional<std::string>& field) {
 }
 
 void Workbench::sample(const std::optional<std::string>& field, const std::string& key, unsigned piece) {
-    constexpr std::size_t n_points = 500;
-    constexpr unsigned n_pieces = 24;
     const Scene& scene = m_model.scene();
     m_worker.post_later(
         "sampling the field",
         [this, scene, field, key, piece, number = m_volume_number](Session& session) -> FrameWorker::Answer {
-            return [this, values = session.samples(scene, field, n_points, piece + 1), field, key, piece, number] {
+            return [this, values = session.samples(scene, field, piece), field, key, piece, number] {
                 const auto found = m_histograms.find(key);
                 if (number != m_volume_number || found == m_histograms.end()) {
                     return;
                 }
                 found->second->add(values);
-                if (piece + 1 < n_pieces) {
+                if (piece + 1 < commands::n_pieces) {
                     sample(field, key, piece + 1);
                 }
             };

@@ -65,7 +65,7 @@ void draw_items(Ui& ui) {
         }
         return;
     }
-    ImGui::TextUnformatted("Items");
+    ImGui::TextUnformatted("In the picture");
     ImGui::SameLine(0, 2 * ImGui::GetFontSize());
     add_menu(ui);
     const std::optional<ItemId> selected = model.selection();

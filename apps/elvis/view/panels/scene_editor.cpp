@@ -74,11 +74,13 @@ bool edit_image(Ui& ui, Scene& scene) {
         is_changed = true;
     }
     int subdivisions = static_cast<int>(scene.subdivisions);
-    if (ImGui::SliderInt("Subdivisions", &subdivisions, 0, 12, "%d", ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::SliderInt("Line refinement", &subdivisions, 0, 12, "%d", ImGuiSliderFlags_AlwaysClamp)) {
         scene.subdivisions = static_cast<std::uint32_t>(subdivisions);
         is_changed = true;
     }
-    explain(ui, "scene/subdivisions", "How often a pixel is halved at most to decide whether it meets a line");
+    explain(ui, "scene/subdivisions",
+            "Contours and mesh lines: how often a pixel is halved at most to decide whether it meets one; more leave fewer "
+            "undecided");
     return is_changed;
 }
 

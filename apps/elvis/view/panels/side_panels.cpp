@@ -1,5 +1,6 @@
 #include "panels.hpp"
 
+#include <core/base/counted.hpp>
 #include <core/base/vector3.hpp>
 
 #include <cstdio>
@@ -152,8 +153,8 @@ void draw_list(const std::vector<Message>& messages) {
 void draw_statistics(Ui& ui) {
     const Workbench& bench = ui.bench;
     if (const auto& volume = ui.model().volume()) {
-        ImGui::TextWrapped("%s: %llu elements, read by %s", volume->path.c_str(),
-                           static_cast<unsigned long long>(volume->n_elements), volume->plugin.c_str());
+        ImGui::TextWrapped("%s: %s, read by %s", volume->path.c_str(), counted(volume->n_elements, "element").c_str(),
+                           volume->plugin.c_str());
     }
     if (bench.stage() == FrameStage::exact &&
         ImGui::BeginTable("counts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {

@@ -1,0 +1,86 @@
+#include "field_samples.hpp"
+
+#include <core/base/error.hpp>
+#include <core/expression/expression.hpp>
+#include <core/scene/frame_request.hpp>
+#include <core/scene/surface_distance.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace elvis::commands {
+
+void need_samples(const RuntimeVolume& volume) {
+    if (volume.dimension() == 2) {
+        throw Error(volume.path(), "only volumes of three dimensions can be sampled");
+    }
+}
+
+std::vector<double> field_samples(Prober& prober, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
+                                  const Scene& scene, const std::optional<std::string>& field, unsigned piece) {
+    const std::string text = with_distances(field.value_or(volume.fields().at(0).name), scene.surfaces);
+    const FieldChoice choice = choose_field(volume, text);
+    std::vector<std::shared_ptr<const Expression>> expressions;
+    if (choice.expression) {
+        expressions.push_back(choice.expression);
+    }
+    std::mt19937 random(piece + 1);
+    std::vector<std::array<double, 3>> positions(n_points_a_piece);
+    for (auto& position : positions) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            position[axis] = std::uniform_real_distribution<double>(bounds[axis], bounds[axis + 3])(random);
+        }
+    }
+    std::vector<double> values;
+    for (const ProbedPoint& point : prober.probe(positions, scene.time_step, expressions)) {
+        if (!point.element) {
+            continue;
+        }
+        if (choice.expression) {
+            values.push_back(point.expressions[0].value);
+            continue;
+        }
+        const std::vector<double>& components = point.fields[choice.field].values;
+        double value = 0;
+        for (const double component : components) {
+            value = std::hypot(value, component);
+        }
+        values.push_back(choice.component < 0 ? value : components[static_cast<std::size_t>(choice.component)]);
+    }
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    return values;
+}
+
+double quantile(std::span<const double> sorted, double part) {
+    const double place = std::clamp(part, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
+}
+
+std::array<double, 2> percentile_range(const Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
+                                       const std::array<double, 2>& parts) {
+    need_samples(volume);
+    Prober prober(volume);
+    Scene at_step = scene;
+    std::vector<double> values;
+    for (const std::uint32_t step : scene.range_steps.empty() ? std::vector{scene.time_step} : scene.range_steps) {
+        at_step.time_step = step;
+        for (unsigned piece = 0; piece < n_pieces; ++piece) {
+            const std::vector<double> some = field_samples(prober, volume, bounds, at_step, scene.field, piece);
+            values.insert(values.end(), some.begin(), some.end());
+        }
+    }
+    if (values.empty()) {
+        throw Error("--range", "percentiles are of finite values at points in elements, and none was found");
+    }
+    std::ranges::sort(values);
+    const std::array<double, 2> range = {quantile(values, parts[0]), quantile(values, parts[1])};
+    if (!(range[0] < range[1])) {
+        throw Error("--range", "both percentiles are " + std::to_string(range[0]) + ": colours need a range of numbers here");
+    }
+    return range;
+}
+
+} // namespace elvis::commands

@@ -1,0 +1,44 @@
+/**
+ * @file field_samples.hpp
+ * Values of a field at points spread evenly over the volume, so that each counts by the space it takes: what histograms and
+ * percentiles are made of.
+ */
+#pragma once
+
+#include <core/probe/probe.hpp>
+#include <core/scene/scene.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace elvis::commands {
+
+/** Points are taken in pieces of so many; all of them together are what percentiles rest on. */
+inline constexpr std::size_t n_points_a_piece = 500;
+inline constexpr unsigned n_pieces = 24;
+
+/** A volume of three dimensions, or an Error. */
+void need_samples(const RuntimeVolume& volume);
+
+/**
+ * Finite values at the scene's time step, of the points of one piece that lie in elements; the volume's first field if there is
+ * no text. Equal pieces have equal points in equal bounds.
+ */
+std::vector<double> field_samples(Prober& prober, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
+                                  const Scene& scene, const std::optional<std::string>& field, unsigned piece);
+
+/** The value below which that part of the values lies, which ascend; `part` in [0, 1]. There is at least one value. */
+double quantile(std::span<const double> sorted, double part);
+
+/**
+ * Values of the scene's field below which these parts of the volume lie, over the scene's range steps. Throws Error where
+ * nothing of it could be sampled, or both are one value.
+ */
+std::array<double, 2> percentile_range(const Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
+                                       const std::array<double, 2>& parts);
+
+} // namespace elvis::commands

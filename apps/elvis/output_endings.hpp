@@ -1,0 +1,22 @@
+/**
+ * @file output_endings.hpp
+ * Files are written in the format that their name promises, or not at all.
+ */
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+namespace elvis::commands {
+
+/** Throws UsageError, which names `option` and what is supported, unless the name has one of the endings, in any case. */
+void need_ending(const char* option, const std::string& name, std::initializer_list<const char*> endings);
+
+/** Of pictures. */
+void need_picture_ending(const char* option, const std::string& name);
+/** Of HDF5 files. */
+void need_hdf5_ending(const char* option, const std::string& name);
+/** Of films, as ffmpeg knows them by their endings. */
+void need_film_ending(const char* option, const std::string& name);
+
+} // namespace elvis::commands
