@@ -84,10 +84,10 @@ std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const
     }
     const FieldChoice& choice = std::get<Isosurfaces>(drawn.geometry).field;
     elvis_certainty certainty{};
-    FieldRange range = renderer.field_range(choice, m_time_steps.front(), &certainty);
+    FieldRange range = renderer.field_values(choice, m_time_steps.front(), &certainty);
     bool is_certified = certainty == ELVIS_CERTIFIED;
     for (const std::uint32_t step : m_time_steps) {
-        const FieldRange at_step = renderer.field_range(choice, step, &certainty);
+        const FieldRange at_step = renderer.field_values(choice, step, &certainty);
         range = {std::min(range.lower, at_step.lower), std::max(range.upper, at_step.upper)};
         is_certified = is_certified && certainty == ELVIS_CERTIFIED;
     }

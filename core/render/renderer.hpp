@@ -46,7 +46,7 @@ public:
      * The values that a field (component or magnitude) takes over the volume at a time step: its extrema, to a thousandth of
      * their distance where the plugin has bounds, else of samples. An empty range if none is finite.
      */
-    FieldRange field_values(const FieldChoice& field, std::uint32_t time_step);
+    FieldRange field_values(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
     /** What encloses them, wider, and whether it is certified. */
     FieldRange field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
     /**

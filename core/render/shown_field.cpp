@@ -147,15 +147,17 @@ std::vector<FieldRange> ShownFields::sampled(std::uint32_t field, std::uint32_t 
     return ranges_from_samples(m_device, m_volume, m_data, n_components);
 }
 
-FieldRange ShownFields::values(const FieldChoice& field, std::uint32_t time_step) {
+FieldRange ShownFields::values(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {
     if (field.expression) {
-        return range(field, time_step);
+        return range(field, time_step, certainty);
     }
     const std::tuple key(field.field, field.component, time_step);
     auto found = m_values.find(key);
     if (found == m_values.end()) {
         FieldRange all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+        elvis_certainty how_sure = ELVIS_ESTIMATED;
         if (const auto extrema = find_extrema(m_volume, field.field, field.component, time_step)) {
+            how_sure = extrema->certainty;
             if (extrema->minimum.value <= extrema->maximum.value) {
                 all = {extrema->minimum.value, extrema->maximum.value};
             }
@@ -163,9 +165,12 @@ FieldRange ShownFields::values(const FieldChoice& field, std::uint32_t time_step
             const std::vector<FieldRange> components = sampled(field.field, time_step);
             all = field.component < 0 ? magnitude_range(components) : components[static_cast<std::size_t>(field.component)];
         }
-        found = m_values.try_emplace(key, all).first;
+        found = m_values.try_emplace(key, all, how_sure).first;
     }
-    return found->second;
+    if (certainty) {
+        *certainty = found->second.second;
+    }
+    return found->second.first;
 }
 
 FieldRange ShownFields::range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {

@@ -42,7 +42,7 @@ public:
      * The values that the field takes over the volume, from the smallest to the largest (find_extrema in field_extrema.hpp):
      * what colours go by. Samples on the device where nothing better is to be had, which then has another selection.
      */
-    FieldRange values(const FieldChoice& field, std::uint32_t time_step);
+    FieldRange values(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
 
     /**
      * Encloses those: certified where the plugin says so, and several times wider. Expressions are sampled on the device, which
@@ -67,7 +67,7 @@ private:
     DeviceVolume& m_data;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Ranges> m_of_components;
     /** By field, component and time step. */
-    std::map<std::tuple<std::uint32_t, int, std::uint32_t>, FieldRange> m_values;
+    std::map<std::tuple<std::uint32_t, int, std::uint32_t>, std::pair<FieldRange, elvis_certainty>> m_values;
     std::map<std::pair<std::string, std::uint32_t>, FieldRange> m_of_expressions;
     std::map<std::pair<std::string, std::uint32_t>, double> m_errors;
 };

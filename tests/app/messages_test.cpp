@@ -2,6 +2,8 @@
 
 #include "workplace.hpp"
 
+#include <nlohmann/json.hpp>
+
 using namespace elvis::test;
 
 TEST_CASE("Colours of a field that is constant but for rounding span more than that, and a warning says so") {
