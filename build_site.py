@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Builds all pages of the repository into a site with search: site.py [FOLDER], by default build/site. Needs mkdocs.
+"""Builds all pages of the repository into a site with search: build_site.py [FOLDER], by default build/site. Needs mkdocs.
 
 The pages lie beside what they describe. They are gathered into FOLDER/pages, in the same tree, with all files that they link to or
 show; the site is FOLDER/html. Fails if a link, or its anchor, leads nowhere.
