@@ -68,7 +68,7 @@ void render_picture(const RenderArguments& arguments, const Scene& scene, const 
     }
     write_png(frame, arguments.output, arguments.bits);
     if (!arguments.buffers.empty()) {
-        write_buffers(frame, arguments.buffers, is_double);
+        write_buffers(frame, request, volume, arguments.buffers, is_double);
     }
     if (!arguments.stats.empty()) {
         const auto stats =

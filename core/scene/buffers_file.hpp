@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/frame.hpp>
 
 #include <string>
@@ -12,8 +13,11 @@ namespace elvis {
 
 /**
  * Datasets, top row first: color (height, width, 4), value, depth, normal (height, width, 3), in single or double precision;
- * element (int64), flags (uint32). Appears whole or not at all. Throws Error naming the file.
+ * element (int64), flags (uint32). Attributes say what each is, its unit, the bits of flags, camera and time step
+ * (core/scene/buffers.md). `frame` is what `request` for `volume` gave. Appears whole or not at all. Throws Error naming the
+ * file.
  */
-void write_buffers(const Frame& frame, const std::string& path, bool double_precision);
+void write_buffers(const Frame& frame, const FrameRequest& request, const RuntimeVolume& volume, const std::string& path,
+                   bool double_precision);
 
 } // namespace elvis
