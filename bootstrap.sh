@@ -11,7 +11,7 @@ packages=(
     libfreetype-dev fonts-dejavu-core libglfw3-dev libimgui-dev libstb-dev
     libpugixml-dev zlib1g-dev liblz4-dev
 )
-test_packages=(catch2 mkdocs vulkan-validationlayers python3-h5py gmsh xvfb xdotool imagemagick abigail-tools)
+test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py gmsh xvfb xdotool imagemagick abigail-tools)
 
 usage() {
     cat <<'END'
@@ -66,7 +66,7 @@ demo)
 test)
     install_missing "${packages[@]}" "${test_packages[@]}"
     build -DELVIS_BUILD_TESTS=ON
-    ctest --preset release
+    ctest --preset release --parallel "$(nproc)"
     ;;
 build)
     install_missing "${packages[@]}" "${test_packages[@]}"

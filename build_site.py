@@ -19,10 +19,15 @@ LINK = re.compile(r"(!?\[[^\[\]]*(?:\[[^\[\]]*\][^\[\]]*)*\])\(([^)\s]+)\)")
 LEFT_OUT = "plugin_api/templates/"
 
 
-def tracked_pages():
-    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=ROOT, check=True,
-                            capture_output=True, text=True).stdout.splitlines()
-    return [ROOT / page for page in listed if not page.startswith(LEFT_OUT) and (ROOT / page).exists()]
+def all_pages():
+    """What git tracks or would; in an unpacked archive, what there is outside of hidden and build folders."""
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], cwd=ROOT,
+                            capture_output=True, text=True)
+    pages = listed.stdout.splitlines()
+    if listed.returncode != 0:
+        pages = [path.relative_to(ROOT).as_posix() for path in ROOT.rglob("*.md")
+                 if not any(part == "build" or part.startswith(".") for part in path.relative_to(ROOT).parts)]
+    return [ROOT / page for page in sorted(pages) if not page.startswith(LEFT_OUT) and (ROOT / page).exists()]
 
 
 def gather(page, pages):
@@ -89,7 +94,7 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/site").resolve()
     pages, site = folder / "pages", folder / "html"
     shutil.rmtree(pages, ignore_errors=True)
-    for page in tracked_pages():
+    for page in all_pages():
         gather(page, pages)
     (folder / "mkdocs.yml").write_text(f"INHERIT: {ROOT / 'mkdocs.yml'}\ndocs_dir: pages\nsite_dir: html\n")
     subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "--config-file", folder / "mkdocs.yml"], check=True)

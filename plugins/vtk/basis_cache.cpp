@@ -38,7 +38,7 @@ std::shared_ptr<const BasisTable> make_table(const Basis& basis, std::span<const
 
 } // namespace
 
-BasisCache::BasisCache(std::vector<CellKind> kinds) {
+BasisCache::BasisCache(const std::vector<CellKind>& kinds) {
     for (const CellKind& kind : kinds) {
         m_bases.emplace_back(kind);
     }

@@ -27,7 +27,7 @@ struct BasisTable {
 /** Any thread may ask. */
 class BasisCache {
 public:
-    explicit BasisCache(std::vector<CellKind> kinds);
+    explicit BasisCache(const std::vector<CellKind>& kinds);
 
     const Basis& basis(std::uint32_t kind) const { return m_bases[kind]; }
     std::shared_ptr<const BasisTable> table(std::uint32_t kind, std::span<const double> xi) const;

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <tests/support/files.hpp>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -54,7 +56,15 @@ private:
     fs::path m_folder;
 };
 
-const std::string data = ELVIS_TEST_DATA;
+/** Options that name these files of tests/data. */
+std::string volumes(const std::vector<std::string>& names) {
+    std::string options;
+    for (const std::string& name : names) {
+        options += " --volume '" + elvis::test::data_file(name) + "'";
+    }
+    return options;
+}
+
 const std::string ball =
     R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,)"
     R"( "fields": ["sphere", "taylor-green"]})";
@@ -81,12 +91,10 @@ TEST_CASE("The conversion plugins pass every check") {
     const Workplace place;
     place.write("ball.json", ball);
     place.check("elvis_generator", "--volume ball.json");
-    place.check("elvis_dat", "--volume '" + data + "/elvis/bulletH1P2.dat'");
-    place.check("elvis_nektarpp",
-                "--volume '" + data + "/nektarpp/CubeAllElements.xml' --volume '" + data + "/nektarpp/CubeAllElements.fld'");
-    place.check("elvis_mfem", "--volume '" + data + "/mfem/poisson-inline-tet-p6/mesh.mesh' --volume '" + data +
-                                  "/mfem/poisson-inline-tet-p6/sol.gf'");
-    place.check("elvis_vtk", "--volume '" ELVIS_SOURCES "/tests/data/vtk/cells3.vtu'");
+    place.check("elvis_dat", volumes({"elvis/bulletH1P2.dat"}));
+    place.check("elvis_nektarpp", volumes({"nektarpp/CubeAllElements.xml", "nektarpp/CubeAllElements.fld"}));
+    place.check("elvis_mfem", volumes({"mfem/poisson-inline-tet-p6/mesh.mesh", "mfem/poisson-inline-tet-p6/sol.gf"}));
+    place.check("elvis_vtk", volumes({"vtk/cells3.vtu"}));
 }
 
 TEST_CASE("Checks of an interface that a plugin lacks do not count, unless they are asked for") {

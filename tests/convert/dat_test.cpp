@@ -35,7 +35,7 @@ double sample(const SourceVolume& source, const native::Point& xi) {
 } // namespace
 
 TEST_CASE("the rotating canister converts exactly and is not smoothed", "[convert][data]") {
-    const ConvertedVolume volume(open_dat(test_data("elvis/bulletH1P2.dat")));
+    const ConvertedVolume volume(open_dat(elvis::test::data_file("elvis/bulletH1P2.dat")));
     const ConvertReport& report = volume.report();
     const FieldReport& field = report.fields.at(0);
     std::printf("canister: residual %.1e, geometry %.1e, largest jump %.2e\n", field.residual, report.geometry_residual,
@@ -69,7 +69,7 @@ TEST_CASE("the rotating canister converts exactly and is not smoothed", "[conver
 }
 
 TEST_CASE("the sinc box converts exactly", "[convert][data]") {
-    const ConvertedVolume volume(open_dat(test_data("elvis/raySincBox_F4_P4.dat")));
+    const ConvertedVolume volume(open_dat(elvis::test::data_file("elvis/raySincBox_F4_P4.dat")));
     const FieldReport& field = volume.report().fields.at(0);
     std::printf("sinc box: residual %.1e, largest jump %.2e\n", field.residual, field.max_jump);
     CHECK(volume.report().elements.at("hexahedron") == 125);

@@ -18,14 +18,6 @@ elvis::SourceVolume open_dat(const std::string& path) {
     return elvis::SourceVolume(plugin, {path});
 }
 
-std::string test_data(const std::string& name) {
-    const std::string path = std::string(ELVIS_TEST_DATA) + "/" + name;
-    INFO("set -DELVIS_TEST_DATA to the folder of real data sets");
-    INFO(path);
-    REQUIRE(std::filesystem::exists(path));
-    return path;
-}
-
 ConvertedVolume::ConvertedVolume(const elvis::SourceVolume& source, const elvis::ConvertOptions& options) {
     namespace native = elvis::native;
     const TemporaryFolder folder;

@@ -22,9 +22,6 @@ elvis::SourceVolume generate(const std::string& description);
 /** A file of the original ElVis. */
 elvis::SourceVolume open_dat(const std::string& path);
 
-/** A file below the folder of real data sets; a failure if it is missing. */
-std::string test_data(const std::string& name);
-
 /** A converted volume, wholly in memory; elements by their number. */
 class ConvertedVolume {
 public:

@@ -12,13 +12,7 @@ elvis::SourceVolume open_mfem(const std::vector<std::string>& paths) {
     return elvis::SourceVolume(plugin, paths);
 }
 
-std::string mfem_data(const std::string& name) {
-    const std::string path = std::string(ELVIS_TEST_DATA) + "/mfem/" + name;
-    INFO("set -DELVIS_TEST_DATA to the folder of real data sets");
-    INFO(path);
-    REQUIRE(std::filesystem::exists(path));
-    return path;
-}
+std::string mfem_data(const std::string& name) { return elvis::test::data_file("mfem/" + name); }
 
 std::array<double, 3> from_mfem(int geometry, const std::array<double, 3>& x) {
     if (geometry == 6) {

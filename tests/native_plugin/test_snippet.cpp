@@ -204,7 +204,8 @@ native::Field field_of(std::uint32_t n_components, native::Transform transform) 
 } // namespace
 
 TEST_CASE("snippets agree with the CPU in float64, orders 0 to 14") {
-    for (const std::uint32_t order : {0u, 1u, 2u, 3u, 5u, 8u, 14u}) {
+    // Odd and even, the largest, and geometry of every order from 1 to 4. Each order has kernels of its own.
+    for (const std::uint32_t order : {0u, 1u, 3u, 8u, 14u}) {
         const std::vector<native::Space> spaces = snippet_spaces(order);
         const std::vector<native::Space> geometry = snippet_spaces(1 + order % 4);
         std::vector<ClassPlan> classes;

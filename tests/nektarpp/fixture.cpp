@@ -22,13 +22,7 @@ std::string failure(const std::vector<std::string>& paths) {
     return "no failure";
 }
 
-std::string sample_file(const std::string& name) {
-    const std::string path = std::string(ELVIS_TEST_DATA) + "/nektarpp/" + name;
-    INFO("set -DELVIS_TEST_DATA to the folder of real data sets");
-    INFO(path);
-    REQUIRE(std::filesystem::exists(path));
-    return path;
-}
+std::string sample_file(const std::string& name) { return elvis::test::data_file("nektarpp/" + name); }
 
 Converted::Converted(const elvis::SourceVolume& source, std::size_t field, std::size_t time_step) {
     const TemporaryFolder folder;

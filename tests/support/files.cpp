@@ -34,6 +34,13 @@ std::vector<std::string> TemporaryFolder::content() const {
     return names;
 }
 
+std::string data_file(const std::string& name) {
+    const std::string path = ELVIS_TEST_DATA "/" + name;
+    INFO(path);
+    REQUIRE(std::filesystem::exists(path));
+    return path;
+}
+
 std::string read_file(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     INFO(path.string());

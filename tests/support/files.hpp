@@ -29,6 +29,9 @@ private:
     std::filesystem::path m_path;
 };
 
+/** The path of a file of tests/data; fails the test if there is none. */
+std::string data_file(const std::string& name);
+
 /** All of a file; fails the test if there is none. */
 std::string read_file(const std::filesystem::path& path);
 

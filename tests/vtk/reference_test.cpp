@@ -61,7 +61,7 @@ TEST_CASE("rational cells are those of VTK and their conversion is not called ex
 }
 
 TEST_CASE("what MFEM writes for ParaView has MFEM's own values", "[vtk][data]") {
-    const SourceVolume source = open_vtk({test_data("vtk/poisson-fichera-q3-p5/poisson-fichera-q3-p5.pvd")});
+    const SourceVolume source = open_vtk({elvis::test::data_file("vtk/poisson-fichera-q3-p5/poisson-fichera-q3-p5.pvd")});
     const ConvertedVolume volume(source);
     CHECK(volume.n_elements() == 448);
     CHECK(volume.report().fields.at(0).name == "u");
@@ -70,7 +70,7 @@ TEST_CASE("what MFEM writes for ParaView has MFEM's own values", "[vtk][data]") 
     CHECK(volume.report().n_unknown_faces == 0);
     CHECK(volume.report().fields.at(0).continuity == ELVIS_CONTINUITY_CONTINUOUS);
 
-    std::ifstream file(test_data("mfem/poisson-fichera-q3-p5/sol.ref"));
+    std::ifstream file(elvis::test::data_file("mfem/poisson-fichera-q3-p5/sol.ref"));
     double position = 0, in_source = 0, in_volume = 0, slope = 0;
     std::size_t n_points = 0;
     for (std::string line; std::getline(file, line);) {

@@ -146,7 +146,8 @@ TEST_CASE("what cannot be exported is refused and leaves nothing", "[vtk][export
 TEST_CASE("MFEM's volume comes back from an export", "[vtk][export][data]") {
     const TemporaryFolder folder;
     static const auto plugin = Plugin::load(NATIVE_PLUGIN);
-    convert(open_vtk({test_data("vtk/poisson-fichera-q3-p5/poisson-fichera-q3-p5.pvd")}), folder.path("volume.h5"), {}, {});
+    convert(open_vtk({elvis::test::data_file("vtk/poisson-fichera-q3-p5/poisson-fichera-q3-p5.pvd")}), folder.path("volume.h5"),
+            {}, {});
     const RuntimeVolume volume(plugin, folder.path("volume.h5"));
     export_vtu(volume, folder.path("volume.vtu"), {}, {});
     const ConvertedVolume back(open_vtk({folder.path("volume.vtu")}));

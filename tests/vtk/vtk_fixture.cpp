@@ -39,7 +39,7 @@ elvis::SourceVolume open_vtk(const std::vector<std::string>& paths) {
     return elvis::SourceVolume(plugin, paths);
 }
 
-std::string sample_file(const std::string& name) { return std::string(ELVIS_TEST_FILES) + "/vtk/" + name; }
+std::string sample_file(const std::string& name) { return elvis::test::data_file("vtk/" + name); }
 
 std::string content_of(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
