@@ -159,9 +159,12 @@ TEST_CASE("The outline of a volume is that of its curved elements, not of their 
         }
         return farthest;
     };
+    double size = 0;
+    for (const Vector3& point : points) {
+        size = std::max(size, length(minus(point, points.front())));
+    }
     for (const Vector3& direction : ball_extent.outline) {
         const Vector3 outwards = minus(direction, {1, -2, 0});
-        const double size = reach(points, outwards) + reach(points, scaled(outwards, -1));
         // As promised, and never more than there is.
         CHECK(reach(outline, outwards) >= reach(points, outwards) - 0.03 * size);
         CHECK(reach(outline, outwards) <= reach(points, outwards) + 0.03 * size);
