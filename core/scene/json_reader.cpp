@@ -68,7 +68,8 @@ const json& JsonObject::schema_of(const char* key) const {
     if (const auto alternatives = schema.find("anyOf"); alternatives != schema.end()) {
         for (const json& alternative : *alternatives) {
             const json& one = follow(alternative);
-            if (m_value->at(key).is_string() ? one.contains("enum") : one.contains("properties")) {
+            const json& value = m_value->at(key);
+            if (one.contains(value.is_string() ? "enum" : value.is_array() ? "items" : "properties")) {
                 return one;
             }
         }

@@ -52,7 +52,7 @@ PictureRoom room_for_volume(const Scene& scene) {
         constexpr double most = 0.4;
         (style.bars_at_left ? room.left : room.right) = std::min(bars, most * room.width);
     }
-    if (scene.annotation->title != std::optional<std::string>("")) {
+    if (!scene.annotation->title || !scene.annotation->title->empty()) {
         constexpr double most = 0.2;
         room.top = std::min((style.title_scale + 1) * em, most * room.height);
     }

@@ -108,7 +108,7 @@ SceneContours read_contours(const JsonObject& object) {
         }
     }
     contours.style.width = object.has("width") ? object.number("width") : width_by_size;
-    contours.has_map_color = object.has("color") && object.raw("color") == "map";
+    contours.has_map_color = object.has("color") && object.raw("color").is_string() && object.word("color") == "map";
     if (object.has("color") && !contours.has_map_color) {
         contours.style.color = fixed<3>(object.numbers("color"));
     }
