@@ -40,17 +40,14 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 
 std::string option_text(const OptionFacts& option) {
     std::string text = ".TP\n\\fB" + plain(joined(option.names, ", ")) + "\\fR";
-    if (!option.choices.empty()) {
-        text += " " + plain(joined(option.choices, "|"));
-    } else if (option.has_value && !option.is_positional()) {
-        text += " \\fIvalue\\fR";
-    }
-    return text + "\n" + plain(option.about) + "\n";
+    text += option.has_value && !option.is_positional() ? " \\fIvalue\\fR" : "";
+    const std::string choices = option.choices.empty() ? "" : " (" + joined(option.choices, ", ") + ")";
+    return text + "\n" + plain(option.about + choices) + "\n";
 }
 
 std::string head(const std::string& name, const std::string& about) {
-    return ".TH " + upper(plain(name)) + " 1 \"\" \"ElVis " ELVIS_VERSION "\" \"ElVis\"\n.SH NAME\n" + plain(name) + " \\- " +
-           plain(about) + "\n";
+    return ".TH " + upper(plain(name)) + " 1 \"\" \"ElVis " ELVIS_VERSION "\" \"ElVis\"\n.ad l\n.SH NAME\n" + plain(name) +
+           " \\- " + plain(about) + "\n";
 }
 
 std::string list_of_options(const CommandFacts& command) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
+#include <utility>
 
 namespace elvis::commands {
 
@@ -35,20 +35,6 @@ std::string unique_name(const Scene& scene, const SceneSurface& surface) {
     return n_namesakes > 1 ? name + " (surfaces[" + std::to_string(&surface - scene.surfaces.data()) + "])" : name;
 }
 
-/** Values that are missed; all if none of them is told by itself. */
-std::vector<double> missed_values(const Isosurfaces& isosurfaces, const SurfaceHits& hits) {
-    if (!hits.is_met || hits.values.size() != isosurfaces.values.size()) {
-        return hits.is_met ? std::vector<double>{} : isosurfaces.values;
-    }
-    std::vector<double> missed;
-    for (std::size_t i = 0; i < hits.values.size(); ++i) {
-        if (!hits.values[i]) {
-            missed.push_back(isosurfaces.values[i]);
-        }
-    }
-    return missed;
-}
-
 } // namespace
 
 void MissedSurfaces::add(const FrameRequest& request, const Frame& frame) {
@@ -57,60 +43,69 @@ void MissedSurfaces::add(const FrameRequest& request, const Frame& frame) {
     const bool is_open = counts.newton_failures > 0 || counts.work_limit_pixels > 0;
     const bool is_missed = request.volume && counts.volume_pixels == 0 && counts.inexact_volume_pixels == 0 && !is_open;
     m_volume_is_missed = is_missed && (is_first || m_volume_is_missed);
-    m_hits.resize(frame.hits.size());
-    for (std::size_t i = 0; i < m_hits.size(); ++i) {
+    m_is_met.resize(frame.is_met.size());
+    for (std::size_t i = 0; i < m_is_met.size(); ++i) {
         const bool is_isosurface = std::holds_alternative<Isosurfaces>(request.surfaces[i].geometry);
-        if (is_open || (is_isosurface && counts.undecided_isosurface_pixels > 0)) {
-            m_hits[i].is_met = true;
-            m_hits[i].values.assign(frame.hits[i].values.size(), true);
-            continue;
-        }
-        m_hits[i].is_met = m_hits[i].is_met || frame.hits[i].is_met;
-        const std::vector<bool>& now = frame.hits[i].values;
-        std::vector<bool>& met = m_hits[i].values;
-        met.resize(now.size());
-        std::transform(met.begin(), met.end(), now.begin(), met.begin(), std::logical_or<>());
+        const bool may_be_met = is_open || (is_isosurface && counts.undecided_isosurface_pixels > 0);
+        m_is_met[i] = m_is_met[i] || frame.is_met[i] || may_be_met;
     }
     if (std::ranges::find(m_time_steps, request.time_step) == m_time_steps.end()) {
         m_time_steps.push_back(request.time_step);
     }
 }
 
-std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn,
-                                              const std::vector<double>& values, Renderer& renderer) const {
-    std::string list;
-    for (const double value : values) {
-        list += (list.empty() ? "" : ", ") + text_of(value);
-    }
-    const FieldChoice& choice = std::get<Isosurfaces>(drawn.geometry).field;
+FieldRange MissedSurfaces::over_steps(Range range_of, const FieldChoice& field, Renderer& renderer, bool& is_certified) const {
     elvis_certainty certainty{};
-    FieldRange range = renderer.field_values(choice, m_time_steps.front(), &certainty);
-    bool is_certified = certainty == ELVIS_CERTIFIED;
+    FieldRange range = (renderer.*range_of)(field, m_time_steps.front(), &certainty);
+    is_certified = certainty == ELVIS_CERTIFIED;
     for (const std::uint32_t step : m_time_steps) {
-        const FieldRange at_step = renderer.field_values(choice, step, &certainty);
+        const FieldRange at_step = (renderer.*range_of)(field, step, &certainty);
         range = {std::min(range.lower, at_step.lower), std::max(range.upper, at_step.upper)};
         is_certified = is_certified && certainty == ELVIS_CERTIFIED;
     }
-    const bool is_several = values.size() > 1;
-    return std::string("the ") + surface_name(surface) + (is_several ? "s at " : " at ") + list +
-           (field.empty() ? "" : " of '" + field + "'") + (is_several ? " hit" : " hits") +
-           " no pixel: the field's values lie " + (is_certified ? "in [" : "about in [") + text_of(range.lower) + ", " +
-           text_of(range.upper) + "]";
+    return range;
+}
+
+/** Of several values one may hide another: where any is met, only those that the field surely does not take are missed. */
+std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn,
+                                              bool is_met, Renderer& renderer) const {
+    const auto& isosurfaces = std::get<Isosurfaces>(drawn.geometry);
+    if (is_met && (isosurfaces.values.size() == 1 || isosurfaces.field.expression)) {
+        return {};
+    }
+    bool is_certified = false;
+    const FieldRange enclosure = over_steps(&Renderer::field_range, isosurfaces.field, renderer, is_certified);
+    std::string list;
+    std::size_t n_missed = 0;
+    for (const double value : isosurfaces.values) {
+        if (!is_met || (is_certified && (value < enclosure.lower || value > enclosure.upper))) {
+            list += (n_missed > 0 ? ", " : "") + text_of(value);
+            ++n_missed;
+        }
+    }
+    const FieldRange range = over_steps(&Renderer::field_values, isosurfaces.field, renderer, is_certified);
+    const char* const hits = n_missed > 1 ? " hit no pixel" : " hits no pixel";
+    return n_missed == 0
+               ? std::string()
+               : "the " + surface_name(surface) + (n_missed > 1 ? "s at " : " at ") + list +
+                     (field.empty() ? "" : " of '" + field + "'") + hits + ": the field's values lie " +
+                     (is_certified ? "in [" : "about in [") + text_of(range.lower) + ", " + text_of(range.upper) + "]";
 }
 
 std::vector<std::string> MissedSurfaces::remarks(const Scene& scene, const FrameRequest& request, Renderer& renderer) const {
     std::vector<std::string> remarks;
     const std::vector<const SceneSurface*> shown = shown_surfaces(scene);
-    for (std::size_t i = 0; i < m_hits.size(); ++i) {
+    for (std::size_t i = 0; i < m_is_met.size(); ++i) {
         // What the scene does not have is shown by default.
         const SceneSurface fallback{request.surfaces[i].geometry};
         const SceneSurface& surface = i < shown.size() ? *shown[i] : fallback;
-        if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
-            if (const std::vector<double> values = missed_values(*isosurfaces, m_hits[i]); !values.empty()) {
-                const std::string field = surface.field.value_or(scene.field.value_or(""));
-                remarks.push_back(isosurface_remark(surface, field, request.surfaces[i], values, renderer));
+        if (std::holds_alternative<Isosurfaces>(surface.geometry)) {
+            const std::string field = surface.field.value_or(scene.field.value_or(""));
+            std::string remark = isosurface_remark(surface, field, request.surfaces[i], m_is_met[i], renderer);
+            if (!remark.empty()) {
+                remarks.push_back(std::move(remark));
             }
-        } else if (!m_hits[i].is_met) {
+        } else if (!m_is_met[i]) {
             const std::string name = i < shown.size() ? unique_name(scene, surface) : surface_name(surface);
             remarks.push_back("the " + name + " hits no pixel" + (surface.clip.empty() ? "" : ", or all that does is clipped"));
         }

@@ -24,11 +24,14 @@ public:
     std::vector<std::string> remarks(const Scene& scene, const FrameRequest& request, Renderer& renderer) const;
 
 private:
-    std::string isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn,
-                                  const std::vector<double>& values, Renderer& renderer) const;
+    /** Of the isosurfaces' field, over all time steps; and whether it surely holds its values. */
+    using Range = FieldRange (Renderer::*)(const FieldChoice&, std::uint32_t, elvis_certainty*);
+    FieldRange over_steps(Range range_of, const FieldChoice& field, Renderer& renderer, bool& is_certified) const;
+    std::string isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn, bool is_met,
+                                  Renderer& renderer) const;
 
     /** By surface as the requests have them. */
-    std::vector<SurfaceHits> m_hits;
+    std::vector<bool> m_is_met;
     std::vector<std::uint32_t> m_time_steps;
     bool m_volume_is_missed = false;
 };

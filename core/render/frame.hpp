@@ -153,13 +153,6 @@ struct SpecialValues {
     bool is_shown = false;
 };
 
-/** Whether the rays of the pixels meet one surface, where it is not clipped. What other surfaces hide is met, too. */
-struct SurfaceHits {
-    bool is_met = false;
-    /** Of isosurfaces with several values: each of these. */
-    std::vector<bool> values;
-};
-
 /** One picture, top row first; every vector has width * height entries (times components), if asked for. */
 struct Frame {
     std::uint32_t width = 0;
@@ -173,8 +166,9 @@ struct Frame {
     FrameCounts counts;
     /** Of each surface that was asked for, and of such as the renderer adds. */
     std::vector<SpecialValues> special_values;
-    /** Of each surface that was asked for. */
-    std::vector<SurfaceHits> hits;
+    /** Of each surface that was asked for: whether a pixel's ray meets it where it is not clipped. What others hide is met,
+     * too. */
+    std::vector<bool> is_met;
     /** Wall time of this frame, without upload, hierarchy and compilation. */
     double render_milliseconds = 0;
     /** What render_milliseconds would be on a machine with nothing else to do (DeviceTimer). */

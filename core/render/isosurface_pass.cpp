@@ -1,7 +1,6 @@
 #include <core/base/bounds.hpp>
 #include <core/render/in_parts.hpp>
 #include <core/render/isosurface_pass.hpp>
-#include <core/render/pixel_kernel.hpp>
 #include <core/render/provide_buffer.hpp>
 #include <core/render/real_array.hpp>
 
@@ -37,11 +36,6 @@ struct Parameters {
     std::uint32_t n_isovalues;
     std::uint32_t has_beyond;
     float extent;
-};
-
-struct HitsParameters {
-    std::uint32_t n_pixels, groups_x;
-    std::uint32_t n_isovalues;
 };
 
 std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
@@ -210,25 +204,6 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
         counts.undecided_pieces += found[undecided];
         counts.isosurface_crossings += found[crossings];
     }
-}
-
-std::vector<bool> IsosurfacePass::values_met(const Layer& layer) {
-    if (m_values.size() < 2) {
-        return {};
-    }
-    if (!m_hits_kernel) {
-        constexpr BindingType storage = BindingType::storage_buffer;
-        m_hits_kernel = std::make_unique<ComposedKernel>(
-            m_device, pixel_kernel("isovalue_hits", m_precision, {storage, storage, storage, storage}, sizeof(HitsParameters)));
-    }
-    const Buffer hits(m_device, m_values.size() * sizeof(std::uint32_t));
-    hits.fill(0);
-    const HitsParameters parameters{static_cast<std::uint32_t>(layer.n_pixels()), pixel_groups_x,
-                                    static_cast<std::uint32_t>(m_values.size())};
-    dispatch_rows(*m_hits_kernel, {&layer.samples, &layer.marks, &*m_isovalues, &hits},
-                  std::as_bytes(std::span(&parameters, 1)), layer);
-    const std::vector<std::uint32_t> found = hits.read_items<std::uint32_t>(m_values.size());
-    return {found.begin(), found.end()};
 }
 
 } // namespace elvis

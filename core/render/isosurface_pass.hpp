@@ -35,9 +35,6 @@ public:
      */
     void draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
 
-    /** Which of the isovalues the samples of what was drawn last have, if these are several; empty else. */
-    std::vector<bool> values_met(const Layer& layer);
-
     /** An upper bound of the normal curvatures of what was drawn last, a number a pixel. */
     const Buffer& bending() const { return *m_bending; }
     /** The rays of what was drawn last, as kernels read them (cut_frame.glsl). */
@@ -77,8 +74,6 @@ private:
     Buffer m_frame;
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;
-    /** For several isovalues; compiled when first needed. */
-    std::unique_ptr<ComposedKernel> m_hits_kernel;
     /** Kept from frame to frame. */
     std::optional<Buffer> m_tiles, m_bending;
 };

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -45,11 +44,6 @@ bool is_whole_boundary(const Surface& surface) {
 }
 
 bool is_lit(const FrameRequest& request, const Surface& surface) { return request.lighting.has_value() && surface.is_lit; }
-
-void add_to(std::vector<bool>& met, const std::vector<bool>& now) {
-    met.resize(now.size());
-    std::transform(met.begin(), met.end(), now.begin(), met.begin(), std::logical_or<>());
-}
 
 /** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
 constexpr std::uint32_t max_rounds = 64;
@@ -87,10 +81,9 @@ struct Renderer::Impl {
     void provide_volume(const FrameRequest& request);
     void draw_surface(const FrameRequest& request, std::size_t index, bool is_alone, Frame& frame,
                       std::vector<SurfaceFacts>& facts);
-    void draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target, FrameCounts& counts,
-                       SurfaceHits& hits);
+    void draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target, FrameCounts& counts);
     void draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
-                          const LayerTarget& target, FrameCounts& counts, SurfaceHits& hits);
+                          const LayerTarget& target, FrameCounts& counts);
     void draw_volume(const FrameRequest& request, FrameCounts& counts);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
     CutPlaneGeometry view(const FrameRequest& request, const SurfaceGeometry& geometry) const;
@@ -228,15 +221,12 @@ PixelRows Renderer::Impl::rows_of(const FrameRequest& request) const {
 }
 
 void Renderer::Impl::draw_isosurfaces(const FrameRequest& request, const Surface& surface, const Isosurfaces& wanted,
-                                      const LayerTarget& target, FrameCounts& counts, SurfaceHits& hits) {
+                                      const LayerTarget& target, FrameCounts& counts) {
     constexpr std::uint32_t first = 1;
     const CutPlaneGeometry rays = view(request, surface.geometry);
     IsosurfacePass& pass = passes.isosurfaces(wanted.field);
     pass.draw(rays, first, target, counts);
     target.after_samples();
-    if (hits.values.empty() || std::ranges::find(hits.values, false) != hits.values.end()) {
-        add_to(hits.values, pass.values_met(target.layer));
-    }
     const ShownComponent component = fields.component(surface.field);
     if (surface.field != wanted.field) {
         passes.point_values().draw(component, target, counts);
@@ -264,7 +254,7 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, FrameCounts& count
 }
 
 void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& surface, const LayerTarget& target,
-                                   FrameCounts& counts, SurfaceHits& hits) {
+                                   FrameCounts& counts) {
     const CutPlaneGeometry rays = view(request, surface.geometry);
     const ShownComponent component = fields.component(surface.field);
     // A layer holds one surface; each class of faces counts as one, so that the nearest wins.
@@ -281,7 +271,7 @@ void Renderer::Impl::draw_geometry(const FrameRequest& request, const Surface& s
             passes.lines(surface).draw(rays, component, lines, &pass.bending(), &solver.rows(), target, counts);
         }
     } else if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
-        draw_isosurfaces(request, surface, *isosurfaces, target, counts, hits);
+        draw_isosurfaces(request, surface, *isosurfaces, target, counts);
     } else if (const auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
         passes.edge_pass().draw(passes.edges(wires->faces), request.camera, wires->width, -offset_of(surface), first, target);
     } else {
@@ -314,7 +304,6 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     const bool is_occluded = opaque != nullptr && request.sharing.depths && !surface.has_lines();
     const Buffer* beyond = nullptr;
     MergePass::Wanted wanted{1, 0, layer->height};
-    SurfaceHits& hits = frame.hits[index];
     std::uint64_t n_hidden = 0;
     for (std::uint32_t round = 0; wanted.n_pixels > 0 && round < max_rounds; ++round) {
         layer->marks.fill(0);
@@ -330,7 +319,7 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
         draw_geometry(
             request, surface,
             {*layer, beyond, wants_normals, wants_places ? &*places : nullptr, wanted.first_row, wanted.end_row, after_samples},
-            frame.counts, hits);
+            frame.counts);
         if (opaque != nullptr) {
             n_hidden += occlusion_pass.hide(*layer, *opaque);
         }
@@ -352,10 +341,7 @@ void Renderer::Impl::draw_surface(const FrameRequest& request, std::size_t index
     }
     frame.counts.work_limit_pixels += wanted.n_pixels;
     // Where nothing was looked for behind others, it may have been there.
-    hits.is_met = n_hidden > 0;
-    if (is_occluded && n_hidden > 0) {
-        hits.values.assign(hits.values.size(), true);
-    }
+    frame.is_met[index] = n_hidden > 0;
 }
 
 Renderer::Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control) {
@@ -424,7 +410,7 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     }
     impl.passes.keep(request);
     impl.color_pass.begin(request.surfaces.size());
-    frame.hits.resize(request.surfaces.size());
+    frame.is_met.resize(request.surfaces.size());
     std::vector<SurfaceFacts> facts(request.surfaces.size());
     double wall = 0, device = 0;
     for (const std::size_t index : drawing_order(request.surfaces)) {
@@ -448,16 +434,16 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
 
     impl.times.upload_milliseconds = impl.data.upload_milliseconds();
     frame.special_values = impl.color_pass.special_values();
-    for (std::size_t index = 0; index < frame.hits.size(); ++index) {
-        frame.hits[index].is_met = frame.hits[index].is_met || frame.special_values[index].is_shown;
+    for (std::size_t index = 0; index < frame.is_met.size(); ++index) {
+        frame.is_met[index] = frame.is_met[index] || frame.special_values[index].is_shown;
     }
     // A boundary with_own_boundaries added belongs to the surface that asked for it.
-    for (std::size_t index = 0, added = wanted.surfaces.size(); added < frame.hits.size(); ++index) {
+    for (std::size_t index = 0, added = wanted.surfaces.size(); added < frame.is_met.size(); ++index) {
         if (is_whole_boundary(request.surfaces[index])) {
-            frame.hits[index].is_met = frame.hits[index].is_met || frame.hits[added++].is_met;
+            frame.is_met[index] = frame.is_met[index] || frame.is_met[added++];
         }
     }
-    frame.hits.resize(wanted.surfaces.size());
+    frame.is_met.resize(wanted.surfaces.size());
     const Layer& drawn = is_alone ? *impl.layer : impl.merge_pass.picture();
     read_frame(drawn, impl.precision, facts, request.with_buffers, frame);
     return frame;
