@@ -50,7 +50,12 @@ def gather(page, pages):
 
     place = copy(page, pages)
     parts = re.split(r"(^```.*?^```$)", page.read_text(), flags=re.DOTALL | re.MULTILINE)
-    place.write_text("".join(part if part.startswith("```") else LINK.sub(settle, part) for part in parts))
+    place.write_text("".join(part if part.startswith("```") else for_mkdocs(LINK.sub(settle, part)) for part in parts))
+
+
+def for_mkdocs(text):
+    """GitHub wants | of code in tables escaped; mkdocs shows the escape."""
+    return re.sub(r"`[^`\n]+`", lambda code: code.group(0).replace(r"\|", "|"), text)
 
 
 def copy(file, pages):
