@@ -13,8 +13,8 @@ namespace elvis {
 
 /**
  * Points of the volume, one for each of some directions all around: the farthest of samples of its mapping. A picture that
- * shows all of them shows the volume, but for about three percent of its size. Of a plugin that evaluates no mappings on the CPU
- * they are corners of the elements' bounds, beyond which nothing is.
+ * shows all of them shows the volume, but for about three percent of its size. Of a plugin that evaluates no mappings on the
+ * CPU they are corners of the elements' bounds, beyond which nothing is.
  */
 std::vector<Vector3> outline_points(const RuntimeVolume& volume);
 

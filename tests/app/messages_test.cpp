@@ -2,6 +2,8 @@
 
 #include "workplace.hpp"
 
+#include <tests/support/files.hpp>
+
 #include <nlohmann/json.hpp>
 
 using namespace elvis::test;
@@ -39,7 +41,7 @@ TEST_CASE("Help of render names the colour maps, and info says what is unknown i
 
 TEST_CASE("Info tells the values that a field takes, and what encloses them") {
     const Workplace place;
-    const std::string data = ELVIS_TEST_DATA "/mfem/poisson-fichera-q3-p5";
+    const std::string data = data_file("mfem/poisson-fichera-q3-p5");
     REQUIRE(place.run("convert '" + data + "/mesh.mesh' '" + data + "/sol.gf' -o fichera.h5").status == 0);
     const auto field = nlohmann::json::parse(place.run("info fichera.h5 --json").out)["fields"][0];
     // The solution of a Poisson problem with load 1 and value 0 on the boundary; its largest value as 1e6 samples show it.

@@ -33,7 +33,8 @@ TEST_CASE("Contours of which nothing is said are at round values, each in what s
             CHECK(contours.inks[i][0] == (level > 0.5 ? 0 : 1));
         }
     }
-    CHECK(stage.request(scene(R"({"range": [0, 5]})")).surfaces[0].contours->values == std::vector<double>{0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5});
+    CHECK(stage.request(scene(R"({"range": [0, 5]})")).surfaces[0].contours->values ==
+          std::vector<double>{0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5});
 }
 
 TEST_CASE("Contours have the colours and the values that they are given") {
