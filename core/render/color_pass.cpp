@@ -15,7 +15,8 @@ struct ColorParameters {
     std::uint32_t n_points, n_isovalues, n_clips;
     std::uint32_t common_flags;
     std::uint32_t surface;
-    /** Of the two kinds of lines: 1 undecided pixels have a colour; contours: 2 they have a colour of their own. */
+    /** Of the two kinds of lines: 1 undecided pixels have a colour; contours: 2 they have colours of their own, 4 undecided
+     * pixels without a colour are not drawn. */
     std::uint32_t contour_style, mesh_style;
     float contour_reach, mesh_reach;
     std::uint32_t is_plane;
@@ -26,6 +27,7 @@ constexpr std::size_t n_special = 4;
 
 constexpr std::uint32_t with_undecided_color = 1;
 constexpr std::uint32_t with_own_color = 2;
+constexpr std::uint32_t only_decided = 4;
 
 std::uint32_t style_bits(const LineStyle& style) {
     return (style.undecided_color ? with_undecided_color : 0u) | (style.color ? with_own_color : 0u);
@@ -145,7 +147,7 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      static_cast<std::uint32_t>(surface.clip.size()),
                                      common_flags,
                                      static_cast<std::uint32_t>(index),
-                                     style_bits(contour) | (has_inks ? with_own_color : 0u),
+                                     style_bits(contour) | (has_inks ? with_own_color | only_decided : 0u),
                                      style_bits(mesh),
                                      reach(contour),
                                      reach(mesh),

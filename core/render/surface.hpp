@@ -128,7 +128,10 @@ struct LineStyle {
 struct Contours {
     std::vector<double> values; ///< ascending
     LineStyle style;
-    /** Colour of each, in place of the style's, if there are any. */
+    /**
+     * Colour of each, in place of the style's, if there are any. Pixels for which it stays open whether they meet a line are
+     * then not drawn unless they have a colour: a surface on which the field is constant would be nothing but line.
+     */
     std::vector<std::array<double, 3>> inks{};
 
     /** Of contour `index`; any where that is the colour map's. */

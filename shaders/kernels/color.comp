@@ -46,6 +46,7 @@ layout(push_constant) uniform core_parameters {
 
 #define CORE_STYLE_UNDECIDED 1u
 #define CORE_STYLE_COLOR 2u
+#define CORE_STYLE_ONLY_DECIDED 4u
 
 elvis_vec4 core_special(uint which) { return core_rows[core_n_points + which]; }
 
@@ -112,11 +113,12 @@ void main() {
         value = core_samples[pixel].value;
         is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
 #if CORE_HAS_LINES
-        // Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own.
+        // Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own or
+        // are to be left out.
         const uint contour = core_flags_near(pixel, core_contour_reach);
         is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
         is_contour = (contour & CORE_FLAG_CONTOUR) != 0u ||
-                     (is_contour_undecided && (core_contour_style & CORE_STYLE_UNDECIDED) == 0u);
+                     (is_contour_undecided && (core_contour_style & (CORE_STYLE_UNDECIDED | CORE_STYLE_ONLY_DECIDED)) == 0u);
         const uint mesh = core_flags_near(pixel, core_mesh_reach);
         is_mesh_undecided = (mesh & CORE_FLAG_MESH_UNDECIDED) != 0u;
         is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u ||
@@ -180,7 +182,8 @@ void main() {
 #if CORE_HAS_LINES
     // Lines have their colours whatever the light. What is decided goes over what is not, contours over mesh lines.
     const bool has_contour_color = is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;
-    const bool shows_undecided_contour = is_contour_undecided && !is_contour;
+    const bool shows_undecided_contour =
+        is_contour_undecided && !is_contour && (core_contour_style & CORE_STYLE_UNDECIDED) != 0u;
     const bool has_mesh_color = is_mesh_line && (core_mesh_style & CORE_STYLE_COLOR) != 0u;
     const bool shows_undecided_mesh = is_mesh_undecided && !is_mesh_line;
     color = is_seen && shows_undecided_mesh ? core_special(6u) : color;

@@ -70,3 +70,24 @@ TEST_CASE("Whatever colour contours are drawn in, the pixels that are said to me
     CHECK(n_black > 5);
     CHECK(n_white > 5);
 }
+
+TEST_CASE("A surface on which the field has a contour's value everywhere is not painted over by it") {
+    Stage stage;
+    const auto frame = [&](const std::string& color) {
+        return stage.renderer.render(stage.request(
+            R"("field": "z", "color_map": {"name": "gray", "range": [-1, 1]}, "image": {"size": [40, 30]},
+               "surfaces": [{"type": "plane", "plane": [0, 0, 1, -0.1]}], "contours": {"values": [0.1])" +
+            color + "}"));
+    };
+    const Frame own = frame(""), red = frame(R"(, "color": [1, 0, 0])");
+    REQUIRE(own.counts.undecided_contour_pixels > 100);
+    std::size_t n_gray = 0, n_red = 0;
+    for (std::size_t pixel = 0; pixel < own.flags.size(); ++pixel) {
+        if ((own.flags[pixel] & pixel_flag::contour_undecided) != 0) {
+            n_gray += own.color[4 * pixel] > 0.3 && own.color[4 * pixel] < 0.8 ? 1 : 0;
+            n_red += red.color[4 * pixel] == 1 && red.color[4 * pixel + 1] == 0 ? 1 : 0;
+        }
+    }
+    CHECK(n_gray > 100);
+    CHECK(n_red == own.counts.undecided_contour_pixels);
+}
