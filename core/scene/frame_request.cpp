@@ -8,6 +8,7 @@
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
 #include <core/scene/color_map.hpp>
+#include <core/scene/default_surfaces.hpp>
 #include <core/scene/line_width.hpp>
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
@@ -21,22 +22,6 @@
 namespace elvis {
 
 namespace {
-
-/** Those that are drawn. */
-std::vector<SceneSurface> surfaces_of(const Scene& scene, const RuntimeVolume& volume, const Renderer& renderer) {
-    if (volume.dimension() == 2 && scene.surfaces.empty()) {
-        return {SceneSurface{FlatElements{}}};
-    }
-    if (!scene.surfaces.empty() || scene.volume_rendering) {
-        std::vector<SceneSurface> shown = scene.surfaces;
-        std::erase_if(shown, [](const SceneSurface& surface) { return !surface.is_shown; });
-        return shown;
-    }
-    if (volume.n_faces() > 0) {
-        return {SceneSurface{BoundaryFaces{}}};
-    }
-    return {SceneSurface{central_plane(renderer.bounds())}};
-}
 
 /** What the camera looks at from the front, if nothing else is said. */
 std::vector<CutPlane> planes_looked_at(const std::vector<SceneSurface>& surfaces, const RuntimeVolume& volume,
@@ -133,6 +118,18 @@ FieldChoice choose_field(const Scene& scene, const RuntimeVolume& volume, const 
     }
     label = *text;
     return choose_field(volume, with_distances(*text, scene.surfaces));
+}
+
+/** Those that are drawn. */
+std::vector<SceneSurface> surfaces_of(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
+    if (scene.surfaces.empty() && (volume.dimension() == 2 || !scene.volume_rendering)) {
+        std::string label;
+        return default_surfaces(scene.camera, volume, renderer, choose_field(scene, volume, scene.field, label),
+                                scene.time_step);
+    }
+    std::vector<SceneSurface> shown = scene.surfaces;
+    std::erase_if(shown, [](const SceneSurface& surface) { return !surface.is_shown; });
+    return shown;
 }
 
 std::string text_of(double number) {

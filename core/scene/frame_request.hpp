@@ -17,8 +17,8 @@ namespace elvis {
 FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::string>& text);
 
 /**
- * The frame with everything decided. Without surfaces and volume rendering, the scene shows the boundary if the volume tells
- * it, else a plane through the middle. Throws Error where the scene does not suit the volume.
+ * The frame with everything decided. Without surfaces and volume rendering, the scene shows what default_surfaces.hpp says.
+ * Throws Error where the scene does not suit the volume.
  */
 FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer);
 

@@ -133,7 +133,7 @@ TEST_CASE("what cannot be exported is refused and leaves nothing", "[vtk][export
     CHECK_THAT(failure(description("box", "pyramid", 1, 2, R"("field": "sphere")"), {}),
                Contains("pyramids of order 2") && Contains("no Lagrange pyramid"));
     CHECK_THAT(failure(description("box", "hexahedron", 1, 2, R"("field": "sphere")"), {.time_step = 1, .order = {}}),
-               Contains("1 time steps, no step 1"));
+               Contains("1 time step, no step 1"));
     CHECK_THAT(failure(description("box", "hexahedron", 1, 2, R"("field": "sphere")"), {.time_step = 0, .order = 21}),
                Contains("order 21 is outside 1..20"));
     TaskControl control;

@@ -4,6 +4,7 @@
 
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
+#include <core/scene/default_surfaces.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/scene/png_file.hpp>
 #include <core/scene/resolve.hpp>
@@ -121,11 +122,12 @@ Scene Session::first_scene(const std::string& path) {
     scene.annotation = SceneAnnotation{};
     if (m_volume->dimension() == 2) {
         scene.surfaces.push_back({ElementFaces{}});
-    } else if (m_volume->n_faces() > 0) {
-        scene.surfaces.push_back({BoundaryFaces{}});
+        return scene;
+    }
+    scene.surfaces =
+        default_surfaces(scene.camera, *m_volume, *m_renderer, choose_field(*m_volume, std::nullopt), scene.time_step);
+    if (m_volume->n_faces() > 0) {
         scene.lighting = Lighting{};
-    } else {
-        scene.surfaces.push_back({central_plane(m_renderer->bounds())});
     }
     return scene;
 }

@@ -1,0 +1,116 @@
+#include <core/scene/default_surfaces.hpp>
+
+#include <core/base/vector3.hpp>
+#include <core/scene/resolve.hpp>
+
+#include <elvis/native/space.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace elvis {
+
+namespace {
+
+/** A boundary whose values span less of the field's than this shows nothing of it: a few of 256 colours. */
+constexpr double flat_share = 0.02;
+/** Faces that are looked at, spread over all: some milliseconds. */
+constexpr std::uint64_t most_faces = 1024;
+
+/** Reference coordinates of points of a local face: its middle, its corners, and half-way between. */
+std::vector<double> points_of_face(native::Shape shape, int local_face) {
+    const auto corners = native::face_corners(shape, local_face);
+    native::Point middle{};
+    for (const int corner : corners) {
+        const native::Point x = native::corner(shape, corner);
+        for (std::size_t d = 0; d < 3; ++d) {
+            middle[d] += x[d] / static_cast<double>(corners.size());
+        }
+    }
+    std::vector<double> xi(middle.begin(), middle.end());
+    for (const int corner : corners) {
+        const native::Point x = native::corner(shape, corner);
+        for (const double share : {0.5, 1.0}) {
+            for (std::size_t d = 0; d < 3; ++d) {
+                xi.push_back((1 - share) * middle[d] + share * x[d]);
+            }
+        }
+    }
+    return xi;
+}
+
+elvis_shape shape_of(const RuntimeVolume& volume, std::uint64_t element) {
+    const auto next = std::ranges::upper_bound(volume.classes(), element, {}, &ClassInfo::first_element);
+    return std::prev(next)->shape;
+}
+
+/** Length of a vector, or the component itself. */
+double value_of(std::span<const double> components, int component) {
+    if (component >= 0) {
+        return components[static_cast<std::size_t>(component)];
+    }
+    double sum = 0;
+    for (const double one : components) {
+        sum += one * one;
+    }
+    return std::sqrt(sum);
+}
+
+/** Smallest and largest of samples on the boundary. */
+FieldRange values_on_boundary(const RuntimeVolume& volume, const FieldChoice& field, std::uint32_t time_step) {
+    const std::size_t n_components = volume.fields()[field.field].n_components;
+    std::vector<elvis_face> faces(volume.n_faces());
+    volume.faces(0, faces.size(), faces);
+    std::erase_if(faces, [](const elvis_face& face) { return face.neighbour != ELVIS_NEIGHBOUR_NONE; });
+    const std::size_t step = faces.size() / most_faces + 1;
+    FieldRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (std::size_t at = 0; at < faces.size(); at += step) {
+        const auto element = static_cast<std::uint64_t>(faces[at].element);
+        const auto shape = static_cast<native::Shape>(shape_of(volume, element));
+        const std::vector<double> xi = points_of_face(shape, static_cast<int>(faces[at].local_face));
+        std::vector<double> values(xi.size() / 3 * n_components);
+        volume.evaluate_field(field.field, time_step, element, xi, values, {});
+        for (std::size_t point = 0; point < values.size(); point += n_components) {
+            const double value = value_of(std::span(values).subspan(point, n_components), field.component);
+            range = {std::min(range.lower, value), std::max(range.upper, value)};
+        }
+    }
+    return range;
+}
+
+bool is_flat_on_boundary(const RuntimeVolume& volume, Renderer& renderer, const FieldChoice& field, std::uint32_t time_step) {
+    if (field.expression || !volume.has_evaluation() || volume.is_cut()) {
+        return false;
+    }
+    const FieldRange all = renderer.field_values(field, time_step);
+    const FieldRange seen = values_on_boundary(volume, field, time_step);
+    return seen.upper - seen.lower < flat_share * (all.upper - all.lower);
+}
+
+} // namespace
+
+std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, Renderer& renderer,
+                                           const FieldChoice& field, std::uint32_t time_step) {
+    if (volume.dimension() == 2) {
+        return {SceneSurface{FlatElements{}}};
+    }
+    const std::array<double, 6> bounds = renderer.bounds();
+    const CutPlane plane = central_plane(bounds);
+    if (volume.n_faces() == 0) {
+        return {SceneSurface{plane}};
+    }
+    SceneSurface boundary{BoundaryFaces{}};
+    if (!is_flat_on_boundary(volume, renderer, field, time_step)) {
+        return {boundary};
+    }
+    // The default camera looks from the plane's positive side.
+    const auto& [a, b, c, d] = plane.plane;
+    const bool is_behind = camera.eye && dot({a, b, c}, *camera.eye) + d < 0;
+    const double side = is_behind ? 1 : -1;
+    boundary.clip.push_back({side * a, side * b, side * c, side * d});
+    return {SceneSurface{plane}, boundary};
+}
+
+} // namespace elvis
