@@ -1,0 +1,215 @@
+#include "kernel_table.hpp"
+
+#include <core/expression/glsl.hpp>
+#include <core/segment/tables.hpp>
+
+namespace elvis::test {
+
+namespace {
+
+const Choice pixel_group{"CORE_GROUP_SIZE", {"256u"}};
+const Choice width{"CORE_TILE_WIDTH", {"8u"}};
+const Choice height{"CORE_TILE_HEIGHT", {"16u"}};
+const Choice element_class{"CORE_CLASS", {"3u"}};
+const Choice no_or_yes(const char* name) { return {name, {"0", "1"}}; }
+const Choice yes(const char* name) { return {name, {"1"}}; }
+const Choice no(const char* name) { return {name, {"0"}}; }
+
+const std::vector<std::string> elements{"core_nodes", "core_elements"};
+const std::vector<std::string> faces{"core_nodes", "core_faces", "core_patches"};
+const std::vector<std::string> fitted_faces{"core_nodes", "core_faces", "core_patches", "core_face_points"};
+const std::vector<std::string> cells{"core_elements", "core_nodes", "core_cells"};
+const std::vector<std::string> chains{"core_nodes", "core_links", "core_elements"};
+const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_cones", "core_elements"};
+
+void add_pixel_kernels(std::vector<KernelUse>& uses) {
+    for (const char* kernel : {"blend", "isovalue_hits", "list_open_pixels", "merge", "occlude", "order_layers", "take_layer",
+                               "volume_begin", "volume_finish", "volume_veil"}) {
+        uses.push_back({.kernel = kernel, .choices = {pixel_group}});
+    }
+    uses.push_back({.kernel = "color", .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES")}});
+    uses.push_back({.kernel = "list_pixels", .choices = {pixel_group, width, height}});
+    uses.push_back({.kernel = "live_rays", .choices = {width, height, {"CORE_GROUPS", {"16u"}}}});
+    uses.push_back({.kernel = "surface_outside", .choices = {pixel_group, no_or_yes("CORE_ON_PLANE")}});
+}
+
+void add_element_kernels(std::vector<KernelUse>& uses) {
+    uses.push_back({.kernel = "derivative_bounds", .element = Element::snippet, .watches_loops = true});
+    uses.push_back({.kernel = "edge_samples", .element = Element::snippet});
+    uses.push_back({.kernel = "face_cones", .element = Element::snippet, .is_for_solids = true, .watches_loops = true});
+    uses.push_back({.kernel = "face_samples", .element = Element::snippet, .buffers = {"core_faces"}});
+    uses.push_back({.kernel = "linearize", .element = Element::snippet, .watches_loops = true});
+    uses.push_back({.kernel = "field_range", .element = Element::value, .buffers = elements, .watches_loops = true});
+    uses.push_back(
+        {.kernel = "point_values", .element = Element::value, .choices = {{"CORE_GROUP_SIZE", {"64"}}, element_class}});
+    uses.push_back({.kernel = "probe_invert", .element = Element::snippet, .is_double_only = true});
+    uses.push_back({.kernel = "probe_evaluate", .element = Element::snippet, .is_double_only = true});
+    uses.push_back({.kernel = "probe_expression",
+                    .element = Element::expression_gradient,
+                    .is_double_only = true,
+                    .with_second_derivatives = true});
+    uses.push_back(
+        {.kernel = "expression_error", .element = Element::expression_error, .buffers = elements, .watches_loops = true});
+}
+
+void add_cut_kernels(std::vector<KernelUse>& uses) {
+    uses.push_back({.kernel = "cut_tiles", .buffers = elements, .choices = {width, height}});
+    uses.push_back({.kernel = "cut_plane",
+                    .element = Element::value,
+                    .buffers = elements,
+                    .choices = {width, height, no("CORE_LINES")},
+                    .is_for_solids = true});
+    for (const char* kernel : {"cut_plane", "cut_lines"}) {
+        uses.push_back({.kernel = kernel,
+                        .element = Element::model,
+                        .buffers = elements,
+                        .choices = {width, height, yes("CORE_LINES")},
+                        .is_for_solids = true});
+    }
+    uses.push_back({.kernel = "surface_tiles", .buffers = elements, .choices = {width, height}});
+    uses.push_back({.kernel = "surface_pixels",
+                    .element = Element::value,
+                    .buffers = elements,
+                    .choices = {width, height, element_class},
+                    .is_for_solids = true});
+    const std::vector<Choice> hits{width, height, {"CORE_HIT_ROWS", {"4u"}}, {"CORE_SHAPE_ROWS", {"8"}}};
+    const auto add_surface = [&](const char* file, std::vector<std::string> buffers, const Choice& ends, std::string text) {
+        KernelUse use{.kernel = "surface_hits", .buffers = std::move(buffers), .choices = hits, .text = std::move(text)};
+        use.choices.push_back(ends);
+        use.includes = std::string("#include \"library/surface_") + file + ".glsl\"\n";
+        uses.push_back(use);
+    };
+    add_surface("quadric", {}, no_or_yes("CORE_HAS_ENDS"), "");
+    add_surface("torus", {}, no("CORE_HAS_ENDS"), "");
+    add_surface("mesh", {"core_triangles", "core_nodes"}, no("CORE_HAS_ENDS"), "");
+    add_surface("bezier", {"core_patches (reals)", "core_nodes"}, no("CORE_HAS_ENDS"), "");
+    add_surface("implicit", {}, no("CORE_HAS_ENDS"), implicit_glsl(Expression::implicit("sin(x) + max(y, z^2)")));
+}
+
+void add_face_kernels(std::vector<KernelUse>& uses) {
+    uses.push_back({.kernel = "ray_tiles", .buffers = {"core_nodes"}, .choices = {width, height, yes("CORE_LISTS_TILES")}});
+    for (const bool is_polynomial : {false, true}) {
+        for (const char* kernel : {"faces", "faces_careful"}) {
+            KernelUse use{.kernel = kernel,
+                          .element = Element::value,
+                          .buffers = fitted_faces,
+                          .choices = {width, height, yes("CORE_LISTS_TILES"), element_class}};
+            use.choices.push_back(use.kernel == "faces" ? no_or_yes("CORE_DESCENDS") : no("CORE_DESCENDS"));
+            if (is_polynomial) {
+                use.choices.push_back({"CORE_FACE_ORDER", {"3"}});
+            }
+            uses.push_back(use);
+        }
+    }
+}
+
+void add_line_kernels(std::vector<KernelUse>& uses) {
+    for (const char* kernel : {"settle_lines", "face_lines", "face_lines_careful"}) {
+        uses.push_back({.kernel = kernel,
+                        .element = Element::model,
+                        .buffers = faces,
+                        .choices = {width, height, yes("CORE_ON_FACES"), no_or_yes("CORE_WITH_CONTOURS")}});
+    }
+    const std::vector<Choice> on_surface{width, height, no("CORE_ON_FACES"), no_or_yes("CORE_WITH_CONTOURS")};
+    uses.push_back({.kernel = "settle_lines",
+                    .element = Element::model,
+                    .buffers = elements,
+                    .choices = on_surface,
+                    .is_for_solids = true,
+                    .shows_own_boundary = true});
+    // Quadrics have rows, and segments of rays; other surfaces neither.
+    for (const bool is_quadric : {false, true}) {
+        KernelUse lines{.kernel = "surface_lines",
+                        .element = Element::model,
+                        .buffers = elements,
+                        .choices = on_surface,
+                        .is_for_solids = true,
+                        .shows_own_boundary = true};
+        lines.choices.insert(lines.choices.end(), {{"CORE_FEW_SUBDIVISIONS", {"2u"}},
+                                                   is_quadric ? no_or_yes("CORE_BY_SEGMENTS") : no("CORE_BY_SEGMENTS"),
+                                                   no("CORE_HAS_ENDS"),
+                                                   {"CORE_SHAPE_ROWS", {is_quadric ? "8" : "0"}}});
+        uses.push_back(lines);
+    }
+}
+
+void add_isosurface_kernels(std::vector<KernelUse>& uses) {
+    for (const char* kernel : {"level_models", "level_cells"}) {
+        uses.push_back({.kernel = kernel,
+                        .element = Element::model,
+                        .is_for_solids = true,
+                        .shows_own_boundary = true,
+                        .watches_loops = true});
+    }
+    const std::vector<Choice> common{
+        width, height, {"CORE_ROWS", {"4u"}}, {"CORE_TILE_CAPACITY", {"512u"}}, yes("CORE_TESTS_LEVELS"), element_class};
+    const auto use = [&](const char* kernel, const std::vector<std::string>& buffers, const std::vector<Choice>& more) {
+        KernelUse made{.kernel = kernel, .element = Element::model, .buffers = buffers, .choices = common};
+        made.choices.insert(made.choices.end(), more.begin(), more.end());
+        made.is_for_solids = made.shows_own_boundary = true;
+        return made;
+    };
+    uses.push_back(use("ray_tiles", cells, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), yes("CORE_LISTS_TILES")}));
+    uses.push_back(use("isosurface", cells, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS")}));
+    for (const bool is_nested : {true, false}) {
+        KernelUse projection = use("isosurface_projection", {"core_elements", "core_nodes", "core_models"},
+                                   {no_or_yes("CORE_USES_COLLEAGUE"), is_nested ? no("CORE_PLAIN") : yes("CORE_PLAIN")});
+        projection.text = segment::segment_glsl(is_nested ? segment::nested_plan() : segment::fixed_plan(6));
+        uses.push_back(projection);
+    }
+}
+
+void add_ray_kernels(std::vector<KernelUse>& uses) {
+    for (const bool is_curved : {false, true}) {
+        const std::vector<std::string>& buffers = is_curved ? curved_chains : chains;
+        const std::vector<Choice> common{
+            width, height, {"CORE_LEAF_WORD", {"index"}}, is_curved ? yes("CORE_HAS_CURVED") : no("CORE_HAS_CURVED")};
+        const auto use = [&](const char* kernel, Element element, const std::vector<Choice>& more) {
+            KernelUse made{.kernel = kernel, .element = element, .buffers = buffers, .choices = common};
+            made.choices.insert(made.choices.end(), more.begin(), more.end());
+            made.is_for_solids = true;
+            return made;
+        };
+        const std::vector<Choice> for_segments{yes("CORE_MAKES_SEGMENTS"), no_or_yes("CORE_RAYS_ARE_GIVEN")};
+        uses.push_back(use("ray_tiles", Element::snippet, {yes("CORE_TESTS_STARTS")}));
+        uses.push_back(use("chain_seek", Element::snippet, {}));
+        uses.push_back(use("chain_seek", Element::snippet, for_segments));
+        uses.push_back(use("segments", Element::snippet, for_segments));
+        KernelUse march =
+            use("volume_march", Element::model, {{"CORE_INTEGRATOR", {"0", "1", "2", "3", "4"}}, no_or_yes("CORE_HAS_STEPS")});
+        march.buffers.emplace_back("core_models");
+        march.text = segment::segment_glsl(segment::fixed_plan(5));
+        uses.push_back(march);
+    }
+}
+
+void add_checks(std::vector<KernelUse>& uses) {
+    uses.push_back({.kernel = "bench_roots",
+                    .choices = {no_or_yes("CORE_COLLEAGUE")},
+                    .text = segment::segment_glsl(segment::fixed_plan(8))});
+    uses.push_back({.kernel = "bench_unit", .element = Element::snippet});
+    uses.push_back({.kernel = "compose_check", .element = Element::snippet, .buffers = {"counts"}, .n_instances = 2});
+    uses.push_back({.kernel = "conformance", .element = Element::snippet});
+    uses.push_back({.kernel = "conformance", .element = Element::snippet, .with_second_derivatives = true});
+    uses.push_back(
+        {.kernel = "conformance", .element = Element::snippet, .with_second_derivatives = true, .is_debug_build = true});
+    uses.push_back({.kernel = "hessian_check", .element = Element::snippet, .with_second_derivatives = true});
+    uses.push_back({.kernel = "snippet_check", .element = Element::snippet});
+}
+
+} // namespace
+
+std::vector<KernelUse> kernel_uses() {
+    std::vector<KernelUse> uses;
+    add_pixel_kernels(uses);
+    add_element_kernels(uses);
+    add_cut_kernels(uses);
+    add_face_kernels(uses);
+    add_line_kernels(uses);
+    add_isosurface_kernels(uses);
+    add_ray_kernels(uses);
+    add_checks(uses);
+    return uses;
+}
+
+} // namespace elvis::test
