@@ -7,11 +7,11 @@
 #include <iomanip>
 #include <sstream>
 
-namespace @NAME @{
+namespace @NAME@ {
 
-    namespace {
+namespace {
 
-        constexpr const char* header = "@NAME@-mesh";
+constexpr const char* header = "@NAME@-mesh";
 
 /** A file read line by line; empty lines and those that begin with '#' are skipped. */
 class Lines {

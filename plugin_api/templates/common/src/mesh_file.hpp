@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-namespace @NAME @{
+namespace @NAME@ {
 
-    /** x, y, z and the field's value at a corner. */
-    using Corner = std::array<double, 4>;
+/** x, y, z and the field's value at a corner. */
+using Corner = std::array<double, 4>;
 
 /** Corners in the order of elvis/element.h: around the bottom, then around the top. */
 using Hexahedron = std::array<Corner, 8>;

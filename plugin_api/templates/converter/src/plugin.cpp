@@ -8,17 +8,19 @@
 
 #include <algorithm>
 
-namespace @NAME @{namespace {
+namespace @NAME@ {
+namespace {
 
-    /** Weight of each corner at a reference point, by which positions and values are interpolated alike. */
-    std::array<double, 8> corner_weights(const double* xi){std::array<double, 8> weights;
-for (unsigned k = 0; k < 8; ++k) {
-    const double r = ((k ^ (k >> 1)) & 1u) != 0 ? 1 + xi[0] : 1 - xi[0];
-    const double s = (k & 2u) != 0 ? 1 + xi[1] : 1 - xi[1];
-    const double t = (k & 4u) != 0 ? 1 + xi[2] : 1 - xi[2];
-    weights[k] = r * s * t / 8;
-}
-return weights;
+/** Weight of each corner at a reference point, by which positions and values are interpolated alike. */
+std::array<double, 8> corner_weights(const double* xi) {
+    std::array<double, 8> weights;
+    for (unsigned k = 0; k < 8; ++k) {
+        const double r = ((k ^ (k >> 1)) & 1u) != 0 ? 1 + xi[0] : 1 - xi[0];
+        const double s = (k & 2u) != 0 ? 1 + xi[1] : 1 - xi[1];
+        const double t = (k & 4u) != 0 ? 1 + xi[2] : 1 - xi[2];
+        weights[k] = r * s * t / 8;
+    }
+    return weights;
 }
 
 class Source : public elvis::api::ConverterSource {
@@ -100,4 +102,4 @@ private:
 } // namespace @NAME@
 
 ELVIS_PLUGIN(.id = "@ID@", .name = "@NAME@", .version = "0.1.0", .description = "Converts volumes of @NAME@",
-             .converter = elvis::api::converter_table<@NAME @ ::Source>());
+             .converter = elvis::api::converter_table<@NAME@::Source>());
