@@ -15,7 +15,7 @@ test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py g
 
 usage() {
     cat <<'END'
-usage: ./bootstrap.sh demo    install, build, draw a high-order field on curved elements to elvis-demo.png
+usage: ./bootstrap.sh demo    install, build, draw the flow past a canister to elvis-demo.png
        ./bootstrap.sh test    install, build, run all tests
        ./bootstrap.sh build   install, build
 END
@@ -52,7 +52,7 @@ build() { # arguments: further cmake options
 
 demo() {
     local elvis=build/release/bin/elvis
-    "$elvis" convert tests/data/demo.json -o elvis-demo.h5
+    "$elvis" convert tests/data/elvis/bulletH1P2.dat -o elvis-demo.h5
     "$elvis" render tests/data/demo_scene.json -o elvis-demo.png
     echo "The picture is in elvis-demo.png, its volume in elvis-demo.h5."
 }
