@@ -60,3 +60,14 @@ TEST_CASE("Info tells the values that a field takes, and what encloses them") {
     CHECK(field["enclosure_certainty"] == "certified");
     CHECK_THAT(place.run("info fichera.h5").out, Catch::Contains("enclosed by the elements' bounds"));
 }
+
+TEST_CASE("A boundary on which the field hardly changes is cut open by default, another one is not") {
+    const Workplace place;
+    const auto picture = [&](const std::string& options) {
+        REQUIRE(place.run("render ball.h5 --size 64x48 -o x.png " + options).status == 0);
+        return read_file(place.path("x.png"));
+    };
+    // The square of the distance from the middle is 1 on the boundary of the ball.
+    CHECK(picture("") != picture("--boundary"));
+    CHECK(picture("--field taylor-green") == picture("--field taylor-green --boundary"));
+}
