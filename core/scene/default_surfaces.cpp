@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace elvis {
 
@@ -16,6 +15,8 @@ namespace {
 
 /** A boundary whose values span less of the field's than this shows nothing of it: a few of 256 colours. */
 constexpr double flat_share = 0.02;
+/** Of the samples on the boundary, at either end: a small part of it, a hole or an obstacle, may have other values. */
+constexpr double left_out_share = 0.05;
 /** Faces that are looked at, spread over all: some milliseconds. */
 constexpr std::uint64_t most_faces = 1024;
 
@@ -58,14 +59,14 @@ double value_of(std::span<const double> components, int component) {
     return std::sqrt(sum);
 }
 
-/** Smallest and largest of samples on the boundary. */
+/** Of samples on the boundary, all but the smallest and the largest. */
 FieldRange values_on_boundary(const RuntimeVolume& volume, const FieldChoice& field, std::uint32_t time_step) {
     const std::size_t n_components = volume.fields()[field.field].n_components;
     std::vector<elvis_face> faces(volume.n_faces());
     volume.faces(0, faces.size(), faces);
     std::erase_if(faces, [](const elvis_face& face) { return face.neighbour != ELVIS_NEIGHBOUR_NONE; });
     const std::size_t step = faces.size() / most_faces + 1;
-    FieldRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    std::vector<double> samples;
     for (std::size_t at = 0; at < faces.size(); at += step) {
         const auto element = static_cast<std::uint64_t>(faces[at].element);
         const auto shape = static_cast<native::Shape>(shape_of(volume, element));
@@ -73,11 +74,16 @@ FieldRange values_on_boundary(const RuntimeVolume& volume, const FieldChoice& fi
         std::vector<double> values(xi.size() / 3 * n_components);
         volume.evaluate_field(field.field, time_step, element, xi, values, {});
         for (std::size_t point = 0; point < values.size(); point += n_components) {
-            const double value = value_of(std::span(values).subspan(point, n_components), field.component);
-            range = {std::min(range.lower, value), std::max(range.upper, value)};
+            samples.push_back(value_of(std::span(values).subspan(point, n_components), field.component));
         }
     }
-    return range;
+    std::erase_if(samples, [](double value) { return !std::isfinite(value); });
+    if (samples.empty()) {
+        return {};
+    }
+    std::ranges::sort(samples);
+    const auto n_left_out = static_cast<std::size_t>(left_out_share * static_cast<double>(samples.size()));
+    return {samples[n_left_out], samples[samples.size() - 1 - n_left_out]};
 }
 
 bool is_flat_on_boundary(const RuntimeVolume& volume, Renderer& renderer, const FieldChoice& field, std::uint32_t time_step) {

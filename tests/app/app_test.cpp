@@ -169,8 +169,8 @@ TEST_CASE("Surfaces are lit only if that is asked for, and each by itself") {
         REQUIRE(outcome.status == 0);
         return read_file(place.path("lit.png"));
     };
-    const std::string plain = picture("ball.h5 --size 80x60");
-    const std::string lit = picture("ball.h5 --size 80x60 --lighting default");
+    const std::string plain = picture("ball.h5 --boundary --size 80x60");
+    const std::string lit = picture("ball.h5 --boundary --size 80x60 --lighting default");
     CHECK(plain != lit);
     CHECK(picture("default.json") == lit);
     CHECK(picture("same.json") == lit);

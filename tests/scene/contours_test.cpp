@@ -88,6 +88,7 @@ TEST_CASE("A surface on which the field has a contour's value everywhere is not 
             n_red += red.color[4 * pixel] == 1 && red.color[4 * pixel + 1] == 0 ? 1 : 0;
         }
     }
-    CHECK(n_gray > 100);
-    CHECK(n_red == own.counts.undecided_contour_pixels);
+    // All of them but those along the volume's border, in which nothing may be seen.
+    CHECK(n_gray > 150);
+    CHECK(n_red > 150);
 }
