@@ -23,8 +23,8 @@ const std::vector<std::string> chains{"core_nodes", "core_links", "core_elements
 const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_cones", "core_elements"};
 
 void add_pixel_kernels(std::vector<KernelUse>& uses) {
-    for (const char* kernel : {"blend", "isovalue_hits", "list_open_pixels", "merge", "occlude", "order_layers", "take_layer",
-                               "volume_begin", "volume_finish", "volume_veil"}) {
+    for (const char* kernel : {"blend", "list_open_pixels", "merge", "occlude", "order_layers", "take_layer", "volume_begin",
+                               "volume_finish", "volume_veil"}) {
         uses.push_back({.kernel = kernel, .choices = {pixel_group}});
     }
     uses.push_back({.kernel = "color", .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES")}});
