@@ -14,8 +14,8 @@ namespace elvis {
 
 /**
  * The elements of surfaces in two dimensions. Else the boundary, where the volume tells it; where the field hardly changes on
- * nearly all of it, as with a boundary condition of one value, cut open: a plane through the middle, and the half of the
- * boundary behind it as seen from the scene's eye. Without a boundary, the plane alone.
+ * most of it (0.7 of its samples), as with a boundary condition of one value, cut open: a plane through the middle, and the
+ * half of the boundary behind it as seen from the scene's eye. Without a boundary, the plane alone.
  */
 std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, Renderer& renderer,
                                            const FieldChoice& field, std::uint32_t time_step);
