@@ -4,7 +4,7 @@
 usage: check_links.py [ROOT]
 
 ROOT is the project's folder by default. In a git checkout the pages are those that git tracks or would track, elsewhere all below
-ROOT. Nothing is fetched: links with a scheme (https:, mailto:) are left alone. What GitHub and mkdocs make of a page differs in
+ROOT but for its build folders (build/). Nothing is fetched: links with a scheme (https:, mailto:) are left alone. What GitHub and mkdocs make of a page differs in
 details that no page should depend on; anchors are those of GitHub.
 """
 import pathlib
@@ -36,7 +36,7 @@ def pages(root):
                                 check=True, capture_output=True, text=True).stdout.split("\0")
         found = [root / name for name in listed if name]
     except (OSError, subprocess.CalledProcessError):
-        found = list(root.rglob("*.md"))
+        found = [page for page in root.rglob("*.md") if page.relative_to(root).parts[0] != "build"]
     return sorted(page for page in found if page.is_file())
 
 
