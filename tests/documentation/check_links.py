@@ -4,8 +4,8 @@
 usage: check_links.py [ROOT]
 
 ROOT is the project's folder by default. In a git checkout the pages are those that git tracks or would track, elsewhere all below
-ROOT but for its build folders (build/). Nothing is fetched: links with a scheme (https:, mailto:) are left alone. What GitHub and mkdocs make of a page differs in
-details that no page should depend on; anchors are those of GitHub.
+ROOT but for its build folders (build/). Nothing is fetched: links with a scheme (https:, mailto:) are left alone. What GitHub and
+mkdocs make of a page differs in details that no page should depend on; anchors are those of GitHub.
 """
 import pathlib
 import re

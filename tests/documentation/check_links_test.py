@@ -32,6 +32,8 @@ with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     (folder / "folder").mkdir()
     (folder / "folder/a file.txt").write_text("text")
+    (folder / "build/pages").mkdir(parents=True)
+    (folder / "build/pages/copied.md").write_text("[what is not copied with it](missing.md)\n")
     (folder / "other.md").write_text("# Two words\n\n## Two words\n")
     page = folder / "page.md"
     page.write_text(PAGE)
