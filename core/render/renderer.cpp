@@ -440,7 +440,8 @@ Frame Renderer::render(const FrameRequest& wanted, const TaskControl* control) {
     // A boundary with_own_boundaries added belongs to the surface that asked for it.
     for (std::size_t index = 0, added = wanted.surfaces.size(); added < frame.is_met.size(); ++index) {
         if (is_whole_boundary(request.surfaces[index])) {
-            frame.is_met[index] = frame.is_met[index] || frame.is_met[added++];
+            frame.is_met[index] = frame.is_met[index] || frame.is_met[added];
+            ++added;
         }
     }
     frame.is_met.resize(wanted.surfaces.size());

@@ -141,6 +141,7 @@ TEST_CASE("the boundary is that of the box where there is something, and where e
     CHECK(frame.counts.half_drawn_elements == 0);
     CHECK(frame.counts.mesh_line_pixels > 500);
     CHECK(frame.counts.undecided_mesh_line_pixels < frame.counts.mesh_line_pixels);
+    CHECK(frame.is_met == std::vector<bool>{true});
 
     // Faces of chosen elements come without it, and the frame says so.
     surface.geometry = ElementFaces{};
