@@ -92,7 +92,7 @@ void check_sphere(const FrameRequest& request, const Frame& frame, double radius
 TEST_CASE("of several isovalues the nearest crossing is drawn, whatever is skipped") {
     const TemporaryFile file("several.h5");
     generate(
-        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 3, "order": 4, "geometry_order": 3, "field": "waves"})",
+        R"({"generator": 1, "mesh": "ball", "shape": "prism", "elements": 3, "order": 4, "geometry_order": 3, "field": "waves"})",
         file.path());
     const RuntimeVolume volume = open_volume(file.path());
     for (const Precision precision : {Precision::float32, Precision::float64}) {
