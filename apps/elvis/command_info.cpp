@@ -2,7 +2,9 @@
 #include "volume_argument.hpp"
 
 #include <core/base/counted.hpp>
+#include <core/base/error.hpp>
 #include <core/render/field_range.hpp>
+#include <core/render/renderer.hpp>
 #include <core/volume/field_extrema.hpp>
 #include <core/volume/jacobian_check.hpp>
 
@@ -14,6 +16,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace elvis::commands {
 
@@ -112,31 +115,53 @@ ordered_json describe_extrema(const RuntimeVolume& volume, const FieldExtrema& e
             {"maximum", describe_extremum(volume, extrema.maximum)}};
 }
 
-/**
- * What the field's values are, and what encloses them: the former is what colours go by, the latter what pictures leave out by.
- * Not of plugins that evaluate on the device alone.
- */
-void describe_range(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step, ordered_json& entry) {
-    ordered_json ranges = ordered_json::array(), extrema = ordered_json::array();
+/** Extrema of fields: from the CPU, and from samples on a device where that alone can tell, which is not opened before. */
+class Extrema {
+public:
+    explicit Extrema(const RuntimeVolume& volume) : m_volume(volume) {}
+
+    FieldExtrema of(std::uint32_t field, int component, std::uint32_t time_step) {
+        if (const auto found = find_extrema(m_volume, field, component, time_step)) {
+            return *found;
+        }
+        if (!m_renderer) {
+            m_device.emplace();
+            m_renderer.emplace(*m_device, m_volume, m_device->summary().has_float64 ? Precision::float64 : Precision::float32);
+        }
+        FieldChoice choice;
+        choice.field = field;
+        choice.component = component;
+        return m_renderer->field_extrema(choice, time_step);
+    }
+
+private:
+    const RuntimeVolume& m_volume;
+    std::optional<Device> m_device;
+    std::optional<Renderer> m_renderer;
+};
+
+/** What the field's values are: what colours go by. */
+void describe_range(const RuntimeVolume& volume, Extrema& extrema, std::uint32_t field, std::uint32_t time_step,
+                    ordered_json& entry) {
+    ordered_json ranges = ordered_json::array(), by_component = ordered_json::array();
     elvis_certainty worst = ELVIS_CERTIFIED;
     const auto n_components = static_cast<int>(volume.fields()[field].n_components);
     for (int component = 0; component < n_components; ++component) {
-        if (const auto found = find_extrema(volume, field, component, time_step)) {
-            extrema.push_back(describe_extrema(volume, *found));
-            ranges.push_back(extrema.back()["range"]);
-            worst = std::max(worst, found->certainty);
-        }
+        const FieldExtrema found = extrema.of(field, component, time_step);
+        by_component.push_back(describe_extrema(volume, found));
+        ranges.push_back(by_component.back()["range"]);
+        worst = std::max(worst, found.certainty);
     }
-    if (!ranges.empty()) {
-        entry["range_by_component"] = ranges;
-        entry["range_certainty"] = worst == ELVIS_CERTIFIED ? "certified" : "sampled";
-        entry["extrema_by_component"] = extrema;
+    entry["range_by_component"] = ranges;
+    entry["range_certainty"] = worst == ELVIS_CERTIFIED ? "certified" : "sampled";
+    entry["extrema_by_component"] = by_component;
+    if (n_components > 1) {
+        entry["magnitude"] = describe_extrema(volume, extrema.of(field, -1, time_step));
     }
-    if (n_components > 1 && !ranges.empty()) {
-        if (const auto found = find_extrema(volume, field, -1, time_step)) {
-            entry["magnitude"] = describe_extrema(volume, *found);
-        }
-    }
+}
+
+/** What encloses the field's values: what pictures leave out by. */
+void describe_enclosure(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step, ordered_json& entry) {
     if (volume.has_field_ranges()) {
         elvis_certainty certainty = ELVIS_ESTIMATED;
         entry["enclosure_by_component"] = enclosures(volume, field, time_step, certainty);
@@ -146,6 +171,7 @@ void describe_range(const RuntimeVolume& volume, std::uint32_t field, std::uint3
 
 ordered_json describe_fields(const RuntimeVolume& volume, std::uint32_t time_step) {
     ordered_json fields = ordered_json::array();
+    Extrema extrema(volume);
     for (std::uint32_t index = 0; index < volume.fields().size(); ++index) {
         const FieldInfo& field = volume.fields()[index];
         ordered_json entry = {{"name", field.name},
@@ -159,7 +185,13 @@ ordered_json describe_fields(const RuntimeVolume& volume, std::uint32_t time_ste
             orders.push_back({info.order[0], info.order[1], info.order[2]});
         }
         entry["order_by_class"] = orders;
-        describe_range(volume, index, time_step, entry);
+        try {
+            describe_range(volume, extrema, index, time_step, entry);
+        } catch (const Error& error) {
+            // Without a device all else can still be said.
+            entry["range_unknown"] = error.what();
+        }
+        describe_enclosure(volume, index, time_step, entry);
         fields.push_back(entry);
     }
     return fields;
@@ -257,6 +289,9 @@ void print_ranges(const ordered_json& field) {
         for (std::size_t component = 0; component < extrema.size(); ++component) {
             print_extrema(extrema.size() > 1 ? "range of [" + std::to_string(component) + "] " : "range ", extrema[component]);
         }
+    }
+    if (field.contains("range_unknown")) {
+        std::printf("    range unknown: %s\n", text_of(field["range_unknown"]).c_str());
     }
     if (field.contains("magnitude")) {
         print_extrema("range of the magnitude ", field["magnitude"]);

@@ -54,16 +54,25 @@ void MissedSurfaces::add(const FrameRequest& request, const Frame& frame) {
     }
 }
 
-FieldRange MissedSurfaces::over_steps(Range range_of, const FieldChoice& field, Renderer& renderer, bool& is_certified) const {
-    elvis_certainty certainty{};
-    FieldRange range = (renderer.*range_of)(field, m_time_steps.front(), &certainty);
-    is_certified = certainty == ELVIS_CERTIFIED;
+MissedSurfaces::Range MissedSurfaces::values_of(const FieldChoice& field, Renderer& renderer) const {
+    Range all{renderer.field_extrema(field, m_time_steps.front()).range(), true};
     for (const std::uint32_t step : m_time_steps) {
-        const FieldRange at_step = (renderer.*range_of)(field, step, &certainty);
-        range = {std::min(range.lower, at_step.lower), std::max(range.upper, at_step.upper)};
-        is_certified = is_certified && certainty == ELVIS_CERTIFIED;
+        const FieldExtrema extrema = renderer.field_extrema(field, step);
+        all.range = {std::min(all.range.lower, extrema.range().lower), std::max(all.range.upper, extrema.range().upper)};
+        all.is_certified = all.is_certified && extrema.certainty == ELVIS_CERTIFIED;
     }
-    return range;
+    return all;
+}
+
+MissedSurfaces::Range MissedSurfaces::enclosure_of(const FieldChoice& field, Renderer& renderer) const {
+    Range all{renderer.field_range(field, m_time_steps.front()), true};
+    for (const std::uint32_t step : m_time_steps) {
+        elvis_certainty certainty{};
+        const FieldRange range = renderer.field_range(field, step, &certainty);
+        all.range = {std::min(all.range.lower, range.lower), std::max(all.range.upper, range.upper)};
+        all.is_certified = all.is_certified && certainty == ELVIS_CERTIFIED;
+    }
+    return all;
 }
 
 /** Of several values one may hide another: where any is met, only those that the field surely does not take are missed. */
@@ -73,8 +82,7 @@ std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const
     if (is_met && (isosurfaces.values.size() == 1 || isosurfaces.field.expression)) {
         return {};
     }
-    bool is_certified = false;
-    const FieldRange enclosure = over_steps(&Renderer::field_range, isosurfaces.field, renderer, is_certified);
+    const auto [enclosure, is_certified] = enclosure_of(isosurfaces.field, renderer);
     std::string list;
     std::size_t n_missed = 0;
     for (const double value : isosurfaces.values) {
@@ -83,13 +91,13 @@ std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const
             ++n_missed;
         }
     }
-    const FieldRange range = over_steps(&Renderer::field_values, isosurfaces.field, renderer, is_certified);
+    const Range values = values_of(isosurfaces.field, renderer);
     const char* const hits = n_missed > 1 ? " hit no pixel" : " hits no pixel";
-    return n_missed == 0
-               ? std::string()
-               : "the " + surface_name(surface) + (n_missed > 1 ? "s at " : " at ") + list +
-                     (field.empty() ? "" : " of '" + field + "'") + hits + ": the field's values lie " +
-                     (is_certified ? "in [" : "about in [") + text_of(range.lower) + ", " + text_of(range.upper) + "]";
+    return n_missed == 0 ? std::string()
+                         : "the " + surface_name(surface) + (n_missed > 1 ? "s at " : " at ") + list +
+                               (field.empty() ? "" : " of '" + field + "'") + hits + ": the field's values lie " +
+                               (values.is_certified ? "in [" : "about in [") + text_of(values.range.lower) + ", " +
+                               text_of(values.range.upper) + "]";
 }
 
 std::vector<std::string> MissedSurfaces::remarks(const Scene& scene, const FrameRequest& request, Renderer& renderer) const {

@@ -24,9 +24,13 @@ public:
     std::vector<std::string> remarks(const Scene& scene, const FrameRequest& request, Renderer& renderer) const;
 
 private:
-    /** Of the isosurfaces' field, over all time steps; and whether it surely holds its values. */
-    using Range = FieldRange (Renderer::*)(const FieldChoice&, std::uint32_t, elvis_certainty*);
-    FieldRange over_steps(Range range_of, const FieldChoice& field, Renderer& renderer, bool& is_certified) const;
+    struct Range {
+        FieldRange range;
+        bool is_certified;
+    };
+    /** The field's values over all time steps, and what encloses them. */
+    Range values_of(const FieldChoice& field, Renderer& renderer) const;
+    Range enclosure_of(const FieldChoice& field, Renderer& renderer) const;
     std::string isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn, bool is_met,
                                   Renderer& renderer) const;
 

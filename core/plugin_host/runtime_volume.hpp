@@ -81,9 +81,12 @@ struct FieldExtremum {
     std::array<double, 3> xi{};
 };
 
+/** Without any finite value the minimum is infinity, the maximum -infinity. */
 struct FieldExtrema {
     FieldExtremum minimum, maximum;
     elvis_certainty certainty = ELVIS_ESTIMATED;
+
+    FieldRange range() const { return {minimum.value, maximum.value}; }
 };
 
 /** See elvis_runtime.get_field_derivative_bounds; NaN where the plugin cannot tell. */

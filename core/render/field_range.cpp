@@ -14,15 +14,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t block = 65536;
 constexpr std::uint32_t group_size = 32;
-/** Elements of one dispatch: bounds its time. */
-constexpr std::uint32_t elements_a_dispatch = 65536;
-/** shaders/kernels/field_range.comp */
-constexpr std::uint32_t n_points = 343, points_a_dispatch = 7;
-
-struct Parameters {
-    std::uint32_t first, n_elements, component;
-    std::uint32_t first_point, end_point;
-};
 
 void include(FieldRange& range, double lower, double upper) {
     range.lower = std::min(range.lower, lower);
@@ -45,51 +36,6 @@ std::vector<FieldRange> ranges_from_plugin(const RuntimeVolume& volume, std::uin
             // An element with values that are not finite has no range; the others have.
             if (std::isfinite(ranges[index].lower) && std::isfinite(ranges[index].upper)) {
                 include(total[index % n_components], ranges[index].lower, ranges[index].upper);
-            }
-        }
-    }
-    return total;
-}
-
-std::vector<FieldRange> ranges_from_samples(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
-                                            std::uint32_t n_components) {
-    std::vector<FieldRange> total(n_components, {infinity, -infinity});
-    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
-        const auto n_elements = static_cast<std::uint32_t>(volume.classes()[index].n_elements);
-        if (n_elements == 0) {
-            continue;
-        }
-        KernelRequest request;
-        request.name = "field_range of element class " + std::to_string(index);
-        request.kernel = "kernels/field_range.comp";
-        request.watches_loops = true;
-        request.precision = data.precision();
-        request.buffers = data.host_buffers(index);
-        data.add_field(request, index);
-        request.bindings = {{0, BindingType::storage_buffer}};
-        request.push_constant_bytes = sizeof(Parameters);
-        const ComposedKernel kernel(device, request);
-        const Buffer output(device, std::uint64_t{2} * elements_a_dispatch * sizeof(double));
-        const std::array<const Buffer*, 1> bindings = {&output};
-        for (std::uint32_t component = 0; component < n_components; ++component) {
-            for (std::uint32_t first = 0; first < n_elements; first += elements_a_dispatch) {
-                const std::uint32_t count = std::min(elements_a_dispatch, n_elements - first);
-                for (std::uint32_t point = 0; point < n_points; point += points_a_dispatch) {
-                    const Parameters parameters{first, count, component, point, point + points_a_dispatch};
-                    kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
-                }
-                const auto take = [&](const auto& numbers) {
-                    for (std::size_t at = 0; at < numbers.size(); at += 2) {
-                        if (numbers[at] <= numbers[at + 1]) {
-                            include(total[component], static_cast<double>(numbers[at]), static_cast<double>(numbers[at + 1]));
-                        }
-                    }
-                };
-                if (data.precision() == Precision::float64) {
-                    take(output.read_items<double>(std::size_t{2} * count));
-                } else {
-                    take(output.read_items<float>(std::size_t{2} * count));
-                }
             }
         }
     }

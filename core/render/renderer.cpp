@@ -352,8 +352,8 @@ Renderer::~Renderer() = default;
 
 std::array<double, 6> Renderer::bounds() const { return m_impl->data.bounds(); }
 
-FieldRange Renderer::field_values(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {
-    return m_impl->fields.values(field, time_step, certainty);
+FieldExtrema Renderer::field_extrema(const FieldChoice& field, std::uint32_t time_step) {
+    return m_impl->fields.extrema(field, time_step);
 }
 
 const std::vector<Vector3>& Renderer::outline() {

@@ -43,10 +43,10 @@ public:
     /** How far the volume reaches in every direction (core/volume/outline.hpp); found when it is first asked for. */
     const std::vector<Vector3>& outline();
     /**
-     * The values that a field (component or magnitude) takes over the volume at a time step: its extrema, to a thousandth of
-     * their distance where the plugin has bounds, else of samples. An empty range if none is finite.
+     * Extrema of a field (component, magnitude or expression) over the volume at a time step: to a thousandth of their distance
+     * where the plugin has bounds, else of samples.
      */
-    FieldRange field_values(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
+    FieldExtrema field_extrema(const FieldChoice& field, std::uint32_t time_step);
     /** What encloses them, wider, and whether it is certified. */
     FieldRange field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
     /**

@@ -1,10 +1,10 @@
 #include <core/render/field_range.hpp>
+#include <core/render/sampled_range.hpp>
 #include <core/render/shown_field.hpp>
 #include <core/volume/field_extrema.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace elvis {
 
@@ -147,30 +147,26 @@ std::vector<FieldRange> ShownFields::sampled(std::uint32_t field, std::uint32_t 
     return ranges_from_samples(m_device, m_volume, m_data, n_components);
 }
 
-FieldRange ShownFields::values(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {
+const FieldExtrema& ShownFields::extrema(const FieldChoice& field, std::uint32_t time_step) {
+    const std::string name = field.expression ? key(field) : key(field) + "." + std::to_string(field.component);
+    auto known = m_extrema.find({name, time_step});
+    if (known == m_extrema.end()) {
+        known = m_extrema.try_emplace({name, time_step}, found_extrema(field, time_step)).first;
+    }
+    return known->second;
+}
+
+FieldExtrema ShownFields::found_extrema(const FieldChoice& field, std::uint32_t time_step) {
     if (field.expression) {
-        return range(field, time_step, certainty);
+        m_data.select(selection(field, time_step));
+        return extrema_from_samples(m_device, m_volume, m_data, 0, 1);
     }
-    const std::tuple key(field.field, field.component, time_step);
-    auto found = m_values.find(key);
-    if (found == m_values.end()) {
-        FieldRange all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-        elvis_certainty how_sure = ELVIS_ESTIMATED;
-        if (const auto extrema = find_extrema(m_volume, field.field, field.component, time_step)) {
-            how_sure = extrema->certainty;
-            if (extrema->minimum.value <= extrema->maximum.value) {
-                all = {extrema->minimum.value, extrema->maximum.value};
-            }
-        } else {
-            const std::vector<FieldRange> components = sampled(field.field, time_step);
-            all = field.component < 0 ? magnitude_range(components) : components[static_cast<std::size_t>(field.component)];
-        }
-        found = m_values.try_emplace(key, all, how_sure).first;
+    if (const auto found = find_extrema(m_volume, field.field, field.component, time_step)) {
+        return *found;
     }
-    if (certainty) {
-        *certainty = found->second.second;
-    }
-    return found->second.first;
+    const std::uint32_t n_components = m_volume.fields()[field.field].n_components;
+    m_data.select({{{field.field, std::vector<double>(n_components, 0.0)}}, time_step, nullptr});
+    return extrema_from_samples(m_device, m_volume, m_data, field.component, n_components);
 }
 
 FieldRange ShownFields::range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty) {

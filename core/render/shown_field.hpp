@@ -10,7 +10,6 @@
 
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -39,10 +38,10 @@ public:
     ShownComponent component(const FieldChoice& field) const;
 
     /**
-     * The values that the field takes over the volume, from the smallest to the largest (find_extrema in field_extrema.hpp):
-     * what colours go by. Samples on the device where nothing better is to be had, which then has another selection.
+     * Extrema of the field: what colours go by. find_extrema (core/volume/field_extrema.hpp), else refined samples on the
+     * device (sampled_range.hpp), which then has another selection; always the latter of expressions.
      */
-    FieldRange values(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
+    const FieldExtrema& extrema(const FieldChoice& field, std::uint32_t time_step);
 
     /**
      * Encloses those: certified where the plugin says so, and several times wider. Expressions are sampled on the device, which
@@ -58,6 +57,7 @@ public:
 
 private:
     using Ranges = std::pair<std::vector<FieldRange>, elvis_certainty>;
+    FieldExtrema found_extrema(const FieldChoice& field, std::uint32_t time_step);
     std::vector<double> middles(std::uint32_t field, std::uint32_t time_step);
     const Ranges& of_components(std::uint32_t field, std::uint32_t time_step);
     std::vector<FieldRange> sampled(std::uint32_t field, std::uint32_t time_step);
@@ -66,8 +66,7 @@ private:
     const RuntimeVolume& m_volume;
     DeviceVolume& m_data;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Ranges> m_of_components;
-    /** By field, component and time step. */
-    std::map<std::tuple<std::uint32_t, int, std::uint32_t>, std::pair<FieldRange, elvis_certainty>> m_values;
+    std::map<std::pair<std::string, std::uint32_t>, FieldExtrema> m_extrema;
     std::map<std::pair<std::string, std::uint32_t>, FieldRange> m_of_expressions;
     std::map<std::pair<std::string, std::uint32_t>, double> m_errors;
 };

@@ -91,7 +91,7 @@ bool is_flat_on_boundary(const RuntimeVolume& volume, Renderer& renderer, const 
     if (field.expression || !volume.has_evaluation() || volume.is_cut()) {
         return false;
     }
-    const FieldRange all = renderer.field_values(field, time_step);
+    const FieldRange all = renderer.field_extrema(field, time_step).range();
     const FieldRange seen = values_on_boundary(volume, field, time_step);
     return seen.upper - seen.lower < flat_share * (all.upper - all.lower);
 }

@@ -164,9 +164,9 @@ std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& fiel
         return *map.range;
     }
     const std::vector<std::uint32_t> steps = scene.range_steps.empty() ? std::vector{scene.time_step} : scene.range_steps;
-    FieldRange all = renderer.field_values(field, steps.front());
+    FieldRange all = renderer.field_extrema(field, steps.front()).range();
     for (const std::uint32_t step : steps) {
-        const FieldRange range = renderer.field_values(field, step);
+        const FieldRange range = renderer.field_extrema(field, step).range();
         all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
     }
     if (map.is_logarithmic || !(all.lower <= all.upper)) {

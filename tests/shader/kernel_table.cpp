@@ -39,7 +39,7 @@ void add_element_kernels(std::vector<KernelUse>& uses) {
     uses.push_back({.kernel = "face_cones", .element = Element::snippet, .is_for_solids = true, .watches_loops = true});
     uses.push_back({.kernel = "face_samples", .element = Element::snippet, .buffers = {"core_faces"}});
     uses.push_back({.kernel = "linearize", .element = Element::snippet, .watches_loops = true});
-    uses.push_back({.kernel = "field_range", .element = Element::value, .buffers = elements, .watches_loops = true});
+    uses.push_back({.kernel = "sampled_range", .element = Element::value, .buffers = elements, .watches_loops = true});
     uses.push_back(
         {.kernel = "point_values", .element = Element::value, .choices = {{"CORE_GROUP_SIZE", {"64"}}, element_class}});
     uses.push_back({.kernel = "probe_invert", .element = Element::snippet, .is_double_only = true});

@@ -113,7 +113,7 @@ FrameRequest Session::drawn_request(const Scene& scene) {
 FieldRange Session::range(const Scene& scene, const std::optional<std::string>& field) {
     need_precision(scene);
     const std::optional<std::string> text = field ? std::optional(with_distances(*field, scene.surfaces)) : std::nullopt;
-    return m_renderer->field_values(choose_field(*m_volume, text), scene.time_step);
+    return m_renderer->field_extrema(choose_field(*m_volume, text), scene.time_step).range();
 }
 
 Scene Session::first_scene(const std::string& path) {
