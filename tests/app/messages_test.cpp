@@ -61,6 +61,21 @@ TEST_CASE("Info tells the values that a field takes, and what encloses them") {
     CHECK_THAT(place.run("info fichera.h5").out, Catch::Contains("enclosed by the elements' bounds"));
 }
 
+TEST_CASE("Ranges of fields that only the device evaluates reach the closed forms' extrema, and are called sampled") {
+    const Workplace place;
+    const auto check = [&](const std::string& volume, std::size_t field, double minimum, double maximum) {
+        const auto info = nlohmann::json::parse(place.run("info '" ELVIS_SOURCES "/plugins/" + volume + "' --json").out);
+        const auto& found = info["fields"][field];
+        CAPTURE(volume, field);
+        CHECK(found["range_certainty"] == "sampled");
+        CHECK(found["range_by_component"][0][0].get<double>() == Approx(minimum).margin(1e-3 * (maximum - minimum)));
+        CHECK(found["range_by_component"][0][1].get<double>() == Approx(maximum).margin(1e-3 * (maximum - minimum)));
+    };
+    check("analytic/samples/twisted_box.txt", 0, -1.25, 1.25);
+    check("analytic/samples/twisted_box.txt", 1, 0, 2);
+    check("cut_cells/samples/ball.cut", 0, 0, 0.64);
+}
+
 TEST_CASE("A boundary on which the field hardly changes is cut open by default, another one is not") {
     const Workplace place;
     const auto picture = [&](const std::string& options) {
