@@ -49,7 +49,8 @@ CommandFacts facts_of(const CLI::App& command) {
             facts.options.push_back(facts_of(*option));
         }
     }
-    std::ranges::stable_partition(facts.options, [](const OptionFacts& option) { return option.is_positional(); });
+    std::stable_partition(facts.options.begin(), facts.options.end(),
+                          [](const OptionFacts& option) { return option.is_positional(); });
     return facts;
 }
 
