@@ -77,6 +77,7 @@ int run(int argc, char** argv) {
 
 } // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): an exception here is the program's own fault, and is reported as a crash.
 int main(int argc, char** argv) {
     elvis::report_crashes();
     elvis::report_hangs();

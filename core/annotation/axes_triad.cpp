@@ -107,7 +107,8 @@ Mask letter(const Font& font, const Axis& axis, const std::vector<PixelBox>& tak
     constexpr int n_turns = 12;
     for (int turn = 0; turn < n_turns; ++turn) {
         // 0, 30, -30, 60, ... degrees from the axis. An arrow towards the viewer has its letter beside the head.
-        const double away = angle + (turn % 2 == 0 ? 1 : -1) * ((turn + 1) / 2) * std::numbers::pi / 6;
+        const int n_steps = (turn % 2 == 0 ? 1 : -1) * ((turn + 1) / 2);
+        const double away = angle + n_steps * std::numbers::pi / 6;
         const double gap = std::max(0.65 * style.text, 0.11 * style.axes * (1 - length) + 0.6 * style.text);
         const double x = style.axes * axis.direction[0] + gap * std::cos(away);
         const double y = style.axes * axis.direction[1] + gap * std::sin(away);

@@ -15,8 +15,10 @@ HierarchyResult bench_hierarchy(std::uint64_t n_items) {
     std::vector<double> boxes;
     boxes.reserve(6 * n_items);
     for (std::uint64_t item = 0; item < n_items; ++item) {
-        const std::array<double, 3> q = {-1 + h * static_cast<double>(item % n), -1 + h * static_cast<double>(item / n % n),
-                                         -1 + h * static_cast<double>(item / (n * n))};
+        std::array<double, 3> q{};
+        for (std::uint64_t axis = 0, rest = item; axis < 3; ++axis, rest /= n) {
+            q[axis] = -1 + h * static_cast<double>(rest % n);
+        }
         std::array<double, 3> lower{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             lower[axis] = q[axis] + 0.06 * std::sin(M_PI * q[(axis + 1) % 3]) * std::cos(M_PI * q[(axis + 2) % 3]);

@@ -462,7 +462,10 @@ double largest_difference(const Frame& frame, const Frame& reference) {
             continue;
         }
         const double off = std::abs(frame.color[i] - reference.color[i]);
-        largest = std::max(largest, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
+        if (std::isnan(off)) {
+            return std::numeric_limits<double>::infinity();
+        }
+        largest = std::max(largest, off);
     }
     return largest;
 }

@@ -35,7 +35,7 @@ private:
 
     std::ofstream& m_file;
     std::streampos m_begin;
-    std::uint64_t m_n_bytes;
+    [[maybe_unused]] std::uint64_t m_n_bytes; // Only assertions ask for it.
     std::uint64_t m_n_given = 0;
     std::vector<std::byte> m_block;
     std::vector<unsigned char> m_compressed;

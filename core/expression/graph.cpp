@@ -289,7 +289,7 @@ std::optional<NodeId> Graph::derivative(NodeId id, std::uint8_t axis, bool is_wo
 }
 
 std::optional<NodeId> Graph::leaf_derivative(const Node& node, std::uint8_t axis, bool is_world) {
-    const auto [i, j, k] = node.index;
+    const std::uint8_t i = node.index[0], j = node.index[1];
     const auto of_field = [&](Operation operation, std::uint8_t first, std::uint8_t second) {
         return field_leaf(operation, node.field, node.component, first, second);
     };

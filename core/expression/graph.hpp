@@ -81,7 +81,7 @@ struct Node {
     std::uint32_t component = 0;
     std::array<std::uint8_t, 3> index{};
 
-    friend auto operator<=>(const Node&, const Node&) = default;
+    friend auto operator<=>(const Node&, const Node&) = default; // NOLINT(modernize-use-nullptr): clang-tidy's own 0
 };
 
 std::size_t n_operands(Operation operation);

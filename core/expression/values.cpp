@@ -244,8 +244,9 @@ Value ValueBuilder::of_field(const std::string& word, const Value& value, std::s
     if (word == "q_criterion") {
         // |W|^2 - |S|^2 = -trace(A^2) with A = grad(v).
         NodeId trace = zero;
-        for (std::uint8_t i = 0; i < value.entries.size(); ++i) {
-            for (std::uint8_t j = 0; j < value.entries.size(); ++j) {
+        const auto n = static_cast<std::uint8_t>(value.entries.size());
+        for (std::uint8_t i = 0; i < n; ++i) {
+            for (std::uint8_t j = 0; j < n; ++j) {
                 trace = plus(trace, m_graph.binary(Operation::multiply, by(i, j), by(j, i)));
             }
         }

@@ -84,10 +84,10 @@ Crossing<Real> next_crossing(const Polynomial<Real>& bernstein, Real error, std:
         const Walk here = walk;
         const Polynomial<Real> cell = cell_of(bernstein, here.level, here.part);
         const Real first = cell[0], last = cell[cell.degree];
-        const auto [least, most] = range(cell);
+        const std::array<Real, 2> bounds = range(cell); // A structured binding, captured below, is beyond clang 14.
         // NaN has no value below.
-        const auto below = std::partition_point(values.begin(), values.end(), [&](Real v) { return v < least - error; });
-        const auto above = std::partition_point(values.begin(), values.end(), [&](Real v) { return v <= most + error; });
+        const auto below = std::partition_point(values.begin(), values.end(), [&](Real v) { return v < bounds[0] - error; });
+        const auto above = std::partition_point(values.begin(), values.end(), [&](Real v) { return v <= bounds[1] + error; });
         const auto n_below = static_cast<std::uint32_t>(below - values.begin());
         const auto n_reached = static_cast<std::uint32_t>(above - below);
         if (here.rank >= n_reached) {
@@ -98,7 +98,7 @@ Crossing<Real> next_crossing(const Polynomial<Real>& bernstein, Real error, std:
         const std::uint32_t index = rises ? n_below + here.rank : n_below + n_reached - 1 - here.rank;
         const Real value = values[index], from = first - value, to = last - value;
         const bool is_clear = std::abs(from) > error && std::abs(to) > error;
-        const bool is_small = most - least <= 2 * error || here.level == walk_levels<Real>;
+        const bool is_small = bounds[1] - bounds[0] <= 2 * error || here.level == walk_levels<Real>;
         const bool is_isolated = n_reached == 1 && is_clear && variations(cell, value) == 1;
         if (!is_small && !is_isolated && !is_monotone(cell)) {
             walk = {here.level + 1, here.part * 2, 0};

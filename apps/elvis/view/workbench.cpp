@@ -59,7 +59,7 @@ void Workbench::open(const std::string& path) {
     }
 }
 
-void Workbench::open_scene(Scene scene, std::string file, std::string path) {
+void Workbench::open_scene(Scene scene, const std::string& file, const std::string& path) {
     scene.size = file.empty() ? m_model.scene().size : scene.size;
     const auto job = [this, scene = std::move(scene), file, path](Session& session) mutable -> FrameWorker::Answer {
         if (file.empty()) {

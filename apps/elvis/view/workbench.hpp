@@ -105,7 +105,7 @@ public:
 private:
     /** Adds the values at some more points to a histogram, and then asks for more. */
     void sample(const std::optional<std::string>& field, const std::string& key, unsigned piece);
-    void open_scene(Scene scene, std::string file, std::string path);
+    void open_scene(Scene scene, const std::string& file, const std::string& path);
     std::string field_key(const std::optional<std::string>& field) const;
     void take(DrawAnswer answer, double showing_milliseconds);
     void take(const ConversionResult& result);
