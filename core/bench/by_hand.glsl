@@ -5,7 +5,7 @@
 // The host defines BY_HAND_GEOMETRY, BY_HAND_FIELD and BY_HAND_ORIGINS, the buffers; rows of four numbers a record (_ROWS); and
 // BY_HAND_TEXELS.
 
-#include "library/reference_shape.glsl"
+#include "element/reference_shape.glsl"
 
 #if BY_HAND_TEXELS
 #define BY_HAND_ROW(buffer, row) texelFetch(buffer, int(row))

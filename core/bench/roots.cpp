@@ -112,7 +112,7 @@ Answers on_device(const Device& device, const std::vector<Polynomial<double>>& p
     const auto size = static_cast<std::size_t>(degree + 1);
     KernelRequest request;
     request.name = "bench_roots";
-    request.kernel = "kernels/bench_roots.comp";
+    request.kernel = "bench/bench_roots.comp";
     request.precision = sizeof(Real) == 8 ? Precision::float64 : Precision::float32;
     request.text = segment::segment_glsl(segment::fixed_plan(degree));
     request.defines = {{"CORE_COLLEAGUE", by_colleague ? "1" : "0"}};

@@ -29,7 +29,7 @@ UnitResult bench_unit(const Device& device, const PluginRegistry& registry, cons
     data.select(0, 0, {0.0});
     KernelRequest request;
     request.name = "bench_unit";
-    request.kernel = "kernels/bench_unit.comp";
+    request.kernel = "bench/bench_unit.comp";
     request.instances = {data.instance(0)};
     request.bindings = {{0, BindingType::storage_buffer}};
     request.push_constant_bytes = sizeof(Parameters);

@@ -31,7 +31,7 @@ void check_compilation(Context& context) {
                     context.progress("compiling " + where);
                     KernelRequest request;
                     request.name = "conformance";
-                    request.kernel = "kernels/conformance.comp";
+                    request.kernel = "conformance/conformance.comp";
                     request.precision = precision;
                     // Differences in their place are the host's, and long to compile.
                     constexpr std::uint32_t hessians = ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN;

@@ -62,7 +62,7 @@ const ComposedKernel& DeviceSampler::kernel(std::uint32_t element_class, const S
     if (!kernel) {
         KernelRequest request;
         request.name = "conformance class " + std::to_string(element_class);
-        request.kernel = "kernels/conformance.comp";
+        request.kernel = "conformance/conformance.comp";
         request.precision = m_precision;
         request.with_second_derivatives = options.with_hessians;
         request.is_debug_build = options.is_debug_build;

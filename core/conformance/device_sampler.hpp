@@ -27,7 +27,7 @@ struct SamplePoint {
 /** Columns of dx/dxi: entry 3j + i is dx_i / dxi_j. */
 using Matrix = std::array<double, 9>;
 
-/** In the order of shaders/kernels/conformance.comp. Positions are relative to the element's origin. */
+/** In the order of shaders/conformance/conformance.comp. Positions are relative to the element's origin. */
 struct Sample {
     double value;
     double gradient_value;

@@ -94,7 +94,7 @@ void check_single(Context& context, const RuntimeVolume& volume, std::vector<Sam
     }
     const auto expected = exact.sample(points), found = single.sample(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        // What the core counts with (shaders/library/inside.glsl).
+        // What the core counts with (shaders/element/inside.glsl).
         const double most = 16 * 0x1p-24 * (std::abs(expected[i].inside) + expected[i].inside_bounds[0]);
         if (!(std::abs(found[i].inside - expected[i].inside) <= most)) {
             complaints.add(place(volume, points[i]) + ": elvis_inside is " + text_of(found[i].inside) + " in float32 and " +

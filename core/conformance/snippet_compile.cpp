@@ -111,7 +111,7 @@ std::vector<std::pair<std::string, std::string>> stand_ins(const AllNames& names
 
 void compile(KernelRequest request, Precision precision) {
     request.precision = precision;
-    request.kernel = "kernels/conformance.comp";
+    request.kernel = "conformance/conformance.comp";
     request.with_second_derivatives = true;
     compile_shader(compose_text(request), request.name);
 }
@@ -207,7 +207,7 @@ SnippetReport compile_in_plugin(const std::string& path, Subject subject) {
                 if (!is_replaced) {
                     continue;
                 }
-                request.kernel = "kernels/conformance.comp";
+                request.kernel = "conformance/conformance.comp";
                 request.precision = precision;
                 request.with_second_derivatives = true;
                 compile_shader(compose_text(device, request), request.name);

@@ -16,7 +16,7 @@ using namespace expression_glsl;
 
 namespace {
 
-const char* const real_includes = "#include \"library/expression.glsl\"\n";
+const char* const real_includes = "#include \"field/expression.glsl\"\n";
 
 std::vector<NodeId> roots_with_gradient(const Expression& expression) {
     const auto& [d0, d1, d2] = expression.gradient().value();
@@ -74,7 +74,7 @@ std::string value_glsl(const Expression& expression, const ExpressionClass& elem
 
 std::string gradient_glsl(const Expression& expression, const ExpressionClass& element_class) {
     if (!expression.gradient()) {
-        return "#include \"library/shown_gradient_default.glsl\"\n";
+        return "#include \"field/shown_gradient_default.glsl\"\n";
     }
     const std::vector<NodeId> needed = expression.graph().needed(roots_with_gradient(expression));
     const LeafWriter leaves(expression, element_class, needed);
@@ -100,8 +100,8 @@ bool has_certified_model(const Expression& expression, const ExpressionClass& el
 
 std::string model_glsl(const Expression& expression, const ExpressionClass& element_class) {
     if (!has_certified_model(expression, element_class)) {
-        return "#include \"library/model.glsl\"\n" + gradient_glsl(expression, element_class) +
-               "#include \"library/estimated_model.glsl\"\n";
+        return "#include \"arithmetic/model.glsl\"\n" + gradient_glsl(expression, element_class) +
+               "#include \"field/estimated_model.glsl\"\n";
     }
     const std::vector<NodeId> needed = expression.graph().needed({expression.value()});
     LeafWriter leaves(expression, element_class, needed);
@@ -126,8 +126,8 @@ std::string model_glsl(const Expression& expression, const ExpressionClass& elem
         }
         return call("core_model_constant", {leaves.leaf(node)});
     };
-    std::string text = "#include \"library/model.glsl\"\n#include \"library/model_choice.glsl\"\n#include "
-                       "\"library/leaf_bounds.glsl\"\n" +
+    std::string text = "#include \"arithmetic/model.glsl\"\n#include \"arithmetic/model_choice.glsl\"\n#include "
+                       "\"field/leaf_bounds.glsl\"\n" +
                        commented(expression) +
                        "core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell, out elvis_real value) {\n" +
                        leaves.declarations();
@@ -192,7 +192,7 @@ std::string error_glsl(const Expression& expression, const ExpressionClass& elem
     const Graph& graph = expression.graph();
     const std::vector<NodeId> needed = graph.needed({expression.value()});
     const LeafWriter leaves(expression, element_class, needed);
-    std::string text = std::string(real_includes) + "#include \"library/precision.glsl\"\n" + commented(expression) +
+    std::string text = std::string(real_includes) + "#include \"arithmetic/precision.glsl\"\n" + commented(expression) +
                        "elvis_real core_shown_error(uint element, elvis_vec3 xi) {\n" + leaves.declarations();
     NodeWriter nodes(graph, needed, dialect_of(leaves));
     std::string errors;
@@ -244,7 +244,7 @@ std::string implicit_glsl(const Expression& expression) {
     };
     const std::vector<NodeId> of_value = graph.needed({expression.value()});
     std::string text = std::string(real_includes) +
-                       "#include \"library/interval.glsl\"\n#include \"library/interval_choice.glsl\"\n" +
+                       "#include \"arithmetic/interval.glsl\"\n#include \"arithmetic/interval_choice.glsl\"\n" +
                        commented(expression);
     const NodeWriter::Dialect reals = real_dialect(leaf, [](const Node&) { return 0.0; });
     text += "elvis_real core_implicit_value(elvis_vec3 x) {\n" + value_body(expression, reals);

@@ -6,13 +6,13 @@
  *     elvis_real core_shown_value(uint element, elvis_vec3 xi)
  *     void core_shown_gradient(uint element, elvis_vec3 xi, out elvis_real value, out elvis_vec3 gradient)   by xi
  *     core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell, out elvis_real value)
- *     bool core_is_model_estimated(uint element)   (both by shaders/library/model.glsl)
+ *     bool core_is_model_estimated(uint element)   (both by shaders/arithmetic/model.glsl)
  *
  * and for implicit expressions, without any instance,
  *
  *     elvis_real core_implicit_value(elvis_vec3 x)
  *     void core_implicit(elvis_vec3 x, out elvis_real value, out elvis_vec3 gradient)
- *     core_interval core_implicit_range(core_interval x, core_interval y, core_interval z)   (shaders/library/interval.glsl)
+ *     core_interval core_implicit_range(core_interval x, core_interval y, core_interval z)   (shaders/arithmetic/interval.glsl)
  *     core_interval core_implicit_slopes(core_interval x, core_interval y, core_interval z,
  *                                        out core_interval dx, out core_interval dy, out core_interval dz)
  *

@@ -15,7 +15,7 @@ constexpr std::size_t block_size = 1u << 16;
 // local_size_x of the kernels.
 constexpr std::size_t group_size = 32;
 
-// As in shaders/kernels/probe_invert.comp and probe_evaluate.comp.
+// As in shaders/probe/probe_invert.comp and probe_evaluate.comp.
 struct DevicePoint {
     double coordinates[3];
     std::uint32_t element;
@@ -27,7 +27,7 @@ struct DeviceAnswer {
     std::uint32_t status;
     std::uint32_t unused;
 };
-// As in shaders/library/newton.glsl.
+// As in shaders/element/newton.glsl.
 constexpr std::uint32_t status_converged = 1;
 constexpr std::uint32_t status_outside = 2;
 
@@ -108,7 +108,7 @@ std::vector<Inversion> DeviceEvaluator::invert(std::span<const InversionQuery> q
             const Buffer input(m_device, count * sizeof(DevicePoint));
             const Buffer output(m_device, count * sizeof(DeviceAnswer));
             input.write_items(std::span<const DevicePoint>(points));
-            run("kernels/probe_invert.comp", c, std::as_bytes(std::span(&m_position_error, 1)), input, output, count);
+            run("probe/probe_invert.comp", c, std::as_bytes(std::span(&m_position_error, 1)), input, output, count);
             const auto answers = output.read_items<DeviceAnswer>(count);
             for (std::size_t i = 0; i < count; ++i) {
                 const DeviceAnswer& answer = answers[i];
@@ -147,7 +147,7 @@ std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uin
             const Buffer input(m_device, count * sizeof(DevicePoint));
             const Buffer output(m_device, n_numbers * sizeof(double));
             input.write_items(std::span<const DevicePoint>(inputs));
-            run("kernels/probe_evaluate.comp", c, {}, input, output, count);
+            run("probe/probe_evaluate.comp", c, {}, input, output, count);
             const auto numbers = output.read_items<double>(n_numbers);
             for (std::size_t i = 0; i < count; ++i) {
                 FieldSample& sample = samples[indices[first + i]];
@@ -184,7 +184,7 @@ std::vector<ExpressionSample> DeviceEvaluator::evaluate(const std::shared_ptr<co
             const Buffer input(m_device, count * sizeof(DevicePoint));
             const Buffer output(m_device, 4 * count * sizeof(double));
             input.write_items(std::span<const DevicePoint>(inputs));
-            run("kernels/probe_expression.comp", c, {}, input, output, count);
+            run("probe/probe_expression.comp", c, {}, input, output, count);
             const auto numbers = output.read_items<double>(4 * count);
             for (std::size_t i = 0; i < count; ++i) {
                 const double* at = &numbers[4 * i];

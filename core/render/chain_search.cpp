@@ -10,7 +10,7 @@ namespace elvis {
 
 namespace {
 
-/** Words of a tile's list: shaders/library/ray_tiles.glsl. */
+/** Words of a tile's list: shaders/tiles/ray_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
 enum Count : std::size_t { seeking, evaluations, n_counts };
@@ -56,7 +56,7 @@ ChainSearch::ChainSearch(const Device& device, const DeviceVolume& data, const E
 KernelRequest ChainSearch::request(const Range& range, const char* kernel) const {
     KernelRequest request;
     request.name = std::string(kernel) + " of element class " + std::to_string(range.element_class);
-    request.kernel = std::string("kernels/") + kernel + ".comp";
+    request.kernel = std::string(kernel) + ".comp";
     request.precision = m_data.precision();
     request.buffers = m_chains.host_buffers(range.element_class);
     for (const FetchBuffer& buffer : m_data.host_buffers(range.element_class)) {
@@ -81,14 +81,14 @@ void ChainSearch::compile() {
         }
         const Range& range = m_ranges[index];
         if (!m_are_given) {
-            KernelRequest tiles = request(range, "ray_tiles");
+            KernelRequest tiles = request(range, "tiles/ray_tiles");
             tiles.defines.emplace_back("CORE_TESTS_STARTS", "1");
             tiles.instances = {m_data.instance(range.element_class)};
             add_storage_buffers(tiles, 2);
             tiles.push_constant_bytes = sizeof(TilesParameters);
             kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
         }
-        KernelRequest seek = request(range, "chain_seek");
+        KernelRequest seek = request(range, "segments/chain_seek");
         seek.instances = {m_data.instance(range.element_class)};
         add_storage_buffers(seek, 4);
         seek.push_constant_bytes = sizeof(SeekParameters);

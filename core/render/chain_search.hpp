@@ -1,6 +1,6 @@
 /**
  * @file chain_search.hpp
- * Finds where rays begin chains of elements (shaders/kernels/ray_tiles.comp, chain_seek.comp), for all that goes along rays.
+ * Finds where rays begin chains of elements (shaders/tiles/ray_tiles.comp, chain_seek.comp), for all that goes along rays.
  */
 #pragma once
 
@@ -23,7 +23,7 @@ struct ChainRays {
     std::uint32_t width = 0, height = 0;
     /** Rows of a CutPlaneGeometry. */
     const Buffer& frame;
-    /** One record a ray, which begins as core_chain does (shaders/library/chain_state.glsl). */
+    /** One record a ray, which begins as core_chain does (shaders/segments/chain_state.glsl). */
     const Buffer& states;
     /** The rays themselves; null if they are those of the pixels. */
     const Buffer* given = nullptr;

@@ -62,7 +62,7 @@ KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines) {
     KernelRequest request =
         pixel_kernel(std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : ""), precision,
                      {BindingType::uniform_buffer, storage, storage, storage, storage, storage}, sizeof(ColorParameters));
-    request.kernel = "kernels/color.comp";
+    request.kernel = "picture/color.comp";
     request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
     request.defines.emplace_back("CORE_HAS_LINES", has_lines ? "1" : "0");
     if (is_lit) {

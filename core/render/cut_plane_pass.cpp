@@ -12,7 +12,7 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t tile_height = 16;
-/** Nodes of a tile and their number: shaders/library/cut_tiles.glsl. */
+/** Nodes of a tile and their number: shaders/tiles/cut_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;
 /**
@@ -85,7 +85,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.buffers = data.host_buffers(index);
         request.defines = tile_size;
         request.name = "cut_tiles";
-        request.kernel = "kernels/cut_tiles.comp";
+        request.kernel = "cut_surface/cut_tiles.comp";
         request.bindings = bindings(3);
         request.push_constant_bytes = sizeof(TilesParameters);
         ClassKernels kernels;
@@ -97,13 +97,13 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         }
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
         request.name = "cut_plane of element class " + std::to_string(index);
-        request.kernel = "kernels/cut_plane.comp";
+        request.kernel = "cut_surface/cut_plane.comp";
         request.bindings = bindings(7);
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(m_device, request);
         if (m_with_lines) {
             request.name = "cut_lines of element class " + std::to_string(index);
-            request.kernel = "kernels/cut_lines.comp";
+            request.kernel = "lines/cut_lines.comp";
             request.bindings = bindings(6);
             request.push_constant_bytes = sizeof(LinesParameters);
             kernels.lines = std::make_unique<ComposedKernel>(m_device, request);
@@ -111,7 +111,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         m_kernels.push_back(std::move(kernels));
     }
     if (m_with_lines) {
-        KernelRequest request = pixel_kernel("list_pixels", m_precision,
+        KernelRequest request = pixel_kernel("picture/list_pixels", m_precision,
                                              {BindingType::storage_buffer, BindingType::storage_buffer,
                                               BindingType::storage_buffer, BindingType::storage_buffer},
                                              sizeof(ListParameters));

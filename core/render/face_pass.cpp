@@ -11,7 +11,7 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t tile_height = 16;
-/** Words of a tile's list: shaders/library/ray_tiles.glsl. */
+/** Words of a tile's list: shaders/tiles/ray_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
@@ -46,7 +46,7 @@ const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draw
     if (!kernel) {
         KernelRequest own = request;
         const bool is_careful = what == Draws::careful;
-        own.kernel = is_careful ? "kernels/faces_careful.comp" : "kernels/faces.comp";
+        own.kernel = is_careful ? "boundary/faces_careful.comp" : "boundary/faces.comp";
         own.name = std::string(is_careful ? "faces_careful" : "faces") + " of element class " + std::to_string(element_class);
         own.defines.emplace_back("CORE_DESCENDS", what == Draws::deep_pixels ? "1" : "0");
         kernel = std::make_unique<ComposedKernel>(device, own);
@@ -71,7 +71,7 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                            {"CORE_LISTS_TILES", "1"}};
         request.name = "ray_tiles";
-        request.kernel = "kernels/ray_tiles.comp";
+        request.kernel = "tiles/ray_tiles.comp";
         request.bindings = {
             {0, BindingType::uniform_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(TilesParameters);

@@ -57,7 +57,7 @@ double rounding_of_expression(const Device& device, const RuntimeVolume& volume,
         }
         KernelRequest request;
         request.name = "expression_error of element class " + std::to_string(index);
-        request.kernel = "kernels/expression_error.comp";
+        request.kernel = "field/expression_error.comp";
         request.watches_loops = true;
         request.precision = data.precision();
         request.buffers = data.host_buffers(index);

@@ -12,7 +12,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /** Flags as callers know them, and their counts. */
 void settle_flags(std::vector<Mark>& marks, FrameCounts& counts) {
     for (Mark& mark : marks) {
-        // The upper half: of surfaces that are not seen there (shaders/kernels/merge.comp).
+        // The upper half: of surfaces that are not seen there (shaders/picture/merge.comp).
         mark.flags = (mark.flags | (mark.flags >> 16u)) & 0xffffu;
         // One element may decide what another leaves open.
         mark.flags &= (mark.flags & pixel_flag::contour) != 0 ? ~pixel_flag::contour_undecided : ~0u;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t tile_height = 16;
 /** Rows of an invocation: all its pixels share the iterations that drivers grant. */
 constexpr std::uint32_t rows_an_invocation = 4;
-/** Of a tile's list, and its words: shaders/library/ray_tiles.glsl. */
+/** Of a tile's list, and its words: shaders/tiles/ray_tiles.glsl. */
 constexpr std::uint32_t tile_capacity = 127;
 constexpr std::uint32_t tile_stride = 2 * tile_capacity + 2;
 constexpr std::uint32_t group_size = 32;
@@ -50,12 +50,12 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
         own.defines.emplace_back("CORE_HAS_ONE_ISOVALUE", has_one_isovalue ? "1" : "0");
         if (role == Role::tiles) {
             own.name = "isosurface_tiles";
-            own.kernel = "kernels/ray_tiles.comp";
+            own.kernel = "tiles/ray_tiles.comp";
             own.defines.emplace_back("CORE_LISTS_TILES", "1");
             own.push_constant_bytes = sizeof(TilesParameters);
         } else {
             own.name = "isosurface";
-            own.kernel = "kernels/isosurface.comp";
+            own.kernel = "isosurface/isosurface.comp";
             own.defines.emplace_back("CORE_DESCENDS", role == Role::deep_pixels ? "1" : "0");
             for (std::uint32_t binding = 4; binding <= 10; ++binding) {
                 own.bindings.push_back({binding, BindingType::storage_buffer});

@@ -42,7 +42,7 @@ const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request
     const auto& [element_class, uses_colleague, degree] = key;
     KernelRequest own = request;
     own.name = "isosurface_projection of element class " + std::to_string(element_class);
-    own.kernel = "kernels/isosurface_projection.comp";
+    own.kernel = "isosurface/isosurface_projection.comp";
     own.text += segment::segment_glsl(degree == 0 ? segment::nested_plan() : segment::fixed_plan(static_cast<int>(degree)));
     own.defines.emplace_back("CORE_USES_COLLEAGUE", uses_colleague ? "1" : "0");
     own.defines.emplace_back("CORE_PLAIN", degree == 0 ? "0" : "1");
@@ -56,7 +56,7 @@ const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request
 std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags) {
     if (!m_list_kernel) {
         m_list_kernel = std::make_unique<ComposedKernel>(
-            m_device, pixel_kernel("list_open_pixels", Precision::float32,
+            m_device, pixel_kernel("isosurface/list_open_pixels", Precision::float32,
                                    {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer},
                                    sizeof(ListParameters)));
     }

@@ -1,6 +1,6 @@
 /**
  * @file isosurface_projection.hpp
- * Draws isosurfaces by projection of the field along rays, in listed pixels (shaders/kernels/isosurface_projection.comp).
+ * Draws isosurfaces by projection of the field along rays, in listed pixels (shaders/isosurface/isosurface_projection.comp).
  */
 #pragma once
 

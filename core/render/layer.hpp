@@ -19,7 +19,7 @@ inline std::size_t sample_bytes(Precision precision) { return precision == Preci
 /** Bytes of one core_place. */
 inline std::size_t place_bytes(Precision precision) { return precision == Precision::float64 ? 32 : 20; }
 
-/** One core_sample as the device writes it (shaders/library/samples.glsl). */
+/** One core_sample as the device writes it (shaders/picture/samples.glsl). */
 template <class Real> struct Sample {
     Real value, depth;
     std::uint32_t number;
@@ -74,7 +74,7 @@ struct LayerTarget {
     const Buffer* beyond = nullptr;
     /** Else the pass may leave the layer's normals as they are. */
     bool wants_normals = true;
-    /** One core_place a pixel (shaders/library/place.glsl), of passes other than of planes. Null: not wanted. */
+    /** One core_place a pixel (shaders/element/place.glsl), of passes other than of planes. Null: not wanted. */
     const Buffer* places = nullptr;
     /** Rows of pixels from which on, and before which, something is wanted. */
     std::uint32_t first_row = 0, end_row = 0xffffffffu;

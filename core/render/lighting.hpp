@@ -38,7 +38,7 @@ struct Lighting {
     double exponent = 30;
 };
 
-/** What shaders/library/lighting.glsl reads: rows of four numbers, places relative to `reference`. */
+/** What shaders/picture/lighting.glsl reads: rows of four numbers, places relative to `reference`. */
 std::vector<double> lighting_rows(const Lighting& lighting, const std::array<double, 3>& reference);
 
 } // namespace elvis

@@ -123,7 +123,7 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
         }
         m_data.add_field(request, index, true);
         if (m_on_own_boundary) {
-            request.text += "#include \"library/whole_elements.glsl\"\n";
+            request.text += "#include \"element/whole_elements.glsl\"\n";
         }
         request.defines = {{"CORE_ON_FACES", m_faces ? "1" : "0"},
                            {"CORE_WITH_CONTOURS", with_contours ? "1" : "0"},
@@ -132,23 +132,23 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
         const auto make = [&](const char* kernel, std::uint32_t last_binding, std::size_t push_bytes) {
             KernelRequest own = request;
             own.name = std::string(kernel).append(" of element class ").append(std::to_string(index));
-            own.kernel = std::string("kernels/").append(kernel).append(".comp");
+            own.kernel = std::string(kernel).append(".comp");
             own.bindings = bindings_up_to(last_binding);
             own.push_constant_bytes = static_cast<std::uint32_t>(push_bytes);
             return std::make_unique<ComposedKernel>(m_device, own);
         };
         ClassKernels kernels;
         kernels.element_class = index;
-        kernels.settle = make("settle_lines", m_faces ? 7 : 8, sizeof(SettleParameters));
+        kernels.settle = make("lines/settle_lines", m_faces ? 7 : 8, sizeof(SettleParameters));
         if (m_faces) {
-            kernels.search = make("face_lines", 8, sizeof(ListedParameters));
-            kernels.exclude = make("face_lines_careful", 8, sizeof(ListedParameters));
+            kernels.search = make("lines/face_lines", 8, sizeof(ListedParameters));
+            kernels.exclude = make("lines/face_lines_careful", 8, sizeof(ListedParameters));
         } else {
             // The shape's rows, where they are read.
             const auto make_search = [&](bool by_segments) {
                 KernelRequest own = request;
                 own.name = std::string("surface_lines of element class ").append(std::to_string(index));
-                own.kernel = "kernels/surface_lines.comp";
+                own.kernel = "lines/surface_lines.comp";
                 own.defines.insert(own.defines.end(), {{"CORE_FEW_SUBDIVISIONS", std::to_string(few_subdivisions) + "u"},
                                                        {"CORE_BY_SEGMENTS", by_segments ? "1" : "0"},
                                                        {"CORE_HAS_ENDS", "0"},

@@ -29,7 +29,8 @@ enum Count : std::size_t { live, open, n_counts };
 
 KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::uint32_t tile_height, std::size_t push_bytes) {
     constexpr BindingType buffer = BindingType::storage_buffer;
-    KernelRequest request = pixel_kernel("live_rays", precision, {buffer, buffer, buffer, buffer, buffer, buffer}, push_bytes);
+    KernelRequest request =
+        pixel_kernel("volume/live_rays", precision, {buffer, buffer, buffer, buffer, buffer, buffer}, push_bytes);
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                        {"CORE_GROUPS", std::to_string(groups_a_work_group) + "u"}};

@@ -33,10 +33,10 @@ ComposedKernel storage_kernel(const Device& device, Precision precision, const c
 
 MergePass::MergePass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision),
-      m_merge(storage_kernel(device, precision, "merge", 11, sizeof(MergeParameters))),
-      m_take(storage_kernel(device, precision, "take_layer", 5, sizeof(PixelParameters))),
-      m_order(storage_kernel(device, precision, "order_layers", 4, sizeof(PixelParameters))),
-      m_blend(storage_kernel(device, precision, "blend", 4, sizeof(PixelParameters))),
+      m_merge(storage_kernel(device, precision, "picture/merge", 11, sizeof(MergeParameters))),
+      m_take(storage_kernel(device, precision, "picture/take_layer", 5, sizeof(PixelParameters))),
+      m_order(storage_kernel(device, precision, "picture/order_layers", 4, sizeof(PixelParameters))),
+      m_blend(storage_kernel(device, precision, "picture/blend", 4, sizeof(PixelParameters))),
       m_counts(device, 3 * sizeof(std::uint32_t)) {}
 
 void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background) {

@@ -12,7 +12,7 @@ struct Parameters {
 } // namespace
 
 OcclusionPass::OcclusionPass(const Device& device, Precision precision)
-    : m_kernel(device, pixel_kernel("occlude", precision,
+    : m_kernel(device, pixel_kernel("picture/occlude", precision,
                                     {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
                                      BindingType::storage_buffer},
                                     sizeof(Parameters))),

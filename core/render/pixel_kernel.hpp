@@ -19,12 +19,12 @@ inline constexpr std::uint32_t pixel_group_size = 256;
 /** Groups along x; more pixels go along y, where a device need not allow more than 65535: those of nearly 2^31 pixels. */
 inline constexpr std::uint32_t pixel_groups_x = 128;
 
-/** Request of kernels/NAME.comp with these bindings from 0. */
+/** Request of shaders/NAME.comp with these bindings from 0. */
 inline KernelRequest pixel_kernel(const std::string& name, Precision precision, std::initializer_list<BindingType> bindings,
                                   std::size_t push_bytes) {
     KernelRequest request;
     request.name = name;
-    request.kernel = "kernels/" + name + ".comp";
+    request.kernel = name + ".comp";
     request.precision = precision;
     request.defines = {{"CORE_GROUP_SIZE", std::to_string(pixel_group_size) + "u"}};
     for (const BindingType type : bindings) {

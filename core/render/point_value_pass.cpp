@@ -27,7 +27,7 @@ PointValuePass::PointValuePass(const Device& device, const RuntimeVolume& volume
         }
         KernelRequest request;
         request.name = "point_values of element class " + std::to_string(index);
-        request.kernel = "kernels/point_values.comp";
+        request.kernel = "field/point_values.comp";
         request.precision = data.precision();
         data.add_field(request, index);
         request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}, {"CORE_CLASS", std::to_string(index) + "u"}};

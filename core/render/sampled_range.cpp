@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t group_size = 32;
 /** Boxes of one dispatch: bounds its time. */
 constexpr std::size_t boxes_a_dispatch = 65536;
-/** shaders/kernels/sampled_range.comp */
+/** shaders/field/sampled_range.comp */
 constexpr std::uint32_t samples_a_direction = 7, n_samples = 343, samples_a_dispatch = 7;
 /** Of a sample's distance from the best one over that of the extrema: nearer ones are refined, but no more than some. */
 constexpr double refined_share = 0.1;
@@ -76,7 +76,7 @@ private:
     static KernelRequest request_of(const DeviceVolume& data, std::uint32_t element_class) {
         KernelRequest request;
         request.name = "sampled_range of element class " + std::to_string(element_class);
-        request.kernel = "kernels/sampled_range.comp";
+        request.kernel = "field/sampled_range.comp";
         request.watches_loops = true;
         request.precision = data.precision();
         request.buffers = data.host_buffers(element_class);
@@ -112,7 +112,7 @@ std::vector<Box> whole_elements(const ClassInfo& info) {
     return boxes;
 }
 
-/** A sample, as core_expand (shaders/library/expand.glsl) takes it. */
+/** A sample, as core_expand (shaders/element/expand.glsl) takes it. */
 std::array<double, 3> sample_of(const Box& box, std::uint32_t sample) {
     std::array<double, 3> eta{};
     for (std::size_t d = 0; d < 3; ++d) {

@@ -16,7 +16,7 @@ constexpr std::uint32_t list_capacity = 48;
 /** More than any ray has chains, and chains parts in different classes, and their parts take dispatches. */
 constexpr std::uint32_t most_rounds = 4096;
 constexpr std::uint32_t estimated_segment = 0x80000000u;
-/** Of shaders/library/chain_state.glsl. */
+/** Of shaders/segments/chain_state.glsl. */
 constexpr std::uint32_t ray_seeks = 0, ray_ends = 2, no_element = 0xffffffffu;
 constexpr double far = 3e38;
 
@@ -32,7 +32,7 @@ struct MarchParameters {
     float extent;
 };
 
-/** Of shaders/library/segment_state.glsl. */
+/** Of shaders/segments/segment_state.glsl. */
 template <class Real> struct RayState {
     Real done = -static_cast<Real>(far), chain = static_cast<Real>(far), start = -static_cast<Real>(far);
     Real done_error = 0, chain_error = 0, sum = 0;
@@ -115,7 +115,7 @@ SegmentPass::Kernels& SegmentPass::kernels_for(bool are_given) {
                                     {{"CORE_MAKES_SEGMENTS", "1"}, {"CORE_RAYS_ARE_GIVEN", are_given ? "1" : "0"}}, are_given));
         kernels->search.compile();
         for (const ChainSearch::Range& range : kernels->search.ranges()) {
-            KernelRequest march = kernels->search.request(range, "segments");
+            KernelRequest march = kernels->search.request(range, "segments/segments");
             march.instances = {m_data.instance(range.element_class)};
             for (std::uint32_t binding = 1; binding <= (are_given ? 4u : 3u); ++binding) {
                 march.bindings.push_back({binding, BindingType::storage_buffer});

@@ -13,7 +13,7 @@ namespace elvis {
 
 namespace {
 
-/** Nodes of a tile and their number: shaders/library/cut_tiles.glsl. */
+/** Nodes of a tile and their number: shaders/tiles/cut_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;
 /** Pixels of one dispatch: bounds its time, and the share of each thread of a software driver. */
@@ -71,7 +71,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(surface_tile_width(device)) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(surface_tile_height) + "u"}};
         request.name = "surface_tiles";
-        request.kernel = "kernels/surface_tiles.comp";
+        request.kernel = "cut_surface/surface_tiles.comp";
         request.bindings = {
             {0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(TilesParameters);
@@ -79,7 +79,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         kernels.tiles = std::make_unique<ComposedKernel>(device, request);
 
         request.name = "surface_pixels of element class " + std::to_string(index);
-        request.kernel = "kernels/surface_pixels.comp";
+        request.kernel = "cut_surface/surface_pixels.comp";
         data.add_field(request, index);
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
         request.bindings = {{0, BindingType::uniform_buffer}};

@@ -121,7 +121,8 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
     KernelRequest request;
     request.name = "surface_hits of " + frame.solver;
     request.kernel = request.name;
-    request.kernel_text = "#include \"library/surface_" + kind.file + ".glsl\"\n#include \"kernels/surface_hits.comp\"\n";
+    request.kernel_text =
+        "#include \"cut_surface/surface_" + kind.file + ".glsl\"\n#include \"cut_surface/surface_hits.comp\"\n";
     request.precision = precision;
     request.defines = kind.defines;
     request.defines.insert(request.defines.end(), {{"CORE_TILE_WIDTH", std::to_string(surface_tile_width(device)) + "u"},

@@ -42,10 +42,10 @@ public:
 
     /** What begin() wrote. */
     const Buffer& rows() const { return *m_rows; }
-    /** Number of rows of a quadric without ends (shaders/library/surface_quadric.glsl); 0 of other shapes. */
+    /** Number of rows of a quadric without ends (shaders/cut_surface/surface_quadric.glsl); 0 of other shapes. */
     std::uint32_t quadric_rows() const { return m_is_quadric ? m_n_rows : 0; }
 
-    /** Looks for the crossings of some rows of tiles. `buffers`: bindings 2 to 8 of kernels/surface_hits.comp. */
+    /** Looks for the crossings of some rows of tiles. `buffers`: bindings 2 to 8 of cut_surface/surface_hits.comp. */
     void find(const Buffer& frame, std::span<const Buffer* const> buffers, std::span<const std::byte> parameters,
               std::uint32_t tiles_a_row, std::uint32_t tile_rows) const;
 
@@ -67,7 +67,7 @@ private:
     std::unique_ptr<ComposedKernel> m_kernel;
 };
 
-/** As kernels/surface_hits.comp reads them. */
+/** As cut_surface/surface_hits.comp reads them. */
 struct HitsParameters {
     std::uint32_t width, height;
     std::uint32_t first_tile_row;

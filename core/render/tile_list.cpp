@@ -7,7 +7,7 @@ namespace elvis {
 
 namespace {
 
-/** In front of the tiles, the numbers of both parts: shaders/library/list_tile.glsl. */
+/** In front of the tiles, the numbers of both parts: shaders/tiles/list_tile.glsl. */
 constexpr std::uint32_t n_header_words = 2;
 
 } // namespace

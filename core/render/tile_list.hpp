@@ -13,17 +13,17 @@
 namespace elvis {
 
 /**
- * Tiles that see something, as kernels put them there (shaders/library/list_tile.glsl): where many pixels share each
+ * Tiles that see something, as kernels put them there (shaders/tiles/list_tile.glsl): where many pixels share each
  * instruction, kernels go through an empty tile as long as through a full one, so these alone are drawn.
  */
 class TileList {
 public:
-    /** Tiles from `first` on in the list, in no order, as kernels read them (shaders/library/listed_tile.glsl). */
+    /** Tiles from `first` on in the list, in no order, as kernels read them (shaders/tiles/listed_tile.glsl). */
     struct Part {
         std::uint32_t first, count;
     };
     struct Parts {
-        /** Of kernels/ray_tiles.comp: those whose lists hold leaves only, and those with inner nodes. Others have one part. */
+        /** Of tiles/ray_tiles.comp: those whose lists hold leaves only, and those with inner nodes. Others have one part. */
         Part shallow, deep;
     };
 

@@ -82,12 +82,13 @@ struct VolumePass::Picture {
 VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_data(data), m_precision(data.precision()), m_chains(device, volume, data),
       m_search(device, data, m_chains, volume, {}, false), m_models(device, volume, data),
-      m_begin(device, pixel_kernel("volume_begin", data.precision(), {BindingType::storage_buffer}, sizeof(PixelParameters))),
-      m_veil(device, pixel_kernel("volume_veil", data.precision(),
+      m_begin(device,
+              pixel_kernel("volume/volume_begin", data.precision(), {BindingType::storage_buffer}, sizeof(PixelParameters))),
+      m_veil(device, pixel_kernel("volume/volume_veil", data.precision(),
                                   {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
                                    BindingType::storage_buffer},
                                   sizeof(PixelParameters))),
-      m_finish(device, pixel_kernel("volume_finish", data.precision(),
+      m_finish(device, pixel_kernel("volume/volume_finish", data.precision(),
                                     {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
                                      BindingType::storage_buffer},
                                     sizeof(PixelParameters))),
@@ -135,7 +136,7 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
         m_march[index][2 * static_cast<std::size_t>(m_wanted.integrator) + (m_has_steps ? 1 : 0)];
     if (!kernel) {
         const ChainSearch::Range& range = m_search.ranges()[index];
-        KernelRequest request = m_search.request(range, "volume_march");
+        KernelRequest request = m_search.request(range, "volume/volume_march");
         request.buffers.push_back(m_models.host_buffer(range.element_class));
         m_data.add_field(request, range.element_class, true);
         request.text += segment::segment_glsl(segment::fixed_plan(step_degree));

@@ -11,7 +11,7 @@
 
 namespace elvis {
 
-/** Text of a file below shaders/, built into the program, by its path there ("library/newton.glsl"). Error if there is none. */
+/** Text of a file below shaders/, built into the program, by its path there ("element/newton.glsl"). Error if there is none. */
 std::string_view shader_source(std::string_view path);
 
 /**

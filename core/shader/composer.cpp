@@ -19,7 +19,7 @@ namespace elvis {
 namespace {
 
 /** Included once, before everything else. */
-constexpr std::array<std::string_view, 2> common_files{"library/types.glsl", "library/math.glsl"};
+constexpr std::array<std::string_view, 2> common_files{"arithmetic/types.glsl", "arithmetic/math.glsl"};
 
 /** A library file that gives an instance a function which its snippet lacks. */
 struct DefaultFile {
@@ -29,10 +29,10 @@ struct DefaultFile {
 
 /** In the order in which they may rest on each other. */
 constexpr std::array<DefaultFile, 4> default_files{
-    DefaultFile{ELVIS_SNIPPET_MAPPING_JACOBIAN, "library/mapping_jacobian_default.glsl"},
-    DefaultFile{ELVIS_SNIPPET_FIELD_GRADIENT, "library/gradient_default.glsl"},
-    DefaultFile{ELVIS_SNIPPET_FIELD_HESSIAN, "library/field_hessian_default.glsl"},
-    DefaultFile{ELVIS_SNIPPET_MAPPING_HESSIAN, "library/mapping_hessian_default.glsl"},
+    DefaultFile{ELVIS_SNIPPET_MAPPING_JACOBIAN, "element/mapping_jacobian_default.glsl"},
+    DefaultFile{ELVIS_SNIPPET_FIELD_GRADIENT, "field/gradient_default.glsl"},
+    DefaultFile{ELVIS_SNIPPET_FIELD_HESSIAN, "field/field_hessian_default.glsl"},
+    DefaultFile{ELVIS_SNIPPET_MAPPING_HESSIAN, "element/mapping_hessian_default.glsl"},
 };
 
 constexpr std::array<std::pair<const char*, std::uint32_t>, 8> capability_macros{
@@ -146,7 +146,7 @@ public:
         if (m_is_debug_build) {
             m_snippet_text = check_indices(poison_outputs(m_snippet_text, m_snippet_names));
         }
-        std::string defaults = "#include \"library/reference_shape.glsl\"\n";
+        std::string defaults = "#include \"element/reference_shape.glsl\"\n";
         constexpr std::uint32_t second_derivatives = ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN;
         const std::uint32_t unwanted = request.with_second_derivatives ? 0 : second_derivatives;
         for (const DefaultFile& file : default_files) {
@@ -353,7 +353,7 @@ std::string compose(const Device* device, const KernelRequest& request, const Re
     if (!request.watches_loops) {
         return text + expand_includes(kernel, request.kernel, shader_source);
     }
-    constexpr const char* watched_main = "library/watched_main.glsl";
+    constexpr const char* watched_main = "arithmetic/watched_main.glsl";
     return text + "#define main core_kernel_main\n" + expand_includes(kernel, request.kernel, shader_source) +
            "\n#undef main\n" + "#define CORE_WATCH_BINDING " + std::to_string(watch_binding(request, records)) + "\n" +
            expand_includes(shader_source(watched_main), watched_main, shader_source);

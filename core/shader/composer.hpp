@@ -6,18 +6,18 @@
  *
  *   1. #version, extensions, ELVIS_GLSL_VERSION, ELVIS_REAL_IS_DOUBLE, ELVIS_N_INSTANCES, ELVIS_WANTS_HESSIANS, the request's
  *      #defines
- *   2. library/types.glsl, library/math.glsl
+ *   2. arithmetic/types.glsl, arithmetic/math.glsl
  *   3. fetch functions for every record buffer of host and instances (core/shader/fetch.hpp), and the host's elvis_fetch_NAME
  *   4. the instances, the first one last; then the request's text
  *   5. the kernel's file, whose #includes reach everything below shaders/
- *   6. if the request watches loops, library/watched_main.glsl
+ *   6. if the request watches loops, arithmetic/watched_main.glsl
  *
  * An instance is: ELVIS_SHAPE, ELVIS_N_COMPONENTS and ELVIS_HAS_... (FIELD_GRADIENT, MAPPING_JACOBIAN, INVERSE_MAPPING,
  * FIELD_OFFSET, LOCAL_ORIGIN, FIELD_HESSIAN, MAPPING_HESSIAN, INSIDE: 0 or 1); elvis_origin; the fetch macros of its buffers;
- * its constants; the snippet's first source; library/reference_shape.glsl; and, where the snippet lacks them,
- * library/mapping_jacobian_default.glsl, library/gradient_default.glsl and, if the request wants second derivatives,
- * library/field_hessian_default.glsl and library/mapping_hessian_default.glsl. A kernel that inverts mappings includes
- * library/newton.glsl itself, which is about the first instance. Afterwards the snippet's macros and fetch macros are undefined
+ * its constants; the snippet's first source; element/reference_shape.glsl; and, where the snippet lacks them,
+ * element/mapping_jacobian_default.glsl, field/gradient_default.glsl and, if the request wants second derivatives,
+ * field/field_hessian_default.glsl and element/mapping_hessian_default.glsl. A kernel that inverts mappings includes
+ * element/newton.glsl itself, which is about the first instance. Afterwards the snippet's macros and fetch macros are undefined
  * again.
  *
  * Instance k > 0 is the same text with #defines around it that append _k to the interface functions, to every identifier that
@@ -69,7 +69,7 @@ struct SnippetInstance {
 struct KernelRequest {
     /** For messages and caches, e.g. "cut_plane hexahedron pressure". */
     std::string name;
-    /** Path of the kernel below shaders/, e.g. "kernels/cut_plane.comp". It has main() and its own bindings from 0. */
+    /** Path of the kernel below shaders/, e.g. "cut_surface/cut_plane.comp". It has main() and its own bindings from 0. */
     std::string kernel;
     /** The kernel itself, if it is not among the files; `kernel` is its name in messages then. */
     std::string kernel_text;
@@ -78,7 +78,7 @@ struct KernelRequest {
     /** Whether elvis_field_hessian and elvis_mapping_hessian are called; without it they need not exist. */
     bool with_second_derivatives = false;
     /** Drivers may end loops early, without a word, once those of one invocation have taken many turns. Then dispatch() throws
-     * an Error: for kernels that do not mark by themselves what cannot be trusted (shaders/library/driver_limit.glsl). */
+     * an Error: for kernels that do not mark by themselves what cannot be trusted (shaders/arithmetic/driver_limit.glsl). */
     bool watches_loops = false;
     /** Snippets are watched: outputs never written, loops without end (core/shader/poison.hpp), indices out of range
      * (core/shader/index_checks.hpp). */

@@ -11,7 +11,7 @@
 
 namespace elvis {
 
-/** What the device's solver is called, and the numbers it reads: shaders/library/surface_NAME.glsl describes the rows. */
+/** What the device's solver is called, and the numbers it reads: shaders/cut_surface/surface_NAME.glsl describes the rows. */
 struct ShapeFrame {
     std::string solver;
     std::vector<std::array<double, 4>> rows;

@@ -23,7 +23,7 @@ constexpr double beyond = 3e38;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/** shaders/kernels/derivative_bounds.comp, which stops where a shape has fewer. */
+/** shaders/field/derivative_bounds.comp, which stops where a shape has fewer. */
 constexpr std::uint32_t most_points = 64, points_a_dispatch = 4;
 
 struct Parameters {
@@ -116,7 +116,7 @@ private:
     static KernelRequest request_for(const SnippetInstance& instance, Precision precision, const std::string& name) {
         KernelRequest request;
         request.name = name;
-        request.kernel = "kernels/derivative_bounds.comp";
+        request.kernel = "field/derivative_bounds.comp";
         request.watches_loops = true;
         request.precision = precision;
         request.instances = {instance};

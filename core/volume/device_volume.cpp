@@ -287,7 +287,7 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
         request.buffers.push_back({"core_curvatures", m_classes[element_class].curvature_records.get()});
     }
     if (m_is_own_boundary) {
-        request.text = "#include \"library/own_boundary.glsl\"\n";
+        request.text = "#include \"field/own_boundary.glsl\"\n";
     }
     if (m_expression) {
         // For the element's number.

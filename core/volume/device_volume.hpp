@@ -32,7 +32,7 @@ struct FieldSelection {
     std::vector<FieldSlot> slots;
     std::uint32_t time_step = 0;
     std::shared_ptr<const Expression> expression;
-    /** In place of the field: the function that cuts elements (shaders/library/own_boundary.glsl). */
+    /** In place of the field: the function that cuts elements (shaders/field/own_boundary.glsl). */
     bool is_own_boundary = false;
 };
 
@@ -81,12 +81,12 @@ public:
 
     /**
      * Nodes of the class's hierarchy as `core_nodes`, and as `core_elements` the number and linearized inverse mapping of its
-     * elements (shaders/library/linearization.glsl).
+     * elements (shaders/element/linearization.glsl).
      */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
     /** Of the class's elements. */
     const Hierarchy& hierarchy(std::uint32_t element_class) const { return m_classes[element_class].hierarchy; }
-    /** Of the mapping of each element of the class (shaders/library/prediction.glsl), once a field is selected. */
+    /** Of the mapping of each element of the class (shaders/element/prediction.glsl), once a field is selected. */
     std::span<const float> curvatures(std::uint32_t element_class) const { return m_classes[element_class].curvatures; }
 
     /**
@@ -130,7 +130,7 @@ private:
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
         std::unique_ptr<RecordBuffer> elements;
-        /** Of each element's mapping (shaders/library/prediction.glsl); on the device once bounds are wanted. */
+        /** Of each element's mapping (shaders/element/prediction.glsl); on the device once bounds are wanted. */
         std::vector<float> curvatures;
         std::unique_ptr<RecordBuffer> curvature_records;
     };

@@ -25,7 +25,7 @@ std::vector<float> write_elements(const Device& device, const RuntimeVolume& vol
     const ClassInfo& info = volume.classes()[element_class];
     KernelRequest request;
     request.name = "linearize of element class " + std::to_string(element_class);
-    request.kernel = "kernels/linearize.comp";
+    request.kernel = "element/linearize.comp";
     request.watches_loops = true;
     request.precision = precision;
     request.instances = {instance};

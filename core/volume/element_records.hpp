@@ -12,12 +12,12 @@
 
 namespace elvis {
 
-/** Number, exponents, six words of the linearized inverse mapping: shaders/library/linearization.glsl. */
+/** Number, exponents, six words of the linearized inverse mapping: shaders/element/linearization.glsl. */
 inline constexpr std::uint32_t element_record_size = 8;
 
 /**
  * Writes the records of a class; the linearizations are computed on the device with the class's snippet. Returns the curvature
- * of each element (shaders/library/prediction.glsl).
+ * of each element (shaders/element/prediction.glsl).
  */
 std::vector<float> write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
                                   const SnippetInstance& instance, Precision precision, RecordBuffer& records);

@@ -24,7 +24,7 @@ std::unique_ptr<RecordBuffer> measure_face_cones(const Device& device, const Run
     const std::uint64_t n_elements = volume.classes()[element_class].n_elements;
     KernelRequest request;
     request.name = "face_cones of element class " + std::to_string(element_class);
-    request.kernel = "kernels/face_cones.comp";
+    request.kernel = "segments/face_cones.comp";
     request.watches_loops = true;
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};

@@ -13,7 +13,7 @@
 
 namespace elvis {
 
-/** One word for each face of the elements of a class, eight an element: shaders/library/face_cone.glsl. */
+/** One word for each face of the elements of a class, eight an element: shaders/segments/face_cone.glsl. */
 std::unique_ptr<RecordBuffer> measure_face_cones(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                                                  std::uint32_t element_class);
 

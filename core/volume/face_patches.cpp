@@ -14,7 +14,7 @@ namespace elvis {
 
 namespace {
 
-/** By how much the square is enlarged for what holds near the patch: shaders/library/face_patch.glsl. */
+/** By how much the square is enlarged for what holds near the patch: shaders/boundary/face_patch.glsl. */
 constexpr double reach = 1.2;
 /** The normal's turn, and the share of the tangents that changes, at which a patch is divided: smaller patches leave fewer
  * pixels to the careful kernel, larger ones make shorter lists; between 0.3 and 0.5 pictures of balls and tori take least time.

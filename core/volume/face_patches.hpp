@@ -1,7 +1,7 @@
 /**
  * @file face_patches.hpp
  * What rays read of a face before anything is evaluated on it: squares of its parameters, small enough for the face to be
- * nearly flat there, each with a linear model and bounds of the rest (shaders/library/face_patch.glsl).
+ * nearly flat there, each with a linear model and bounds of the rest (shaders/boundary/face_patch.glsl).
  */
 #pragma once
 
@@ -29,7 +29,7 @@ struct FaceShape {
     std::span<const double> coefficients;
     /** How far the face may be from that, in each coordinate. */
     double misfit = 0;
-    /** CORE_FACE_... of shaders/library/face_patch.glsl. */
+    /** CORE_FACE_... of shaders/boundary/face_patch.glsl. */
     std::uint32_t bits = 0;
 };
 

@@ -21,7 +21,7 @@ void sample_faces(const Device& device, const DeviceVolume& data, std::uint32_t 
                   const FaceFit& fit, const std::function<void(std::uint64_t first, std::span<const double> positions)>& take) {
     KernelRequest request;
     request.name = "face_samples of element class " + std::to_string(element_class);
-    request.kernel = "kernels/face_samples.comp";
+    request.kernel = "boundary/face_samples.comp";
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
     request.buffers = {{"core_faces", &faces}};

@@ -47,7 +47,7 @@ bool is_surface(elvis_shape shape) { return shape == ELVIS_SHAPE_QUADRILATERAL |
 
 /** What the patches' records tell of a face. */
 std::uint32_t face_bits(elvis_shape shape, const ElementFace& face) {
-    // Orientations of shaders/library/face_frame.glsl.
+    // Orientations of shaders/element/face_frame.glsl.
     const bool is_outward = face.local_face == 1 || face.local_face == 2 || face.local_face == 5;
     return (face.has_partner ? 1u << 28 : 0u) | (is_outward ? 1u << 29 : 0u) |
            (is_triangle(shape, face.local_face) ? 1u << 30 : 0u);

@@ -35,9 +35,9 @@ public:
         std::unique_ptr<RecordBuffer> nodes;
         /** Of each face: local element, local face, number, and the polynomial's misfit as a float. */
         std::unique_ptr<RecordBuffer> faces;
-        /** shaders/library/face_patch.glsl */
+        /** shaders/boundary/face_patch.glsl */
         std::unique_ptr<RecordBuffer> patches;
-        /** shaders/library/face_point.glsl */
+        /** shaders/boundary/face_point.glsl */
         std::unique_ptr<RecordBuffer> points;
     };
     /** Without faces, all pointers are null. */

@@ -1,6 +1,6 @@
 /**
  * @file checked_snippet.hpp
- * What a snippet and its defaults give at chosen points, by shaders/kernels/snippet_check.comp.
+ * What a snippet and its defaults give at chosen points, by shaders/conformance/snippet_check.comp.
  */
 #pragma once
 
@@ -36,7 +36,7 @@ inline std::vector<Checked> check_snippet(const SnippetInstance& instance, Preci
                                           const std::vector<CheckPoint>& points) {
     KernelRequest request;
     request.name = "snippet check";
-    request.kernel = "kernels/snippet_check.comp";
+    request.kernel = "conformance/snippet_check.comp";
     request.precision = precision;
     request.instances = {instance};
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};

@@ -40,7 +40,7 @@ std::vector<Segments> intersect(const SnippetInstance& instance, Precision preci
     request.kernel = "ray_test.comp";
     request.kernel_text = R"(
 layout(local_size_x = 8) in;
-#include "library/ray_intersection.glsl"
+#include "segments/ray_intersection.glsl"
 struct core_ray { double o[3]; double d[3]; uint element; uint unused; };
 struct core_answer { uint count; uint flags; double enter[4]; double leave[4]; };
 layout(set = 0, binding = 0, std430) readonly buffer core_rays_block { core_ray core_rays[]; };

@@ -24,7 +24,7 @@ const Device& device() {
     return only;
 }
 
-/** As in shaders/kernels/snippet_check.comp. */
+/** As in shaders/conformance/snippet_check.comp. */
 struct CheckPoint {
     double xi[3];
     std::uint32_t element;
@@ -37,7 +37,7 @@ class ClassOnDevice {
 public:
     ClassOnDevice(const RuntimeVolume& volume, std::uint32_t element_class, std::uint32_t field, Precision precision,
                   std::span<const double> origins, std::span<const double> offset,
-                  const std::string& kernel = "kernels/snippet_check.comp", std::size_t n_numbers = numbers_per_point,
+                  const std::string& kernel = "conformance/snippet_check.comp", std::size_t n_numbers = numbers_per_point,
                   std::uint32_t without = 0)
         : m_n_numbers(n_numbers) {
         m_request.name = "snippet check";
@@ -302,7 +302,7 @@ std::array<double, 2> hessian_errors(const TestVolume& file, std::uint32_t eleme
     const RuntimeVolume volume = file.open();
     const std::uint32_t n_components = volume.fields()[0].n_components;
     const std::vector<double> origins(3 * volume.n_elements(), 0.0), offset(n_components, 0.0);
-    const ClassOnDevice on_device(volume, element_class, 0, precision, origins, offset, "kernels/hessian_check.comp", 52,
+    const ClassOnDevice on_device(volume, element_class, 0, precision, origins, offset, "conformance/hessian_check.comp", 52,
                                   without);
     std::vector<CheckPoint> points =
         check_points(file.description().classes[element_class].geometry.shape,

@@ -209,7 +209,7 @@ TEST_CASE("a plugin with nothing but the required snippet functions is probed on
     }
     WARN("analytic plugin: value error " << largest.value << ", gradient error " << largest.gradient);
     CHECK(largest.value < 1e-13);
-    // Differences of sixth order, see shaders/library/gradient_default.glsl.
+    // Differences of sixth order, see shaders/field/gradient_default.glsl.
     CHECK(largest.gradient < 1e-9);
 }
 

@@ -25,7 +25,7 @@ void read(const Buffer& samples, const Buffer& normals, const Buffer& bending, c
     const auto read_normals = normals.read_items<Real>(3 * n);
     const auto read_bending = bending.read_items<Real>(n);
     for (std::size_t i = 0; i < n; ++i) {
-        // As kernels/color.comp does: on a face that no other element shares the domain may end.
+        // As picture/color.comp does: on a face that no other element shares the domain may end.
         const bool is_at_edge = (marks[i].owner & 2u) != 0 && (marks[i].owner & 4u) == 0;
         picture.flags[i] = marks[i].flags | (is_at_edge ? pixel_flag::undecided : 0);
         if (marks[i].surface() == 0)

@@ -71,11 +71,11 @@ TEST_CASE("Without a place for the cache, shaders compile all the same") {
 
 TEST_CASE("Includes reach the library, and their errors name its files") {
     const PrivateCache cache;
-    const std::string with_types = "#version 460\n#define ELVIS_REAL_IS_DOUBLE 0\n#include \"library/types.glsl\"\n"
+    const std::string with_types = "#version 460\n#define ELVIS_REAL_IS_DOUBLE 0\n#include \"arithmetic/types.glsl\"\n"
                                    "elvis_real f() { return elvis_real(1); }\nvoid main() {}\n";
     CHECK(compile_shader(with_types, "test").size() > 20);
-    CHECK_THROWS_WITH(compile_shader("#version 460\n\n#include \"library/nothing.glsl\"\n", "my.comp"),
-                      Catch::Contains("my.comp:3") && Catch::Contains("library/nothing.glsl"));
+    CHECK_THROWS_WITH(compile_shader("#version 460\n\n#include \"picture/nothing.glsl\"\n", "my.comp"),
+                      Catch::Contains("my.comp:3") && Catch::Contains("picture/nothing.glsl"));
     CHECK_THROWS_WITH(compile_shader(with_types + "void g() { h(); }\n", "my.comp"), Catch::Contains("my.comp:6: 'h'"));
 }
 

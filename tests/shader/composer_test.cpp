@@ -75,7 +75,7 @@ TEST_CASE("Two instances of a snippet read their own buffers on every kind of bi
 
     KernelRequest request;
     request.name = "test";
-    request.kernel = "kernels/compose_check.comp";
+    request.kernel = "conformance/compose_check.comp";
     request.precision = precision;
     request.buffers = {{"counts", &counts}};
     request.bindings = {{0, BindingType::storage_buffer}};
@@ -104,7 +104,7 @@ TEST_CASE("A snippet's errors name its own file and line") {
     const Device device;
     KernelRequest request;
     request.name = "test";
-    request.kernel = "kernels/compose_check.comp";
+    request.kernel = "conformance/compose_check.comp";
     request.bindings = {{0, BindingType::storage_buffer}};
     SnippetInstance instance;
     instance.snippet = scaled_snippet();
@@ -283,7 +283,7 @@ TEST_CASE("A kernel in single precision needs no double precision of the device"
 TEST_CASE("A constant that GLSL cannot hold is an error that names it") {
     const Device device;
     KernelRequest request;
-    request.kernel = "kernels/compose_check.comp";
+    request.kernel = "conformance/compose_check.comp";
     SnippetInstance instance;
     instance.snippet = test::simple_snippet();
     instance.constants = {{"SIMPLE_BIG", std::int64_t{1} << 40}};

@@ -17,7 +17,7 @@ constexpr std::uint32_t width = 8, height = 16;
 /** Counts the turns of a loop in each row of a column, as a stand-in for what the pixels of a column do. */
 constexpr const char* kernel_text = R"(
 layout(local_size_x = 8) in;
-#include "library/samples.glsl"
+#include "picture/samples.glsl"
 layout(std430, set = 0, binding = 0) buffer marks_block { core_mark core_marks[]; };
 layout(std430, set = 0, binding = 1) buffer turns_block { uint n_turns[]; };
 layout(push_constant) uniform parameters {
@@ -25,7 +25,7 @@ layout(push_constant) uniform parameters {
     uint zero;
     uint turns_a_row;
 };
-#include "library/distrust_column.glsl"
+#include "picture/distrust_column.glsl"
 
 void main() {
     const uint column = gl_LocalInvocationID.x, end_row = core_size.y;

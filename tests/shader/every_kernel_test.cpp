@@ -156,7 +156,7 @@ void add_element(KernelRequest& request, const KernelUse& use, const NamedShape&
         request.buffers.push_back(buffers.buffer("core_curvatures"));
     }
     if (shown.name == own_boundary) {
-        request.text += "#include \"library/own_boundary.glsl\"\n";
+        request.text += "#include \"field/own_boundary.glsl\"\n";
     }
     if (!is_expression) {
         return;
@@ -187,7 +187,7 @@ void add_element(KernelRequest& request, const KernelUse& use, const NamedShape&
 KernelRequest request_for(const KernelUse& use, const Defines& defines, Precision precision, const HostBuffers& buffers) {
     KernelRequest request;
     request.name = use.kernel;
-    request.kernel = "kernels/" + use.kernel + ".comp";
+    request.kernel = use.kernel + ".comp";
     if (!use.includes.empty()) {
         request.kernel_text = use.includes + "#include \"" + request.kernel + "\"\n";
     }
@@ -255,21 +255,21 @@ void check_use(const KernelUse& use, const HostBuffers& buffers, Precision preci
 
 TEST_CASE("The table of kernels has every file and no other") {
     std::set<std::string> files, listed;
-    for (const auto& file : std::filesystem::directory_iterator(ELVIS_KERNELS)) {
+    for (const auto& file : std::filesystem::recursive_directory_iterator(ELVIS_SHADERS)) {
         if (file.path().extension() == ".comp") {
-            files.insert(file.path().stem().string());
+            files.insert(file.path().lexically_relative(ELVIS_SHADERS).replace_extension().string());
         }
     }
     for (const KernelUse& use : test::kernel_uses()) {
         listed.insert(use.kernel);
     }
     for (const std::string& file : files) {
-        INFO("shaders/kernels/"
-             << file << ".comp is not in tests/shader/kernel_table.cpp: it is compiled for no shape, in no precision");
+        INFO("shaders/" << file
+                        << ".comp is not in tests/shader/kernel_table.cpp: it is compiled for no shape, in no precision");
         CHECK(listed.count(file) == 1);
     }
     for (const std::string& kernel : listed) {
-        INFO("tests/shader/kernel_table.cpp has '" << kernel << "', of which there is no file in shaders/kernels");
+        INFO("tests/shader/kernel_table.cpp has '" << kernel << "', of which there is no file in shaders");
         CHECK(files.count(kernel) == 1);
     }
 }

@@ -23,60 +23,64 @@ const std::vector<std::string> chains{"core_nodes", "core_links", "core_elements
 const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_cones", "core_elements"};
 
 void add_pixel_kernels(std::vector<KernelUse>& uses) {
-    for (const char* kernel : {"blend", "list_open_pixels", "merge", "occlude", "order_layers", "take_layer", "volume_begin",
-                               "volume_finish", "volume_veil"}) {
+    for (const char* kernel :
+         {"picture/blend", "isosurface/list_open_pixels", "picture/merge", "picture/occlude", "picture/order_layers",
+          "picture/take_layer", "volume/volume_begin", "volume/volume_finish", "volume/volume_veil"}) {
         uses.push_back({.kernel = kernel, .choices = {pixel_group}});
     }
-    uses.push_back({.kernel = "color", .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES")}});
-    uses.push_back({.kernel = "list_pixels", .choices = {pixel_group, width, height}});
-    uses.push_back({.kernel = "live_rays", .choices = {width, height, {"CORE_GROUPS", {"16u"}}}});
-    uses.push_back({.kernel = "surface_outside", .choices = {pixel_group, no_or_yes("CORE_ON_PLANE")}});
+    uses.push_back(
+        {.kernel = "picture/color", .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES")}});
+    uses.push_back({.kernel = "picture/list_pixels", .choices = {pixel_group, width, height}});
+    uses.push_back({.kernel = "volume/live_rays", .choices = {width, height, {"CORE_GROUPS", {"16u"}}}});
+    uses.push_back({.kernel = "cut_surface/surface_outside", .choices = {pixel_group, no_or_yes("CORE_ON_PLANE")}});
 }
 
 void add_element_kernels(std::vector<KernelUse>& uses) {
-    uses.push_back({.kernel = "derivative_bounds", .element = Element::snippet, .watches_loops = true});
-    uses.push_back({.kernel = "edge_samples", .element = Element::snippet});
-    uses.push_back({.kernel = "face_cones", .element = Element::snippet, .is_for_solids = true, .watches_loops = true});
-    uses.push_back({.kernel = "face_samples", .element = Element::snippet, .buffers = {"core_faces"}});
-    uses.push_back({.kernel = "linearize", .element = Element::snippet, .watches_loops = true});
-    uses.push_back({.kernel = "sampled_range", .element = Element::value, .buffers = elements, .watches_loops = true});
+    uses.push_back({.kernel = "field/derivative_bounds", .element = Element::snippet, .watches_loops = true});
+    uses.push_back({.kernel = "lines/edge_samples", .element = Element::snippet});
     uses.push_back(
-        {.kernel = "point_values", .element = Element::value, .choices = {{"CORE_GROUP_SIZE", {"64"}}, element_class}});
-    uses.push_back({.kernel = "probe_invert", .element = Element::snippet, .is_double_only = true});
-    uses.push_back({.kernel = "probe_evaluate", .element = Element::snippet, .is_double_only = true});
-    uses.push_back({.kernel = "probe_expression",
+        {.kernel = "segments/face_cones", .element = Element::snippet, .is_for_solids = true, .watches_loops = true});
+    uses.push_back({.kernel = "boundary/face_samples", .element = Element::snippet, .buffers = {"core_faces"}});
+    uses.push_back({.kernel = "element/linearize", .element = Element::snippet, .watches_loops = true});
+    uses.push_back({.kernel = "field/sampled_range", .element = Element::value, .buffers = elements, .watches_loops = true});
+    uses.push_back(
+        {.kernel = "field/point_values", .element = Element::value, .choices = {{"CORE_GROUP_SIZE", {"64"}}, element_class}});
+    uses.push_back({.kernel = "probe/probe_invert", .element = Element::snippet, .is_double_only = true});
+    uses.push_back({.kernel = "probe/probe_evaluate", .element = Element::snippet, .is_double_only = true});
+    uses.push_back({.kernel = "probe/probe_expression",
                     .element = Element::expression_gradient,
                     .is_double_only = true,
                     .with_second_derivatives = true});
     uses.push_back(
-        {.kernel = "expression_error", .element = Element::expression_error, .buffers = elements, .watches_loops = true});
+        {.kernel = "field/expression_error", .element = Element::expression_error, .buffers = elements, .watches_loops = true});
 }
 
 void add_cut_kernels(std::vector<KernelUse>& uses) {
-    uses.push_back({.kernel = "cut_tiles", .buffers = elements, .choices = {width, height}});
-    uses.push_back({.kernel = "cut_plane",
+    uses.push_back({.kernel = "cut_surface/cut_tiles", .buffers = elements, .choices = {width, height}});
+    uses.push_back({.kernel = "cut_surface/cut_plane",
                     .element = Element::value,
                     .buffers = elements,
                     .choices = {width, height, no("CORE_LINES")},
                     .is_for_solids = true});
-    for (const char* kernel : {"cut_plane", "cut_lines"}) {
+    for (const char* kernel : {"cut_surface/cut_plane", "lines/cut_lines"}) {
         uses.push_back({.kernel = kernel,
                         .element = Element::model,
                         .buffers = elements,
                         .choices = {width, height, yes("CORE_LINES")},
                         .is_for_solids = true});
     }
-    uses.push_back({.kernel = "surface_tiles", .buffers = elements, .choices = {width, height}});
-    uses.push_back({.kernel = "surface_pixels",
+    uses.push_back({.kernel = "cut_surface/surface_tiles", .buffers = elements, .choices = {width, height}});
+    uses.push_back({.kernel = "cut_surface/surface_pixels",
                     .element = Element::value,
                     .buffers = elements,
                     .choices = {width, height, element_class},
                     .is_for_solids = true});
     const std::vector<Choice> hits{width, height, {"CORE_HIT_ROWS", {"4u"}}, {"CORE_SHAPE_ROWS", {"8"}}};
     const auto add_surface = [&](const char* file, std::vector<std::string> buffers, const Choice& ends, std::string text) {
-        KernelUse use{.kernel = "surface_hits", .buffers = std::move(buffers), .choices = hits, .text = std::move(text)};
+        KernelUse use{
+            .kernel = "cut_surface/surface_hits", .buffers = std::move(buffers), .choices = hits, .text = std::move(text)};
         use.choices.push_back(ends);
-        use.includes = std::string("#include \"library/surface_") + file + ".glsl\"\n";
+        use.includes = std::string("#include \"cut_surface/surface_") + file + ".glsl\"\n";
         uses.push_back(use);
     };
     add_surface("quadric", {}, no_or_yes("CORE_HAS_ENDS"), "");
@@ -87,14 +91,15 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
 }
 
 void add_face_kernels(std::vector<KernelUse>& uses) {
-    uses.push_back({.kernel = "ray_tiles", .buffers = {"core_nodes"}, .choices = {width, height, yes("CORE_LISTS_TILES")}});
+    uses.push_back(
+        {.kernel = "tiles/ray_tiles", .buffers = {"core_nodes"}, .choices = {width, height, yes("CORE_LISTS_TILES")}});
     for (const bool is_polynomial : {false, true}) {
-        for (const char* kernel : {"faces", "faces_careful"}) {
+        for (const char* kernel : {"boundary/faces", "boundary/faces_careful"}) {
             KernelUse use{.kernel = kernel,
                           .element = Element::value,
                           .buffers = fitted_faces,
                           .choices = {width, height, yes("CORE_LISTS_TILES"), element_class}};
-            use.choices.push_back(use.kernel == "faces" ? no_or_yes("CORE_DESCENDS") : no("CORE_DESCENDS"));
+            use.choices.push_back(use.kernel == "boundary/faces" ? no_or_yes("CORE_DESCENDS") : no("CORE_DESCENDS"));
             if (is_polynomial) {
                 use.choices.push_back({"CORE_FACE_ORDER", {"3"}});
             }
@@ -104,14 +109,14 @@ void add_face_kernels(std::vector<KernelUse>& uses) {
 }
 
 void add_line_kernels(std::vector<KernelUse>& uses) {
-    for (const char* kernel : {"settle_lines", "face_lines", "face_lines_careful"}) {
+    for (const char* kernel : {"lines/settle_lines", "lines/face_lines", "lines/face_lines_careful"}) {
         uses.push_back({.kernel = kernel,
                         .element = Element::model,
                         .buffers = faces,
                         .choices = {width, height, yes("CORE_ON_FACES"), no_or_yes("CORE_WITH_CONTOURS")}});
     }
     const std::vector<Choice> on_surface{width, height, no("CORE_ON_FACES"), no_or_yes("CORE_WITH_CONTOURS")};
-    uses.push_back({.kernel = "settle_lines",
+    uses.push_back({.kernel = "lines/settle_lines",
                     .element = Element::model,
                     .buffers = elements,
                     .choices = on_surface,
@@ -119,7 +124,7 @@ void add_line_kernels(std::vector<KernelUse>& uses) {
                     .shows_own_boundary = true});
     // Quadrics have rows, and segments of rays; other surfaces neither.
     for (const bool is_quadric : {false, true}) {
-        KernelUse lines{.kernel = "surface_lines",
+        KernelUse lines{.kernel = "lines/surface_lines",
                         .element = Element::model,
                         .buffers = elements,
                         .choices = on_surface,
@@ -134,7 +139,7 @@ void add_line_kernels(std::vector<KernelUse>& uses) {
 }
 
 void add_isosurface_kernels(std::vector<KernelUse>& uses) {
-    for (const char* kernel : {"level_models", "level_cells"}) {
+    for (const char* kernel : {"isosurface/level_models", "isosurface/level_cells"}) {
         uses.push_back({.kernel = kernel,
                         .element = Element::model,
                         .is_for_solids = true,
@@ -149,10 +154,10 @@ void add_isosurface_kernels(std::vector<KernelUse>& uses) {
         made.is_for_solids = made.shows_own_boundary = true;
         return made;
     };
-    uses.push_back(use("ray_tiles", cells, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), yes("CORE_LISTS_TILES")}));
-    uses.push_back(use("isosurface", cells, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS")}));
+    uses.push_back(use("tiles/ray_tiles", cells, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), yes("CORE_LISTS_TILES")}));
+    uses.push_back(use("isosurface/isosurface", cells, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS")}));
     for (const bool is_nested : {true, false}) {
-        KernelUse projection = use("isosurface_projection", {"core_elements", "core_nodes", "core_models"},
+        KernelUse projection = use("isosurface/isosurface_projection", {"core_elements", "core_nodes", "core_models"},
                                    {no_or_yes("CORE_USES_COLLEAGUE"), is_nested ? no("CORE_PLAIN") : yes("CORE_PLAIN")});
         projection.text = segment::segment_glsl(is_nested ? segment::nested_plan() : segment::fixed_plan(6));
         uses.push_back(projection);
@@ -171,12 +176,12 @@ void add_ray_kernels(std::vector<KernelUse>& uses) {
             return made;
         };
         const std::vector<Choice> for_segments{yes("CORE_MAKES_SEGMENTS"), no_or_yes("CORE_RAYS_ARE_GIVEN")};
-        uses.push_back(use("ray_tiles", Element::snippet, {yes("CORE_TESTS_STARTS")}));
-        uses.push_back(use("chain_seek", Element::snippet, {}));
-        uses.push_back(use("chain_seek", Element::snippet, for_segments));
-        uses.push_back(use("segments", Element::snippet, for_segments));
-        KernelUse march =
-            use("volume_march", Element::model, {{"CORE_INTEGRATOR", {"0", "1", "2", "3", "4"}}, no_or_yes("CORE_HAS_STEPS")});
+        uses.push_back(use("tiles/ray_tiles", Element::snippet, {yes("CORE_TESTS_STARTS")}));
+        uses.push_back(use("segments/chain_seek", Element::snippet, {}));
+        uses.push_back(use("segments/chain_seek", Element::snippet, for_segments));
+        uses.push_back(use("segments/segments", Element::snippet, for_segments));
+        KernelUse march = use("volume/volume_march", Element::model,
+                              {{"CORE_INTEGRATOR", {"0", "1", "2", "3", "4"}}, no_or_yes("CORE_HAS_STEPS")});
         march.buffers.emplace_back("core_models");
         march.text = segment::segment_glsl(segment::fixed_plan(5));
         uses.push_back(march);
@@ -184,17 +189,20 @@ void add_ray_kernels(std::vector<KernelUse>& uses) {
 }
 
 void add_checks(std::vector<KernelUse>& uses) {
-    uses.push_back({.kernel = "bench_roots",
+    uses.push_back({.kernel = "bench/bench_roots",
                     .choices = {no_or_yes("CORE_COLLEAGUE")},
                     .text = segment::segment_glsl(segment::fixed_plan(8))});
-    uses.push_back({.kernel = "bench_unit", .element = Element::snippet});
-    uses.push_back({.kernel = "compose_check", .element = Element::snippet, .buffers = {"counts"}, .n_instances = 2});
-    uses.push_back({.kernel = "conformance", .element = Element::snippet});
-    uses.push_back({.kernel = "conformance", .element = Element::snippet, .with_second_derivatives = true});
+    uses.push_back({.kernel = "bench/bench_unit", .element = Element::snippet});
     uses.push_back(
-        {.kernel = "conformance", .element = Element::snippet, .with_second_derivatives = true, .is_debug_build = true});
-    uses.push_back({.kernel = "hessian_check", .element = Element::snippet, .with_second_derivatives = true});
-    uses.push_back({.kernel = "snippet_check", .element = Element::snippet});
+        {.kernel = "conformance/compose_check", .element = Element::snippet, .buffers = {"counts"}, .n_instances = 2});
+    uses.push_back({.kernel = "conformance/conformance", .element = Element::snippet});
+    uses.push_back({.kernel = "conformance/conformance", .element = Element::snippet, .with_second_derivatives = true});
+    uses.push_back({.kernel = "conformance/conformance",
+                    .element = Element::snippet,
+                    .with_second_derivatives = true,
+                    .is_debug_build = true});
+    uses.push_back({.kernel = "conformance/hessian_check", .element = Element::snippet, .with_second_derivatives = true});
+    uses.push_back({.kernel = "conformance/snippet_check", .element = Element::snippet});
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 /**
  * @file kernel_table.hpp
- * What each file shaders/kernels/NAME.comp is compiled with: the core's requests, as a table.
+ * What each file shaders/ROOM/NAME.comp is compiled with: the core's requests, as a table.
  */
 #pragma once
 
@@ -19,7 +19,7 @@ enum class Element {
     snippet,
     /** The snippet; once for each field where an expression is shown, with the expression's value. */
     value,
-    /** The same, with bounds of derivatives and models (shaders/library/shown_model.glsl). */
+    /** The same, with bounds of derivatives and models (shaders/field/shown_model.glsl). */
     model,
     /** Always an expression, with its gradient, or with what rounding does to it. */
     expression_gradient,
@@ -47,7 +47,7 @@ struct KernelUse {
     /** Two-dimensional volumes have no use for it. */
     bool is_for_solids = false;
     bool is_double_only = false;
-    /** Whether what cuts elements can be shown (shaders/library/own_boundary.glsl). */
+    /** Whether what cuts elements can be shown (shaders/field/own_boundary.glsl). */
     bool shows_own_boundary = false;
     bool with_second_derivatives = false;
     bool watches_loops = false;

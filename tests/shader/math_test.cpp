@@ -1,4 +1,4 @@
-// The elementary functions of shaders/library/math.glsl on the device, against the 80-bit functions of the C library.
+// The elementary functions of shaders/arithmetic/math.glsl on the device, against the 80-bit functions of the C library.
 #include "fixture.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Taylor models (shaders/library/model.glsl) and intervals (interval.glsl) contain what they are to contain: dense samples,
+// Taylor models (shaders/arithmetic/model.glsl) and intervals (interval.glsl) contain what they are to contain: dense samples,
 // computed with 80 bits.
 #include "fixture.hpp"
 
@@ -73,7 +73,7 @@ const Operation operations[] = {
 };
 
 constexpr const char* model_text = R"(
-#include "library/model.glsl"
+#include "arithmetic/model.glsl"
 layout(local_size_x = 32) in;
 layout(std430, set = 0, binding = 0) readonly buffer input_block { elvis_real given[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer result_block { elvis_real result[]; };
@@ -97,7 +97,7 @@ void main() {
 )";
 
 constexpr const char* interval_text = R"(
-#include "library/interval.glsl"
+#include "arithmetic/interval.glsl"
 layout(local_size_x = 32) in;
 layout(std430, set = 0, binding = 0) readonly buffer input_block { elvis_real given[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer result_block { elvis_real result[]; };

@@ -116,7 +116,7 @@ namespace {
 KernelRequest request_without_device(const char* title) {
     KernelRequest request;
     request.name = title;
-    request.kernel = "kernels/conformance.comp";
+    request.kernel = "conformance/conformance.comp";
     SnippetInstance instance;
     instance.snippet = test::simple_snippet();
     instance.constants = {};

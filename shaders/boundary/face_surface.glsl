@@ -1,0 +1,85 @@
+// Bindings of the kernels that draw faces, and how what they have found gets into the picture.
+
+#include "element/place.glsl"
+
+layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
+// Three numbers a pixel.
+layout(set = 0, binding = 2, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+// Pixels that boundary/faces.comp leaves to boundary/faces_careful.comp; core_counts[3] of them.
+layout(set = 0, binding = 6, std430) buffer core_list_block { uint core_list[]; };
+// Depths behind which crossings are wanted; CORE_FAR where none is. Read if core_has_beyond.
+layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
+// Written if core_wants_places.
+layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
+layout(push_constant) uniform core_parameters {
+    uvec2 core_size;
+    uint core_tiles_per_row;
+    // Where in the list of tiles, or of pixels, the dispatch begins.
+    uint core_first;
+    // Counted from 1; 0 is no surface.
+    uint core_surface;
+    uint core_first_component;
+    uint core_end_component;
+    uint core_is_discontinuous;
+    uint core_has_beyond;
+    uint core_wants_normals;
+    uint core_wants_places;
+};
+
+#include "picture/look_beyond.glsl"
+#include "cut_surface/show.glsl"
+
+core_location core_location_of(core_nearest nearest, uint n_steps) {
+    const bool has_found = nearest.face != CORE_NO_FACE;
+    const uvec4 place = elvis_fetch4_core_faces(has_found ? nearest.face : 0u, 0u);
+    core_location found;
+    found.element = has_found ? place.x : CORE_NO_ELEMENT;
+    found.number = nearest.number;
+    found.key = nearest.key;
+    const elvis_vec3 xi = core_face_xi(int(place.y), nearest.u, nearest.v);
+    found.x = xi.x;
+    found.y = xi.y;
+    found.z = xi.z;
+    found.is_on_face = found.is_on_crossing_face = nearest.is_on_edge;
+    found.n_candidates = nearest.n_candidates;
+    found.n_steps = n_steps;
+    found.n_failures = 0u;
+    found.is_cut_short = false;
+    return found;
+}
+
+// Returns the number of field evaluations.
+uint core_show(uint pixel, core_ray ray, core_nearest nearest, core_location found, elvis_real value) {
+    core_cut_point point;
+    point.is_hit = found.element != CORE_NO_ELEMENT;
+    point.t = nearest.t;
+    point.direction = ray.direction;
+    point.position = ray.origin + nearest.t * ray.direction;
+    point.error = ray.error;
+    const uint n_evaluations = core_merge(pixel, point, found, value);
+    // At the crossing itself: where Newton's method took its last step from, the normal may be off by that step.
+    if (n_evaluations > 0u && core_wants_normals != 0u) {
+        const uvec4 place = elvis_fetch4_core_faces(nearest.face, 0u);
+        const core_face_point there = core_face_at(nearest.face, place.x, int(place.y), nearest.u, nearest.v);
+        const elvis_vec3 normal = cross(there.along_u, there.along_v);
+        const elvis_vec3 unit = -sign(dot(normal, ray.direction)) * normalize(normal);
+        core_normals[3u * pixel] = unit.x;
+        core_normals[3u * pixel + 1u] = unit.y;
+        core_normals[3u * pixel + 2u] = unit.z;
+    }
+    if (n_evaluations > 0u && core_wants_places != 0u) {
+        const uint face = elvis_fetch4_core_faces(nearest.face, 0u).y;
+        core_places[pixel] =
+            core_place(found.x, found.y, found.z, found.element, (CORE_CLASS << CORE_PLACE_FACE_BITS) | (face + 1u));
+    }
+    if (n_evaluations > 0u) {
+#ifndef CORE_FACE_ORDER
+        // The patches' bounds are those of polynomials near the faces.
+        core_marks[pixel].flags |= CORE_FLAG_ESTIMATED;
+#endif
+    }
+    return n_evaluations;
+}

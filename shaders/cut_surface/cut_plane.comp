@@ -1,0 +1,139 @@
+// Where the rays of a picture meet one cut plane, for the elements of one class: finds the element, evaluates the field.
+//
+// Several planes and classes merge in core_samples: the nearest plane wins; on one plane, the element on the viewer's side, then
+// the lowest number. One field evaluation a pixel and class, after the search.
+//
+// With CORE_LINES, what needs no closer look is decided about lines: pixels whose square lies inside one element, and in which the
+// field certainly takes an isovalue or certainly none. The others are left to lines/cut_lines.comp.
+//
+// A work group is a tile of pixels, an invocation one of its columns: what the whole tile shares is fetched once.
+
+layout(local_size_x = CORE_TILE_WIDTH) in;
+
+#include "arithmetic/precision.glsl"
+#include "picture/cut_frame.glsl"
+#include "tiles/cut_tiles.glsl"
+#include "picture/samples.glsl"
+
+layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+layout(push_constant) uniform core_parameters {
+    uvec2 core_size;
+    uint core_first_listed;
+    // Counted from 1; 0 is no surface.
+    uint core_surface;
+    // Components of the field: the only one, or all that make up the length of the vector.
+    uint core_first_component;
+    uint core_end_component;
+    // Two values on a face: which one is shown there may depend on rounding.
+    uint core_is_discontinuous;
+    uint core_n_isovalues;
+};
+
+#define CORE_LISTED_BINDING 6
+#include "tiles/listed_tile.glsl"
+
+uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE_STRIDE + 1u; }
+
+uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
+
+#include "cut_surface/show.glsl"
+#include "picture/distrust_column.glsl"
+#include "cut_surface/locate.glsl"
+
+#if CORE_LINES
+layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
+
+#include "lines/cell.glsl"
+#include "field/shown_model.glsl"
+
+struct core_pixel_lines {
+    elvis_real value;
+    bool is_settled, has_contour, is_estimated;
+};
+
+core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, elvis_vec3 direction) {
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, xi, position, jacobian);
+    const core_cut_square square = core_cut_corners(elvis_real(pixel.x), elvis_real(pixel.y), elvis_real(0.5LF));
+    const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
+    const elvis_vec3 origin = shift - position;
+    const elvis_real error = square.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
+    const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
+    core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
+                                  origin + square.corner2, origin + square.corner3, curvature, core_plane_normal.xyz, direction,
+                                  CORE_NO_FACE);
+#if ELVIS_HAS_INSIDE
+    core_judge_inside(cell, element, xi);
+#endif
+    core_pixel_lines lines;
+    const core_model model = core_shown_model(element, xi, cell.region, lines.value);
+    const core_level_test test = core_test_levels(model, cell.region);
+    lines.is_settled = square.all_hit && cell.is_inside && (test.is_excluded || test.is_met);
+    lines.has_contour = lines.is_settled && test.is_met;
+    lines.is_estimated = core_n_isovalues > 0u && core_is_model_estimated(element);
+    return lines;
+}
+#endif
+
+void main() {
+    const uint tile = core_listed_tile(core_first_listed), tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    const uint column = tile % tiles_a_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
+    const uint first_row = tile / tiles_a_row * CORE_TILE_HEIGHT;
+    const uint n_entries = core_tiles[core_first_entry() - 1u];
+    const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
+    uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u;
+    const core_cut_column ray = core_cut_begin(elvis_real(column));
+    core_track track = core_no_track();
+    uint row = first_row;
+    while (row < end_row) {
+        const core_cut_point point = core_cut_pixel(ray, elvis_real(row));
+        const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
+        const bool has_found = found.element != CORE_NO_ELEMENT;
+        const elvis_vec3 xi = elvis_vec3(found.x, found.y, found.z);
+#if CORE_LINES
+        const core_pixel_lines lines =
+            core_lines_of_pixel(has_found ? found.element : 0u, xi, uvec2(column, row), point.direction);
+        const elvis_real value = lines.value;
+#else
+        const elvis_real value = core_shown_value(has_found ? found.element : 0u, xi);
+#endif
+        const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
+        if (is_news) {
+            const uint pixel = row * core_size.x + column;
+            const uint n_done = core_merge(pixel, point, found, value);
+            n_evaluations += n_done;
+#if CORE_LINES
+            if (n_done > 0u && lines.is_settled) {
+                core_marks[pixel].owner |= CORE_OWNER_SETTLED;
+                core_marks[pixel].flags |=
+                    (lines.has_contour ? CORE_FLAG_CONTOUR : 0u) | (lines.is_estimated ? CORE_FLAG_ESTIMATED : 0u);
+            }
+#endif
+        }
+        n_steps += found.n_steps;
+        n_failures += found.n_failures;
+        row += 1u;
+        if (row >= end_row) {
+            break;
+        }
+    }
+
+    // Then no pixel of the column is to be trusted.
+    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
+
+    if (end_row > first_row) {
+        const uint all_evaluations = subgroupAdd(n_evaluations);
+        const uint all_steps = subgroupAdd(n_steps);
+        const uint all_failures = subgroupAdd(n_failures);
+        if (subgroupElect()) {
+            atomicAdd(core_counts[0], all_evaluations);
+            atomicAdd(core_counts[1], all_steps);
+            atomicAdd(core_counts[2], all_failures);
+        }
+    }
+}

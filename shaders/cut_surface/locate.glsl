@@ -1,0 +1,248 @@
+// Which element of a class holds a point of a cut surface.
+//
+// Every element within rounding of the point is a candidate: neighbours share a face in exact arithmetic only, and must leave no
+// gap. Among candidates the viewer's side decides (key 0: a small step towards the viewer stays in the element), then the lowest
+// number. So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at. A point
+// that is inside by more than rounding is in no other element of a valid mesh: there the search ends.
+//
+// Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first,
+// from the solution here carried on with the Jacobian here, which leaves one Newton step to do.
+//
+// The kernel brings core_entry(i), the nodes to descend from, cut_surface/show.glsl, and the buffer core_elements
+// (element/linearization.glsl).
+//
+// One loop serves all candidates of a pixel, one Newton step a turn: lanes that dismiss a candidate after one step go on to their
+// next one while others still iterate.
+
+#include "element/newton.glsl"
+#include "tiles/hierarchy.glsl"
+#include "element/inside.glsl"
+#include "element/linearization.glsl"
+
+// Unit normal of the surface at the point: the plane's, unless the kernel knows another.
+#ifndef CORE_SURFACE_NORMAL
+#define CORE_SURFACE_NORMAL core_plane_normal.xyz
+#endif
+
+// Turns of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is
+// far above what any sensible search takes and leaves room for a tile's other pixels.
+#define CORE_WORK_LIMIT 2000u
+
+// Where the column's last pixel was found, to carry on from. Its vectors change by selection only (shaders/README.md, loops).
+struct core_track {
+    // Local element, or CORE_NO_ELEMENT.
+    uint element;
+    elvis_real x, y, z;
+    // Target of that pixel, in the snippet's coordinates, and J^-1 there.
+    elvis_vec3 target;
+    elvis_vec3 row0, row1, row2;
+    elvis_real curvature;
+};
+
+core_track core_no_track() {
+    core_track track;
+    track.element = CORE_NO_ELEMENT;
+    track.x = track.y = track.z = track.curvature = elvis_real(0);
+    track.target = track.row0 = track.row1 = track.row2 = elvis_vec3(0);
+    return track;
+}
+
+// Sine of the angle between a face and the plane below which they count as parallel: what rounding leaves of zero.
+#define CORE_PARALLEL (elvis_real(256) * CORE_ROUNDOFF)
+
+struct core_side {
+    bool is_inside, is_on_face, is_on_crossing_face;
+    uint key;
+};
+
+// Where a converged point lies that is within rounding of a face: each face with the rounding error across it.
+core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction) {
+    const elvis_vec3 error = elvis_real(2) * elvis_vec3(inverse.error0, inverse.error1, inverse.error2);
+    const elvis_vec3 towards_viewer = -elvis_vec3(dot(inverse.row0, direction), dot(inverse.row1, direction), dot(inverse.row2, direction));
+    core_side side = core_side(true, false, false, 0u);
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        const elvis_real distance = dot(constraint.xyz, xi) + constraint.w;
+        const elvis_real tolerance = dot(abs(constraint.xyz), error);
+        const bool is_active = distance >= -tolerance;
+        // The face's normal in the world is J^-T times that in xi.
+        const elvis_vec3 normal = constraint.x * inverse.row0 + constraint.y * inverse.row1 + constraint.z * inverse.row2;
+        const elvis_vec3 across = cross(normal, CORE_SURFACE_NORMAL);
+        const bool is_crossing = dot(across, across) > CORE_PARALLEL * CORE_PARALLEL * dot(normal, normal);
+        side.is_inside = side.is_inside && distance <= tolerance;
+        side.is_on_face = side.is_on_face || is_active;
+        side.is_on_crossing_face = side.is_on_crossing_face || (is_active && is_crossing);
+        side.key = is_active && dot(constraint.xyz, towards_viewer) > elvis_real(0) ? 1u : side.key;
+    }
+    return side;
+}
+
+#if ELVIS_HAS_INSIDE
+// The same for the element's own boundary, added to what the faces say.
+void core_add_own_side(uint element, elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction, inout core_side side) {
+    const core_inside g = core_inside_at(element, xi);
+    const elvis_vec3 error = elvis_real(2) * elvis_vec3(inverse.error0, inverse.error1, inverse.error2);
+    const elvis_vec3 towards_viewer = -elvis_vec3(dot(inverse.row0, direction), dot(inverse.row1, direction), dot(inverse.row2, direction));
+    const elvis_real tolerance = dot(abs(g.slope), error) + g.rounding;
+    const bool is_active = g.value >= -tolerance;
+    side.is_inside = side.is_inside && g.value <= tolerance;
+    side.is_on_face = side.is_on_face || is_active;
+    side.is_on_crossing_face = side.is_on_crossing_face || is_active;
+    side.key = is_active && dot(g.slope, towards_viewer) > elvis_real(0) ? 1u : side.key;
+}
+#endif
+
+struct core_target {
+    // In the snippet's coordinates, and its rounding error.
+    elvis_real x, y, z;
+    elvis_real error;
+};
+
+core_target core_target_in(uint element, core_cut_point point) {
+    // elvis_origin is zero where the snippet's coordinates are the world's.
+    const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
+    const elvis_vec3 x = shift + point.position;
+    return core_target(x.x, x.y, x.z, point.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z)));
+}
+
+// From the linearized mapping, or from the centroid where there is none.
+core_newton core_newton_start(uint element, elvis_vec3 target) {
+    const core_linearization linearization = core_fetch_linearization(element);
+    const bool is_linearized = linearization.exponents != 0u;
+    const elvis_vec3 middle = CORE_CENTROID;
+    const elvis_vec3 start = is_linearized ? elvis_vec3(core_linear_inverse(linearization, vec3(target))) : middle;
+    const elvis_vec3 moved = abs(start - middle);
+    return core_newton_begin(start.x, start.y, start.z, is_linearized ? max(max(moved.x, moved.y), moved.z) : elvis_real(-1),
+                             elvis_real(core_curvature(linearization.exponents)));
+}
+
+// The linearized mapping keeps this many digits of coordinates in the element.
+#define CORE_START_ERROR elvis_real(1e-2LF)
+
+// Whether the start alone, a prediction from the centroid, is far enough outside.
+bool core_is_outside(core_newton state) {
+    return core_excess(state.x, state.y, state.z) >
+           CORE_CONSTRAINT_NORM * (core_prediction_error(state.curvature, state.last_step) + CORE_START_ERROR);
+}
+
+core_location core_locate(core_cut_point point, uint n_entries, inout core_track track) {
+    core_location found;
+    found.element = CORE_NO_ELEMENT;
+    found.number = 0xffffffffu;
+    found.key = 2u;
+    found.x = found.y = found.z = elvis_real(0);
+    found.is_on_face = found.is_on_crossing_face = false;
+    found.n_candidates = 0u;
+    found.n_steps = 0u;
+    found.n_failures = 0u;
+
+    const vec3 in_hierarchy = vec3(point.position + core_reference_in_hierarchy.xyz);
+    // Rounding of the point, and of its conversion to single precision.
+    const float box_tolerance = 2.0 * float(point.error) + 2.0 * CORE_FLOAT_ROUNDOFF *
+                                                               max(max(abs(in_hierarchy.x), abs(in_hierarchy.y)), abs(in_hierarchy.z));
+    uint stack[CORE_STACK_SIZE];
+    uint stack_size = 0u;
+    uint entry = 0u;
+    uint work = 0u;
+    // First the element that held the column's last pixel.
+    uint element = n_entries > 0u ? track.element : CORE_NO_ELEMENT;
+    bool is_tracked = element != CORE_NO_ELEMENT;
+    core_target target = core_target_in(is_tracked ? element : 0u, point);
+    const elvis_vec3 motion = elvis_vec3(target.x, target.y, target.z) - track.target;
+    const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
+    core_newton state = core_newton_begin(track.x + step.x, track.y + step.y, track.z + step.z,
+                                          max(max(abs(step.x), abs(step.y)), abs(step.z)), track.curvature);
+
+    while ((element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
+        work += 1u;
+        // The next element that the point is not certain to lie outside of.
+        while (element == CORE_NO_ELEMENT && (stack_size > 0u || entry < n_entries)) {
+            const bool is_popped = stack_size > 0u;
+            const uint index = is_popped ? stack[stack_size - 1u] : core_entry(entry);
+            stack_size -= is_popped ? 1u : 0u;
+            entry += is_popped ? 0u : 1u;
+            const core_node node = core_fetch_node(index);
+            const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
+            if (is_touched && node.is_leaf) {
+                target = core_target_in(node.child, point);
+                state = core_newton_start(node.child, elvis_vec3(target.x, target.y, target.z));
+                element = core_is_outside(state) ? CORE_NO_ELEMENT : node.child;
+            }
+            // Entries are leaves as a rule.
+            if (is_touched && !node.is_leaf) {
+                stack[stack_size] = node.child + 1u;
+                stack[stack_size + 1u] = node.child;
+                stack_size += 2u;
+            }
+            if (element != CORE_NO_ELEMENT || (stack_size == 0u && entry >= n_entries)) {
+                break;
+            }
+        }
+
+        const bool is_active = element != CORE_NO_ELEMENT;
+        const uint safe_element = is_active ? element : 0u;
+        core_inverse inverse;
+        const uint ending = core_newton_step(safe_element, elvis_vec3(target.x, target.y, target.z), target.error, state, inverse);
+        const uint status = is_active ? ending : CORE_NEWTON_OUTSIDE;
+        found.n_steps += is_active ? 1u : 0u;
+        // A failure from the last pixel's solution is none: the search tries the element again from its own start.
+        found.n_failures += status == CORE_NEWTON_FAILED && !is_tracked ? 1u : 0u;
+        const elvis_real excess = core_excess(state.x, state.y, state.z);
+        // No constraint sums more than the three coordinates. 2: the point's error and the solution's.
+        const elvis_real most = elvis_real(2) * (inverse.error0 + inverse.error1 + inverse.error2);
+        bool is_inside = status == CORE_NEWTON_CONVERGED && excess <= most;
+        bool is_on_face = is_inside && excess >= -most;
+        bool is_on_crossing_face = false;
+        uint key = 0u;
+        if (is_on_face) {
+            const core_side side = core_side_of(elvis_vec3(state.x, state.y, state.z), inverse, point.direction);
+            is_inside = side.is_inside;
+            is_on_face = side.is_on_face;
+            is_on_crossing_face = side.is_on_crossing_face;
+            key = side.key;
+        }
+#if ELVIS_HAS_INSIDE
+        if (is_inside) {
+            core_side side = core_side(is_inside, is_on_face, is_on_crossing_face, key);
+            core_add_own_side(safe_element, elvis_vec3(state.x, state.y, state.z), inverse, point.direction, side);
+            is_inside = side.is_inside;
+            is_on_face = side.is_on_face;
+            is_on_crossing_face = side.is_on_crossing_face;
+            key = side.key;
+        }
+#endif
+        // In no other element of a valid mesh.
+        const bool is_alone = is_inside && excess < -most && (ELVIS_HAS_INSIDE == 0 || !is_on_face);
+        const bool is_accepted = is_inside && (is_alone || !is_tracked);
+        const uint number = elvis_fetch_core_elements(safe_element, 0u);
+        const bool is_better = is_accepted && (key < found.key || (key == found.key && number < found.number));
+        found.n_candidates += is_accepted ? 1u : 0u;
+        found.element = is_better ? element : found.element;
+        found.number = is_better ? number : found.number;
+        found.key = is_better ? key : found.key;
+        found.x = is_better ? state.x : found.x;
+        found.y = is_better ? state.y : found.y;
+        found.z = is_better ? state.z : found.z;
+        found.is_on_face = is_better ? is_on_face : found.is_on_face;
+        found.is_on_crossing_face = is_better ? is_on_crossing_face : found.is_on_crossing_face;
+        const bool is_done = status != CORE_NEWTON_RUNNING;
+        track.element = is_done ? (is_alone ? element : CORE_NO_ELEMENT) : track.element;
+        track.x = is_alone ? state.x : track.x;
+        track.y = is_alone ? state.y : track.y;
+        track.z = is_alone ? state.z : track.z;
+        track.target = is_alone ? elvis_vec3(target.x, target.y, target.z) : track.target;
+        track.curvature = is_alone ? state.curvature : track.curvature;
+        track.row0 = is_alone ? inverse.row0 : track.row0;
+        track.row1 = is_alone ? inverse.row1 : track.row1;
+        track.row2 = is_alone ? inverse.row2 : track.row2;
+        is_tracked = is_tracked && !is_done;
+        element = is_done ? CORE_NO_ELEMENT : element;
+        entry = is_alone ? n_entries : entry;
+        stack_size = is_alone ? 0u : stack_size;
+        if (element == CORE_NO_ELEMENT && stack_size == 0u && entry >= n_entries) {
+            break;
+        }
+    }
+    found.is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
+    return found;
+}

@@ -1,0 +1,55 @@
+// What a solver for one kind of surface is asked, and what it answers.
+//
+// cut_surface/surface_KIND.glsl defines
+//
+//     core_hit core_next_hit(core_ray ray)
+//
+// the crossing with the least t in (ray.from, ray.to) that lies beyond ray.after by more than its own rounding error. A ray that is
+// not wanted has from > to, and must cost little.
+
+#ifndef CORE_SURFACE_HIT
+#define CORE_SURFACE_HIT
+
+#include "arithmetic/precision.glsl"
+#include "picture/samples.glsl"
+
+struct core_ray {
+    // The ray is origin + t direction, relative to the picture's reference point; direction is of length 1 to about 2.
+    elvis_vec3 origin, direction;
+    elvis_real from, to, after;
+    // Rounding error of the ray's points between from and to, in each coordinate.
+    elvis_real noise;
+};
+
+struct core_hit {
+    bool is_hit;
+    elvis_real t;
+    // Bound of t's rounding error.
+    elvis_real error;
+    // Of any length and on any side. Kept in scalars because of a driver that miscompiles vectors carried round a loop.
+    elvis_real normal_x, normal_y, normal_z;
+    // Upper bound of the surface's normal curvatures there, without sign; CORE_FAR where there is none.
+    elvis_real bending;
+    // Rounding decides whether the ray meets the surface, there or before. The search was ended before it was done. A crossing may
+    // have been missed, because what the search rests on is not proven.
+    bool is_undecided, is_cut_short, is_estimated;
+};
+
+core_hit core_no_hit() {
+    const elvis_real zero = elvis_real(0);
+    return core_hit(false, CORE_FAR, zero, zero, zero, zero, zero, false, false, false);
+}
+
+// Numbers of the surface for this picture, prepared by the host in extended precision. First the box that the surface is drawn in
+// (lower, upper; relative to the reference point), then the rows that the solver describes.
+layout(std140, set = 0, binding = 1) uniform core_shape_block { elvis_vec4 core_shape[CORE_SHAPE_ROWS]; };
+#define CORE_SHAPE(i) core_shape[2 + (i)]
+
+elvis_real core_norm1(elvis_vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+
+// Whether a crossing counts, and goes before what was found.
+bool core_is_next(core_ray ray, elvis_real t, elvis_real error, core_hit best) {
+    return t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after && t < best.t;
+}
+
+#endif

@@ -1,0 +1,131 @@
+// The crossings of a picture's rays with a surface (cut_surface/surface_hits.comp), for the elements of one class: finds the element,
+// evaluates the field. As cut_surface/cut_plane.comp, but for where the points come from.
+//
+// A work group is a tile of pixels, an invocation one of its columns.
+
+layout(local_size_x = CORE_TILE_WIDTH) in;
+
+#include "arithmetic/precision.glsl"
+#include "picture/cut_frame.glsl"
+#include "tiles/cut_tiles.glsl"
+#include "element/place.glsl"
+#include "picture/samples.glsl"
+
+struct core_hit_record {
+    elvis_real t, error;
+};
+
+layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+layout(set = 0, binding = 5, std430) readonly buffer core_hits_block { core_hit_record core_hits[]; };
+layout(set = 0, binding = 6, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
+// Written if core_wants_places.
+layout(set = 0, binding = 7, std430) writeonly buffer core_places_block { core_place core_places[]; };
+layout(push_constant) uniform core_parameters {
+    uvec2 core_size;
+    uint core_first_listed;
+    // Counted from 1; 0 is no surface.
+    uint core_surface;
+    // Components of the field: the only one, or all that make up the length of the vector.
+    uint core_first_component;
+    uint core_end_component;
+    // Two values on a face: which one is shown there may depend on rounding.
+    uint core_is_discontinuous;
+    // The most that a point's error along the ray may be; where it is more the pixel is undecided anyway.
+    float core_most_error;
+    uint core_wants_places;
+};
+
+#define CORE_LISTED_BINDING 8
+#include "tiles/listed_tile.glsl"
+
+uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE_STRIDE + 1u; }
+
+uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
+
+// Of the surface where the pixel at hand sees it.
+elvis_vec3 core_normal_here;
+#define CORE_SURFACE_NORMAL core_normal_here
+
+#include "cut_surface/show.glsl"
+#include "picture/distrust_column.glsl"
+#include "cut_surface/locate.glsl"
+
+// The column's next pixel with a crossing of this round, from a row on.
+uint core_next_row(uint column, uint row, uint end_row) {
+    bool is_idle = true;
+    while (is_idle && row < end_row) {
+        is_idle = core_hits[row * core_size.x + column].t >= CORE_FAR;
+        row += is_idle ? 1u : 0u;
+        if (!is_idle || row >= end_row) {
+            break;
+        }
+    }
+    return row;
+}
+
+void main() {
+    const uint tile = core_listed_tile(core_first_listed), tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    const uint column = tile % tiles_a_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
+    const uint first_row = tile / tiles_a_row * CORE_TILE_HEIGHT;
+    const uint n_entries = core_tiles[core_first_entry() - 1u];
+    const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
+    uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u, n_found = 0u;
+    const core_cut_column along = core_cut_begin(elvis_real(column));
+    core_track track = core_no_track();
+    uint row = core_next_row(column, first_row, end_row);
+    while (row < end_row) {
+        const uint pixel = row * core_size.x + column;
+        const elvis_real down = elvis_real(row) - along.row0;
+        const elvis_vec4 base = along.base + down * along.base_row;
+        const elvis_vec4 direction = along.direction + down * along.direction_row;
+        core_cut_point point;
+        point.t = core_hits[pixel].t;
+        point.is_hit = true;
+        point.direction = direction.xyz;
+        point.position = base.xyz + point.t * direction.xyz;
+        const elvis_vec3 size = (along.size + abs(down * along.base_row)).xyz + abs(point.t * direction.xyz);
+        point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z) +
+                      min(core_hits[pixel].error * length(direction.xyz), elvis_real(core_most_error));
+        core_normal_here = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+        const core_location found = core_locate(point, n_entries, track);
+        const bool has_found = found.element != CORE_NO_ELEMENT;
+        const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
+        const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
+        if (is_news) {
+            const bool was_open = core_marks[pixel].owner >> CORE_OWNER_BITS != core_surface;
+            const uint n_done = core_merge(pixel, point, found, value);
+            n_evaluations += n_done;
+            if (n_done > 0u && core_wants_places != 0u) {
+                core_places[pixel] =
+                    core_place(found.x, found.y, found.z, found.element, CORE_CLASS << CORE_PLACE_FACE_BITS);
+            }
+            n_found += has_found && was_open ? 1u : 0u;
+        }
+        n_steps += found.n_steps;
+        n_failures += found.n_failures;
+        row = core_next_row(column, row + 1u, end_row);
+        if (row >= end_row) {
+            break;
+        }
+    }
+
+    // Then no pixel of the column is to be trusted.
+    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
+
+    if (end_row > first_row) {
+        const uint all_evaluations = subgroupAdd(n_evaluations);
+        const uint all_steps = subgroupAdd(n_steps);
+        const uint all_failures = subgroupAdd(n_failures);
+        const uint all_found = subgroupAdd(n_found);
+        if (subgroupElect()) {
+            atomicAdd(core_counts[0], all_evaluations);
+            atomicAdd(core_counts[1], all_steps);
+            atomicAdd(core_counts[2], all_failures);
+            atomicAdd(core_counts[3], all_found);
+        }
+    }
+}

@@ -1,0 +1,38 @@
+// J^-1 at a point of an element by rows, and what positions lose by rounding as coordinates, as in element/newton.glsl.
+
+#ifndef CORE_ELEMENT_FRAME
+#define CORE_ELEMENT_FRAME
+
+#include "arithmetic/finite.glsl"
+#include "arithmetic/precision.glsl"
+
+elvis_real core_max_norm(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+
+struct core_frame {
+    elvis_vec3 row0, row1, row2;
+    elvis_vec3 xi_error;
+    bool is_sound;
+};
+
+// `position_error`: of the points that are compared with this one, beyond the rounding of the mapping.
+core_frame core_frame_at(elvis_vec3 position, elvis_mat3 jacobian, elvis_real position_error) {
+    const elvis_vec3 cofactors0 = cross(jacobian[1], jacobian[2]);
+    const elvis_vec3 cofactors1 = cross(jacobian[2], jacobian[0]);
+    const elvis_vec3 cofactors2 = cross(jacobian[0], jacobian[1]);
+    const elvis_real inverse_determinant = elvis_real(1) / dot(jacobian[0], cofactors0);
+    core_frame frame;
+    frame.row0 = inverse_determinant * cofactors0;
+    frame.row1 = inverse_determinant * cofactors1;
+    frame.row2 = inverse_determinant * cofactors2;
+    const elvis_vec3 extent = abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2]) + abs(position);
+    const elvis_vec3 error = elvis_real(4) * CORE_ROUNDOFF * extent + position_error;
+    frame.xi_error = elvis_vec3(dot(abs(frame.row0), error), dot(abs(frame.row1), error), dot(abs(frame.row2), error));
+    frame.is_sound = core_is_finite(inverse_determinant);
+    return frame;
+}
+
+elvis_vec3 core_to_xi(core_frame frame, elvis_vec3 x) {
+    return elvis_vec3(dot(frame.row0, x), dot(frame.row1, x), dot(frame.row2, x));
+}
+
+#endif

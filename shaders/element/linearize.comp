@@ -1,0 +1,55 @@
+// The linearized inverse mapping of each element of a class, at its centroid (element/linearization.glsl), and how far the mapping
+// is from linear (element/prediction.glsl): once for a volume.
+
+layout(local_size_x = 32) in;
+
+#include "element/face_frame.glsl"
+#include "arithmetic/finite.glsl"
+#include "element/linearization.glsl"
+#include "element/measured_curvature.glsl"
+#include "element/shape_region.glsl"
+
+layout(std430, set = 0, binding = 0) writeonly buffer core_output {
+    // Eight words an element: exponents, the packed numbers, and the curvature as a float.
+    uint core_words[];
+};
+
+layout(push_constant) uniform core_constants {
+    uint core_first_element;
+    uint core_n_elements;
+};
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= core_n_elements) {
+        return;
+    }
+    const uint element = core_first_element + i;
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, CORE_CENTROID, position, jacobian);
+    jacobian = core_full_jacobian(jacobian);
+    const elvis_vec3 cofactors0 = cross(jacobian[1], jacobian[2]);
+    const elvis_vec3 cofactors1 = cross(jacobian[2], jacobian[0]);
+    const elvis_vec3 cofactors2 = cross(jacobian[0], jacobian[1]);
+    const elvis_real determinant = dot(jacobian[0], cofactors0);
+    const elvis_real inverse_determinant = elvis_real(1) / determinant;
+    const elvis_vec3 row0 = inverse_determinant * cofactors0;
+    const elvis_vec3 row1 = inverse_determinant * cofactors1;
+    const elvis_vec3 row2 = inverse_determinant * cofactors2;
+    const elvis_vec3 offset = CORE_CENTROID - elvis_vec3(dot(row0, position), dot(row1, position), dot(row2, position));
+    const bool is_usable = core_is_finite(inverse_determinant) && core_is_finite(offset.x + offset.y + offset.z);
+
+    const elvis_real curvature =
+        core_measured_curvature(element, CORE_CENTROID, jacobian, elvis_vec3(0), elvis_real(1), CORE_CURVATURE_STAGES);
+    const core_linearization packed =
+        core_pack_linearization(vec3(row0), vec3(row1), vec3(row2), vec3(offset), float(curvature));
+    core_words[8u * i] = is_usable ? packed.exponents : 0u;
+    core_words[8u * i + 1u] = packed.words[0];
+    core_words[8u * i + 2u] = packed.words[1];
+    core_words[8u * i + 3u] = packed.words[2];
+    core_words[8u * i + 4u] = packed.words[3];
+    core_words[8u * i + 5u] = packed.words[4];
+    core_words[8u * i + 6u] = packed.words[5];
+    core_words[8u * i + 7u] = floatBitsToUint(is_usable ? float(curvature) : 1e9);
+}

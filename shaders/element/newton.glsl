@@ -1,0 +1,163 @@
+// Newton's method for the inverse of the mapping: xi with x(xi) = target.
+//
+// Each step evaluates the mapping at a point of the element and predicts the solution from the linear model there,
+//     prediction = xi + J(xi)^-1 (target - x(xi)).
+// The next step evaluates at the prediction, moved into the element if it lies outside: only there is the mapping known to be
+// one to one, and extrapolated polynomials fold. So a solution on a face, or beyond it by rounding, is found to full accuracy,
+// and a point outside shows as predictions that agree with each other about lying outside.
+//
+// Ends:
+//   converged  the next step would change the prediction by less than rounding does
+//   outside    the prediction violates a face constraint by more than its error can be; or by far more than it changed between two
+//              evaluations; or does so in the end from every start
+//   failed     neither within the allowed steps, from several starts: no answer, to be counted, never to be drawn
+//
+// State is kept in scalars because of a driver that miscompiles vectors carried round a loop.
+
+#include "arithmetic/finite.glsl"
+#include "arithmetic/precision.glsl"
+#include "element/prediction.glsl"
+#include "element/shape_region.glsl"
+
+#define CORE_NEWTON_RUNNING 0u
+#define CORE_NEWTON_CONVERGED 1u
+#define CORE_NEWTON_OUTSIDE 2u
+#define CORE_NEWTON_FAILED 3u
+
+// Steps from one start. From a start of first order, eight quadratically convergent steps pass any precision; more are needed
+// only while far away on a strongly curved element.
+#define CORE_NEWTON_STEPS 12u
+#define CORE_NEWTON_STARTS 5u
+
+struct core_newton {
+    // Prediction of the solution, which may lie outside.
+    elvis_real x, y, z;
+    // Length of the last step that started from a prediction; negative if there is none yet.
+    elvis_real last_step;
+    elvis_real curvature;
+    uint steps;
+    uint start;
+    // Steps in a row, of this start, whose prediction lay clearly outside; and whether every start so far ended so.
+    uint outside_steps;
+    bool always_outside;
+};
+
+// What the last step knows beyond the state.
+struct core_inverse {
+    // Rows of J^-1.
+    elvis_vec3 row0, row1, row2;
+    // Rounding error of each coordinate of the solution.
+    elvis_real error0, error1, error2;
+};
+
+// `guess_step`: length of the step of first order that led to the guess; negative if none did.
+core_newton core_newton_begin(elvis_real guess_x, elvis_real guess_y, elvis_real guess_z, elvis_real guess_step,
+                              elvis_real curvature) {
+    core_newton state;
+    state.curvature = curvature;
+    state.x = guess_x;
+    state.y = guess_y;
+    state.z = guess_z;
+    state.last_step = guess_step;
+    state.steps = 0u;
+    state.start = 0u;
+    state.outside_steps = 0u;
+    state.always_outside = true;
+    return state;
+}
+
+void core_newton_restart(inout core_newton state) {
+    // The first start takes whole steps and can go round in circles: it says nothing.
+    state.always_outside = state.start == 0u || (state.always_outside && state.outside_steps >= 3u);
+    state.start += 1u;
+    // The other starts lie on the half way from the centroid to the corners of a tetrahedron in the shape, lowest corner first.
+    const uint k = state.start & 3u;
+    const elvis_vec3 c = CORE_CENTROID;
+    const elvis_real half_way = elvis_real(0.5LF);
+    state.x = c.x + half_way * ((k == 2u ? elvis_real(1) : elvis_real(-1)) - c.x);
+    state.y = c.y + half_way * ((k == 3u ? elvis_real(1) : elvis_real(-1)) - c.y);
+    state.z = c.z + half_way * ((k == 0u ? elvis_real(1) : elvis_real(-1)) - c.z);
+    state.last_step = elvis_real(-1);
+    state.steps = 0u;
+    state.outside_steps = 0u;
+}
+
+// One step. `position_error`: absolute error that target and positions carry beyond the rounding of numbers of the element's
+// size. Where the result is converged or outside, state.x, y, z is the last prediction.
+uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error, inout core_newton state,
+                      out core_inverse inverse) {
+    elvis_real x = state.x, y = state.y, z = state.z;
+    core_project(x, y, z);
+    const bool was_inside = x == state.x && y == state.y && z == state.z;
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
+
+    const elvis_vec3 cofactors0 = cross(jacobian[1], jacobian[2]);
+    const elvis_vec3 cofactors1 = cross(jacobian[2], jacobian[0]);
+    const elvis_vec3 cofactors2 = cross(jacobian[0], jacobian[1]);
+    const elvis_real inverse_determinant = elvis_real(1) / dot(jacobian[0], cofactors0);
+    inverse.row0 = inverse_determinant * cofactors0;
+    inverse.row1 = inverse_determinant * cofactors1;
+    inverse.row2 = inverse_determinant * cofactors2;
+
+    // A position is rounded relative to the element's extent in that direction, which is about the Jacobian's row sum (and to
+    // its own size, where positions are not relative to the element); J^-1 takes that to xi. 4: rounding in the sums over modes.
+    const elvis_vec3 extent = abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2]) + abs(position);
+    const elvis_vec3 error = elvis_real(4) * CORE_ROUNDOFF * extent + position_error;
+    inverse.error0 = dot(abs(inverse.row0), error);
+    inverse.error1 = dot(abs(inverse.row1), error);
+    inverse.error2 = dot(abs(inverse.row2), error);
+
+    const elvis_vec3 residual = target - position;
+    const elvis_real step_x = dot(inverse.row0, residual);
+    const elvis_real step_y = dot(inverse.row1, residual);
+    const elvis_real step_z = dot(inverse.row2, residual);
+    const elvis_real step = max(max(abs(step_x), abs(step_y)), abs(step_z));
+    const elvis_real new_x = x + step_x, new_y = y + step_y, new_z = z + step_z;
+    const elvis_real change = max(max(abs(new_x - state.x), abs(new_y - state.y)), abs(new_z - state.z));
+    const elvis_real tolerance = max(max(inverse.error0, inverse.error1), inverse.error2);
+    const elvis_real excess = core_excess(new_x, new_y, new_z);
+    const bool has_change = state.last_step >= elvis_real(0);
+    const bool is_regular = core_is_finite(step);
+
+    // Quadratic convergence: |s_k+1| ~ C |s_k|^2 with C = |s_k| / |s_k-1|^2, if both steps started at predictions. Asking a quarter
+    // of the rounding keeps a factor for the estimate; the change itself is the criterion where the estimate does not apply. C
+    // depends on the direction of the steps and can come out far too small: it is taken to be at least 1, about what a quadratic
+    // mapping has whose curvature is as large as its Jacobian.
+    const bool is_predicted = was_inside && step * step <= tolerance &&
+                              step * step * step <= elvis_real(0.25LF) * tolerance * state.last_step * state.last_step;
+    const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));
+    const elvis_real prediction_error = min(CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step),
+                                            has_change && state.steps > 0u ? elvis_real(8) * change : CORE_UNKNOWN_CURVATURE);
+    const bool outside = is_regular && excess > prediction_error + elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
+
+    // Far predictions are of no use but for their direction, and could overflow. After the first start, steps towards a prediction
+    // that is clearly outside go half the way: on strongly curved elements whole ones can lead from one side to the other and back.
+    const elvis_real limit = elvis_real(16);
+    const bool is_damped = state.start > 0u && excess > elvis_real(0.125LF);
+    elvis_real inside_x = new_x, inside_y = new_y, inside_z = new_z;
+    core_project(inside_x, inside_y, inside_z);
+    const elvis_real half_way = elvis_real(0.5LF);
+    state.x = is_regular ? (is_damped ? half_way * (x + inside_x) : clamp(new_x, -limit, limit)) : x;
+    state.y = is_regular ? (is_damped ? half_way * (y + inside_y) : clamp(new_y, -limit, limit)) : y;
+    state.z = is_regular ? (is_damped ? half_way * (z + inside_z) : clamp(new_z, -limit, limit)) : z;
+    state.last_step = step;
+    state.steps += 1u;
+    state.outside_steps = is_regular && excess > elvis_real(1e-3LF) ? state.outside_steps + 1u : 0u;
+
+    if (converged) {
+        return CORE_NEWTON_CONVERGED;
+    }
+    if (outside) {
+        return CORE_NEWTON_OUTSIDE;
+    }
+    if (!is_regular || state.steps >= CORE_NEWTON_STEPS) {
+        core_newton_restart(state);
+        if (state.start >= CORE_NEWTON_STARTS) {
+            // Predictions that never settle but always point out of the element, from wherever they start, say outside.
+            return state.always_outside ? CORE_NEWTON_OUTSIDE : CORE_NEWTON_FAILED;
+        }
+    }
+    return CORE_NEWTON_RUNNING;
+}

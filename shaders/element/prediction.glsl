@@ -1,0 +1,20 @@
+// The error of a prediction of Newton's method that started from a point of the element (or face) at distance d from the solution
+// is at most C d^2, where the curvature C is half the Lipschitz constant of the Jacobian, relative to the Jacobian: all in the
+// maximum norm of reference coordinates (the remainder of Newton's method; e.g. J. Stoer, R. Bulirsch, Introduction to Numerical
+// Analysis, theorem 5.3.2). C is measured for each element when a volume is opened (element/linearize.comp).
+
+#ifndef CORE_PREDICTION
+#define CORE_PREDICTION
+
+#define CORE_UNKNOWN_CURVATURE elvis_real(1e9LF)
+
+// Bound of the error of a prediction, from the length of the step that led to it.
+elvis_real core_prediction_error(elvis_real curvature, elvis_real step) {
+    // d is at most step + C d^2, and no two points are farther apart than 2.
+    const elvis_real discriminant = elvis_real(1) - elvis_real(4) * curvature * step;
+    const elvis_real near = elvis_real(2) * step / (elvis_real(1) + sqrt(max(discriminant, elvis_real(0))));
+    const elvis_real d = discriminant > elvis_real(0) ? min(near, elvis_real(2)) : elvis_real(2);
+    return curvature * d * d;
+}
+
+#endif

@@ -1,0 +1,207 @@
+// The first point of each pixel's ray at which the field takes one of the isovalues, in the elements of one class.
+//
+// The list of a tile of pixels (tiles/ray_tiles.comp) names the cells, octants of elements that can hold an isovalue, in the order of
+// depth, so that the search ends at the first cell behind the crossing found. A work group is a few rows of a tile, and takes over what
+// these can meet (isosurface/group_cells.glsl).
+//
+// A ray is cut down to what a cell's linear models of mapping and field leave (isosurface/level_cell.glsl), and then a piece at a time is
+// looked at, front to back (isosurface/ray_piece.glsl). One evaluation bounds the field over the whole piece by a line and an error. So it
+// is known that
+//
+//   no isovalue is taken         the piece is done: that is certified, as far as the bounds are
+//   one is taken in a part       the piece is cut down to that part, before which there is none: the interval Newton method
+//                                (R. E. Moore, Interval Analysis, 1966), which converges quadratically where the field is steep
+//   or little                    the piece is halved
+//
+// until the piece is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
+// pixel is undecided if that cannot be told: isosurface/piece_look.glsl, piece_root.glsl and cell_search.glsl.
+//
+// One evaluation of mapping and field a turn, whatever element and piece a lane is at, so that lanes do not wait for each other.
+
+layout(local_size_x = CORE_TILE_WIDTH) in;
+
+#include "arithmetic/precision.glsl"
+#include "picture/cut_frame.glsl"
+#include "tiles/ray_tiles.glsl"
+#include "tiles/hierarchy.glsl"
+#include "picture/samples.glsl"
+#include "element/place.glsl"
+#include "arithmetic/finite.glsl"
+#include "picture/pixel_ray.glsl"
+#include "isosurface/isosurface_bindings.glsl"
+#include "isosurface/isosurface_blur.glsl"
+
+layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+layout(push_constant) uniform core_parameters {
+    uvec2 core_size;
+    uint core_tiles_per_row;
+    uint core_first_listed;
+    // Counted from 1; 0 is no surface.
+    uint core_surface;
+    uint core_first_component;
+    uint core_end_component;
+    uint core_n_isovalues;
+    uint core_has_beyond;
+    // The diagonal of the volume's bounds.
+    float core_extent;
+};
+
+#define CORE_LISTED_BINDING 10
+#include "tiles/listed_tile.glsl"
+#include "isosurface/isovalues.glsl"
+#include "picture/look_beyond.glsl"
+#include "picture/distrust_column.glsl"
+#include "element/element_frame.glsl"
+#include "field/shown_model.glsl"
+#include "isosurface/ray_piece.glsl"
+#include "isosurface/group_cells.glsl"
+#include "isosurface/nearest_crossing.glsl"
+#include "isosurface/piece_look.glsl"
+#include "isosurface/piece_root.glsl"
+#include "isosurface/cell_search.glsl"
+
+// Turns of one pixel: all pixels of an invocation stay below where drivers end loops.
+#define CORE_WORK_LIMIT 1500u
+
+// The root, as a crossing of the ray.
+core_nearest core_found_at(core_look look, core_root root) {
+    return core_nearest(look.middle + look.crossing.s, look.crossing.half_width, root.xi.x, root.xi.y, root.xi.z, look.crossing.isovalue,
+                        root.gradient.x, root.gradient.y, root.gradient.z, root.bend, look.element,
+                        elvis_fetch_core_elements(look.element, 0u), root.is_surely_inside);
+}
+
+// Flag of a pixel in which rounding may have led the crossing away.
+uint core_blur_of(core_nearest nearest, core_ray ray, elvis_real stretch) {
+#if ELVIS_REAL_IS_DOUBLE
+    // Rounding alone: the crossing's own width is that of the piece in which it was found. In single precision bounds of rounding say too
+    // little: projection would be as uncertain, and less exact.
+    const bool is_hit = nearest.element != CORE_NO_ELEMENT;
+    const elvis_vec3 xi = elvis_vec3(nearest.xi_x, nearest.xi_y, nearest.xi_z);
+    const elvis_vec3 gradient = elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z);
+    const elvis_real width = core_shown_rounding(is_hit ? nearest.element : 0u, xi) / abs(dot(gradient, ray.direction));
+    const bool is_blurred = is_hit && CORE_BLUR_SHARE * width * stretch > CORE_DEPTH_TOLERANCE * elvis_real(core_extent);
+    return is_blurred ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
+#else
+    return 0u;
+#endif
+}
+
+void main() {
+    const uint tile = core_listed_tile(core_first_listed);
+    const uint first_column = tile % core_tiles_per_row * CORE_TILE_WIDTH, column = first_column + gl_LocalInvocationID.x;
+    const uint first_row = tile / core_tiles_per_row * CORE_TILE_HEIGHT + gl_WorkGroupID.y * CORE_ROWS;
+    const uint list = tile * CORE_TILE_STRIDE;
+    core_begin_isovalues();
+    const uint n_listed = core_take_cells(list, core_tiles[list] & ~CORE_TILE_INNER, first_column, first_row);
+    const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_ROWS, core_size.y) : first_row;
+    const core_cut_column along = core_cut_begin(elvis_real(column));
+    uint n_evaluations = 0u, n_excluded = 0u, n_outside = 0u, n_undecided = 0u, n_crossings = 0u;
+    uint row = first_row;
+    while (row < end_row) {
+        core_ray ray = core_pixel_ray(along, elvis_real(row));
+        const uint pixel = row * core_size.x + column;
+        const uint n_entries = core_look_beyond(pixel, ray) ? n_listed : 0u;
+        const elvis_real stretch = length(ray.direction);
+#if CORE_DESCENDS
+        uint stack[CORE_STACK_SIZE];
+#define CORE_TOP stack[stack_size - 1u]
+#else
+        // A stack costs a quarter of the time even where it stays empty.
+#define CORE_TOP 0u
+#endif
+        uint stack_size = 0u, entry = 0u, ahead = 0u, work = 0u, flags = 0u;
+        core_search search = core_search_nothing();
+        core_nearest nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
+        while (entry < n_entries && work < CORE_WORK_LIMIT) {
+            const uint first = entry;
+            entry = min(first + CORE_CELLS_AHEAD, n_entries);
+            ahead = core_cells_ahead(ray, first, entry, float(core_nearest_end(nearest)));
+            while ((search.element != CORE_NO_ELEMENT || stack_size > 0u || ahead != 0u) && work < CORE_WORK_LIMIT) {
+                work += 1u;
+                while (search.element == CORE_NO_ELEMENT && (stack_size > 0u || ahead != 0u) && work < CORE_WORK_LIMIT) {
+                    work += 1u;
+                    const bool is_popped = stack_size > 0u;
+                    const uint at = min(first + uint(findLSB(ahead | 1u << 31)), n_listed - 1u);
+                    const uint word = is_popped ? CORE_TOP : core_group_words[at];
+                    const float end_t = float(core_nearest_end(nearest));
+                    const bool is_behind = !is_popped && core_group_entries[at] > end_t;
+                    stack_size -= is_popped ? 1u : 0u;
+                    ahead = is_popped ? ahead : is_behind ? 0u : ahead & (ahead - 1u);
+                    entry = is_behind ? n_entries : entry;
+                    uint index = word;
+                    bool is_cell = !is_behind;
+#if CORE_DESCENDS
+                    if ((word & CORE_TILE_INNER) != 0u && !is_behind) {
+                        const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
+                        const vec2 in_box = core_box_span(node, ray);
+                        const bool is_touched = max(in_box.x, float(ray.least_t)) <= min(in_box.y, end_t);
+                        is_cell = is_touched && node.is_leaf;
+                        index = node.child;
+                        if (is_touched && !node.is_leaf) {
+                            stack[stack_size] = (node.child + 1u) | CORE_TILE_INNER;
+                            stack[stack_size + 1u] = node.child | CORE_TILE_INNER;
+                            stack_size += 2u;
+                        }
+                    }
+#endif
+                    if (is_cell) {
+                        const core_level_cell cell = core_fetch_level_cell(index);
+                        flags |= core_search_begin(cell, core_cell_part_of(cell, ray, end_t), search);
+                    }
+                    if (search.element != CORE_NO_ELEMENT || (stack_size == 0u && ahead == 0u)) {
+                        break;
+                    }
+                }
+
+                const bool is_active = search.element != CORE_NO_ELEMENT;
+                search.used += 1u;
+                const core_look look = core_look_at(ray, search);
+                const core_root root = core_root_of(look, search);
+                const core_verdict verdict = core_judge_piece(look, root, search);
+                const core_nearest found = core_found_at(look, root);
+                const bool is_ahead = found.t > ray.least_t + ray.widths_behind * found.slack && found.t > ray.least_t;
+                const bool is_hit = verdict.is_crossing && root.is_inside && is_ahead;
+                core_nearest_take(is_hit, found, nearest);
+                const bool is_open = core_search_on(look, verdict, is_hit, core_nearest_end(nearest), search);
+
+                n_evaluations += is_active ? 1u : 0u;
+                n_outside += verdict.is_empty ? 1u : 0u;
+                n_excluded += verdict.is_excluded ? 1u : 0u;
+                n_crossings += verdict.is_crossing ? 1u : 0u;
+                n_undecided += is_open ? 1u : 0u;
+                flags |= is_active && core_is_model_estimated(look.element) ? CORE_FLAG_ESTIMATED : 0u;
+                flags |= is_open ? (look.is_finite ? CORE_FLAG_ISOSURFACE_UNDECIDED : CORE_FLAG_NAN) : 0u;
+                if (search.element == CORE_NO_ELEMENT && stack_size == 0u && ahead == 0u) {
+                    break;
+                }
+            }
+            if (entry >= n_entries) {
+                break;
+            }
+        }
+        const bool is_cut_short = search.element != CORE_NO_ELEMENT || stack_size > 0u || ahead != 0u || entry < n_entries;
+        flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
+        flags |= core_blur_of(nearest, ray, stretch) | core_nearest_store(nearest, pixel, ray, stretch, along.reference_distance);
+        if (flags != 0u) {
+            core_marks[pixel].flags |= flags;
+        }
+        row += 1u;
+        if (row >= end_row) {
+            break;
+        }
+    }
+    // Then no pixel of the column is to be trusted.
+    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
+    if (end_row > first_row) {
+        const uint evaluations = subgroupAdd(n_evaluations), excluded = subgroupAdd(n_excluded), outside = subgroupAdd(n_outside);
+        const uint undecided = subgroupAdd(n_undecided), crossings = subgroupAdd(n_crossings);
+        if (subgroupElect()) {
+            atomicAdd(core_counts[0], evaluations);
+            atomicAdd(core_counts[1], excluded);
+            atomicAdd(core_counts[2], outside);
+            atomicAdd(core_counts[3], undecided);
+            atomicAdd(core_counts[4], crossings);
+        }
+    }
+}

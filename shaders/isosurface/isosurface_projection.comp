@@ -1,0 +1,194 @@
+// The first point of the ray of each listed pixel at which the field takes one of the isovalues, in the elements of one class, by
+// projection of the field along the ray (Nelson & Kirby, Ray-tracing polymorphic multidomain spectral/hp elements for isosurface
+// rendering, 2006).
+//
+// Elements whose range holds an isovalue are visited nearest first, and in each the parts of the ray inside, from exact entry to
+// exact exit (segments/ray_part.glsl). Along a part the field is sampled and becomes a polynomial (segments/segment_fit.glsl), whose
+// degree is raised, and then the part halved, until the error E is small beside how much the polynomial varies. Beside values each
+// sample has the field's slope along the ray, which the polynomial must have, too: few values alone can deceive. A piece without an
+// isovalue within E of the polynomial's Bernstein coefficients is left out: that is verified, not certified. Else the polynomial's
+// crossings are looked at in order. Each is polished on the field itself by Newton's method along the ray; it is taken if
+//
+//     E shows that the field crosses in the bracket in which the root was found    or
+//     the field is seen on both sides, or surely keeps its slope within what rounding moves the root.
+//
+// (isosurface/projection_part.glsl, projection_piece.glsl and projection_polish.glsl.)
+//
+// Where neither holds the piece is halved as long as E is more than rounding; then the pixel is undecided.
+//
+// With CORE_PLAIN the method is that of 2006: each part as one polynomial of fixed degree, whose first root is the answer.
+
+layout(local_size_x = 32) in;
+
+#include "arithmetic/precision.glsl"
+#include "picture/cut_frame.glsl"
+#include "tiles/hierarchy.glsl"
+#include "picture/samples.glsl"
+#include "element/place.glsl"
+#include "arithmetic/finite.glsl"
+#include "picture/pixel_ray.glsl"
+#include "isosurface/isosurface_bindings.glsl"
+#include "isosurface/isosurface_blur.glsl"
+
+layout(set = 0, binding = 5, std430) readonly buffer core_list_block { uint core_list[]; };
+layout(push_constant) uniform core_parameters {
+    uint core_width;
+    // Of the list.
+    uint core_first, core_end;
+    // Counted from 1; 0 is no surface.
+    uint core_surface;
+    uint core_first_component;
+    uint core_end_component;
+    uint core_n_isovalues;
+    uint core_has_beyond;
+};
+
+#include "isosurface/isovalues.glsl"
+elvis_real core_level_value(uint i) { return core_isovalues[i]; }
+
+#define CORE_CENTRE core_reference.xyz
+#define CORE_PART_CURVATURE(element) elvis_real(elvis_fetch_core_curvatures(element, 0u))
+
+#include "picture/look_beyond.glsl"
+#include "arithmetic/driver_limit.glsl"
+#include "field/shown_model.glsl"
+// Of elements that are curved more than usual a part that is missed would be a crossing missed.
+#define CORE_ASSUMED_CURVATURE elvis_real(16)
+#define CORE_CERTAIN_TURNS 96u
+#define CORE_PART_TURNS 160u
+#include "segments/ray_part.glsl"
+#include "segments/ray_sample.glsl"
+#include "isosurface/level_model.glsl"
+#include "isosurface/level_span.glsl"
+#include "segments/segment_polynomial.glsl"
+#include "segments/segment_colleague.glsl"
+
+// Turns of a pixel, with all loops inside below where drivers end them.
+#define CORE_WORK_LIMIT 2500u
+
+// Times that a part of a ray may be halved. A field that is smooth needs few; that its derivatives jump is seen at the last.
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_MOST_LEVELS 14u
+// Distance within which the ends of parts are wanted, over the volume's size.
+#define CORE_END_TOLERANCE elvis_real(2e-14LF)
+#else
+#define CORE_MOST_LEVELS 8u
+#define CORE_END_TOLERANCE elvis_real(2.5e-7LF)
+#endif
+
+#include "isosurface/nearest_crossing.glsl"
+#include "segments/segment_candidate.glsl"
+#include "segments/segment_pieces.glsl"
+#include "isosurface/projection_search.glsl"
+#include "isosurface/projection_part.glsl"
+#include "isosurface/projection_piece.glsl"
+#include "isosurface/projection_polish.glsl"
+
+void main() {
+    const uint place = core_first + gl_GlobalInvocationID.x;
+    const bool is_pixel = place < core_end;
+    const uint pixel = is_pixel ? core_list[place] : 0u;
+    const core_cut_column along = core_cut_begin(elvis_real(pixel % core_width));
+    core_ray ray = core_pixel_ray(along, elvis_real(pixel / core_width));
+    const bool is_wanted = core_look_beyond(pixel, ray) && is_pixel;
+    const elvis_real stretch = length(ray.direction);
+    core_begin_isovalues();
+
+    const core_node root = core_fetch_node(0u);
+    const vec3 root_size = max(abs(root.lower), abs(root.upper)), root_sides = root.upper - root.lower;
+    const elvis_real far = elvis_real(max(max(max(root_size.x, root_size.y), root_size.z), ray.far));
+    core_walk_ray walk_ray;
+    walk_ray.origin = ray.origin;
+    walk_ray.direction = ray.direction;
+    walk_ray.speed = stretch;
+    walk_ray.reach = elvis_real(4) * far / stretch;
+    // Of the volume, in the ray's parameter.
+    const elvis_real size = elvis_real(length(root_sides)) / stretch;
+    walk_ray.tolerance = CORE_END_TOLERANCE * size;
+    walk_ray.error = ray.error + elvis_real(2) * CORE_ROUNDOFF * far;
+
+    uint stack[CORE_STACK_SIZE];
+    stack[0] = 0u;
+    uint stack_size = is_wanted ? 1u : 0u, work = 0u;
+    core_search search = core_search_begin();
+    core_nearest nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
+    while ((search.phase != CORE_PHASE_SEEK || stack_size > 0u) && work < CORE_WORK_LIMIT) {
+        work += 1u;
+        while (search.phase == CORE_PHASE_SEEK && stack_size > 0u && work < CORE_WORK_LIMIT) {
+            work += 1u;
+            stack_size -= 1u;
+            const core_node node = core_fetch_node(stack[stack_size]);
+            vec2 span = core_box_span(node, ray);
+            span.x = max(span.x, float(ray.least_t));
+            span.y = min(span.y, float(core_nearest_end(nearest)));
+            const bool is_touched = span.x <= span.y;
+            if (is_touched && !node.is_leaf) {
+                const vec2 one = core_box_span(core_fetch_node(node.child), ray), other = core_box_span(core_fetch_node(node.child + 1u), ray);
+                const uint nearer = one.x <= other.x ? 0u : 1u;
+                stack[stack_size] = node.child + (1u - nearer);
+                stack[stack_size + 1u] = node.child + nearer;
+                stack_size += 2u;
+            }
+            if (is_touched && node.is_leaf) {
+                core_search_element(ray, walk_ray, node.child, span, search);
+            }
+            if (search.phase != CORE_PHASE_SEEK || stack_size == 0u) {
+                break;
+            }
+        }
+
+        if (search.phase == CORE_PHASE_CLIP) {
+            core_search_part(ray, walk_ray, search);
+        }
+        if (search.phase == CORE_PHASE_SOLVE) {
+            core_search_solve(walk_ray, search);
+        }
+        core_ray_sample found;
+        found.status = CORE_SAMPLE_RUNNING;
+        if (search.phase == CORE_PHASE_SAMPLE || search.phase == CORE_PHASE_POLISH) {
+            found = core_search_sample(walk_ray, search);
+        }
+        bool is_judged = false;
+        if (search.phase == CORE_PHASE_SAMPLE && found.status == CORE_SAMPLE_FOUND) {
+            is_judged = core_search_add(found, search);
+        }
+        if (is_judged) {
+            core_search_judge(search);
+        }
+        if (search.phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND) {
+            core_search_polish(ray, walk_ray, size, found, search, nearest);
+        }
+        if (search.phase == CORE_PHASE_PIECE_DONE) {
+            core_search_behind_piece(core_nearest_end(nearest), search);
+        }
+        if (search.phase == CORE_PHASE_PART_DONE) {
+            core_search_behind_part(walk_ray, core_nearest_end(nearest), search);
+        }
+        if (search.phase == CORE_PHASE_SEEK && stack_size == 0u) {
+            break;
+        }
+    }
+
+    const bool is_over = search.phase == CORE_PHASE_SEEK && stack_size == 0u;
+    const bool is_cut_short = is_pixel && (!is_over || core_has_driver_given_up(core_surface >> 31));
+    search.flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT | CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
+    search.flags |= search.undecided_t <= core_nearest_end(nearest) && search.undecided_t < CORE_FAR ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
+    search.flags |= core_nearest_store(nearest, pixel, ray, stretch, along.reference_distance);
+    if (is_pixel && search.flags != 0u) {
+        core_marks[pixel].flags |= search.flags;
+    }
+    const uint all_evaluations = subgroupAdd(search.n_evaluations), all_crossings = subgroupAdd(search.n_crossings);
+    const uint all_certified = subgroupAdd(search.n_certified), all_verified = subgroupAdd(search.n_verified);
+    const uint all_undecided = subgroupAdd(search.n_undecided), all_failures = subgroupAdd(search.n_failures);
+    const uint all_pieces = subgroupAdd(search.n_pieces), all_degrees = subgroupAdd(search.n_degrees);
+    if (subgroupElect()) {
+        atomicAdd(core_counts[0], all_evaluations);
+        atomicAdd(core_counts[1], all_certified);
+        atomicAdd(core_counts[2], all_verified);
+        atomicAdd(core_counts[3], all_undecided);
+        atomicAdd(core_counts[4], all_crossings);
+        atomicAdd(core_counts[5], all_failures);
+        atomicAdd(core_counts[6], all_pieces);
+        atomicAdd(core_counts[7], all_degrees);
+    }
+}

@@ -1,0 +1,72 @@
+// The nearest crossing of a ray with an isosurface that is known so far, found in this class of elements or in another one before.
+//
+// The kernel brings isosurface/isosurface_bindings.glsl.
+
+#define CORE_NO_ELEMENT 0xffffffffu
+
+struct core_nearest {
+    // Along the ray; within `slack` of it, crossings are the same one.
+    elvis_real t, slack;
+    elvis_real xi_x, xi_y, xi_z;
+    elvis_real isovalue;
+    // The field's gradient in the world.
+    elvis_real gradient_x, gradient_y, gradient_z;
+    // Bound of the surface's curvature.
+    elvis_real bend;
+    // CORE_NO_ELEMENT if it was found in another class, or not yet.
+    uint element;
+    // Of the element among all of the volume: of elements that share a crossing, the least one has it.
+    uint number;
+    // False as near to a face as rounding moves the crossing, unless another element has it, too: beyond the face there may be nothing.
+    bool is_certain;
+};
+
+// What another class has left in the pixel. `stretch`: length of the ray's direction; `reference_distance`: of the eye.
+core_nearest core_nearest_begin(uint pixel, elvis_real stretch, elvis_real reference_distance) {
+    const bool was_hit = core_marks[pixel].owner != 0u;
+    core_nearest nearest;
+    nearest.t = was_hit ? core_samples[pixel].depth / stretch - reference_distance : CORE_FAR;
+    nearest.slack = was_hit ? elvis_real(16) * CORE_ROUNDOFF * core_samples[pixel].depth : elvis_real(0);
+    nearest.xi_x = nearest.xi_y = nearest.xi_z = nearest.isovalue = elvis_real(0);
+    nearest.gradient_x = nearest.gradient_y = nearest.gradient_z = elvis_real(0);
+    nearest.bend = CORE_FAR;
+    nearest.element = CORE_NO_ELEMENT;
+    nearest.number = was_hit ? core_samples[pixel].number : CORE_NO_NUMBER;
+    nearest.is_certain = true;
+    return nearest;
+}
+
+// Where rays need not be looked at any more.
+elvis_real core_nearest_end(core_nearest nearest) { return nearest.t + nearest.slack; }
+
+// Takes what was found, if it is a crossing (`is_hit`), into account. `found` as above, certain if it surely lies in its element.
+void core_nearest_take(bool is_hit, core_nearest found, inout core_nearest nearest) {
+    const bool is_same = abs(found.t - nearest.t) <= max(found.slack, nearest.slack);
+    const bool is_better = is_hit && (is_same ? found.number < nearest.number : found.t < nearest.t);
+    const bool is_shared = is_same && nearest.element != found.element;
+    nearest.is_certain = is_better ? found.is_certain || is_shared : nearest.is_certain || (is_hit && is_shared);
+    nearest.t = is_better ? found.t : nearest.t;
+    nearest.slack = is_better ? found.slack : nearest.slack;
+    nearest.xi_x = is_better ? found.xi_x : nearest.xi_x;
+    nearest.xi_y = is_better ? found.xi_y : nearest.xi_y;
+    nearest.xi_z = is_better ? found.xi_z : nearest.xi_z;
+    nearest.isovalue = is_better ? found.isovalue : nearest.isovalue;
+    nearest.gradient_x = is_better ? found.gradient_x : nearest.gradient_x;
+    nearest.gradient_y = is_better ? found.gradient_y : nearest.gradient_y;
+    nearest.gradient_z = is_better ? found.gradient_z : nearest.gradient_z;
+    nearest.bend = is_better ? found.bend : nearest.bend;
+    nearest.element = is_better ? found.element : nearest.element;
+    nearest.number = is_better ? found.number : nearest.number;
+}
+
+// Flags of a pixel that has it, and puts it into the picture.
+uint core_nearest_store(core_nearest nearest, uint pixel, core_ray ray, elvis_real stretch, elvis_real reference_distance) {
+    const bool is_hit = nearest.element != CORE_NO_ELEMENT;
+    if (is_hit) {
+        core_store_crossing(pixel, core_surface, nearest.isovalue, (nearest.t + reference_distance) * stretch, nearest.number,
+                            elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z), ray.direction,
+                            core_place(nearest.xi_x, nearest.xi_y, nearest.xi_z, nearest.element, CORE_CLASS << CORE_PLACE_FACE_BITS),
+                            nearest.bend);
+    }
+    return (is_hit ? CORE_FLAG_ISOSURFACE : 0u) | (is_hit && !nearest.is_certain ? CORE_FLAG_UNDECIDED : 0u);
+}

@@ -1,0 +1,69 @@
+// Projection: from a candidate to the crossing of the field itself, by Newton's method along the ray in a bracket.
+//
+// The kernel brings isosurface/projection_search.glsl, isosurface/nearest_crossing.glsl and isosurface/isosurface_blur.glsl.
+
+#define CORE_POLISH_TURNS 40u
+#define CORE_CANDIDATE_TURNS 16u
+
+// After a sample at the follower's parameter. `size`: of the volume, in the ray's parameter.
+void core_search_polish(core_ray ray, core_walk_ray walk_ray, elvis_real size, core_ray_sample found, inout core_search search,
+                        inout core_nearest nearest) {
+    search.polish_turns += 1u;
+    const elvis_real t = search.follower.at, off = found.value - search.isovalue;
+    const bool is_above = off > found.error, is_below = off < -found.error;
+    search.is_seen_above = search.is_seen_above || is_above;
+    search.is_seen_below = search.is_seen_below || is_below;
+    search.bracket_from = (search.rises ? is_below : is_above) ? max(search.bracket_from, t) : search.bracket_from;
+    search.bracket_to = (search.rises ? is_above : is_below) ? min(search.bracket_to, t) : search.bracket_to;
+    const elvis_real step = -off / found.slope, half_width = found.error / abs(found.slope);
+    const elvis_real speed = core_max_norm(found.w);
+    const bool is_regular = core_is_finite(step);
+    const elvis_real next = t + step;
+    const bool is_within = is_regular && next >= search.bracket_from && next <= search.bracket_to;
+    // From here the line's root is as good as any.
+    const bool is_at_root = is_regular && (abs(step) * speed <= elvis_real(4) * found.rounding ||
+                                           // Steps are rounding of the field.
+                                           (abs(step) <= half_width && abs(step) >= elvis_real(0.5LF) * search.last_step));
+    search.last_step = is_regular ? abs(step) : CORE_FAR;
+    const elvis_real farthest = max(abs(search.bracket_from), abs(search.bracket_to));
+    const bool is_narrow = search.bracket_to - search.bracket_from <= elvis_real(4) * CORE_ROUNDOFF * farthest;
+    const bool is_candidate = search.candidate.kind != CORE_CROSSING_VERIFIED;
+    const bool is_last = search.polish_turns >= (is_candidate ? CORE_CANDIDATE_TURNS : CORE_POLISH_TURNS);
+    const bool is_settled = is_at_root || is_narrow || CORE_PLAIN == 1;
+    const elvis_real root_t = is_at_root && CORE_PLAIN == 0 ? next : t;
+    const elvis_real bend_here = search.bend + elvis_real(2) * search.curvature * core_model_norm1(found.gradient);
+    const elvis_real radius = core_max_norm(found.q) + found.beyond + speed * (half_width + abs(step));
+    const bool keeps_slope = found.is_known && speed * bend_here * radius < abs(found.slope);
+    const bool is_confirmed = !is_candidate || keeps_slope || (search.is_seen_below && search.is_seen_above) || CORE_PLAIN == 1;
+    const elvis_real slack = walk_ray.tolerance + elvis_real(0.25LF) * half_width;
+    const elvis_real outside = max(search.part_from - root_t, root_t - search.part_to);
+    const bool is_inside = outside <= slack;
+    const bool is_surely_inside = root_t >= search.part.enter + search.part.enter_error + slack &&
+                                  root_t <= search.part.leave - search.part.leave_error - slack;
+    const bool is_behind_start = root_t > ray.least_t + ray.widths_behind * half_width && root_t > ray.least_t;
+    const bool is_hit = is_settled && is_confirmed && is_inside && is_behind_start;
+    // The last step may be small by chance.
+    const elvis_real blur = max(abs(step), CORE_BLUR_SHARE * half_width);
+    const bool is_wide = CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size, is_blurred = is_hit && is_wide;
+    // What rounding alone may have led out of the part may be in it.
+    const bool is_led_out = is_wide && !is_inside && outside <= half_width;
+    const bool is_undecided = !is_hit && (is_settled ? !is_confirmed || is_led_out : is_last);
+    search.n_crossings += is_settled && is_confirmed ? 1u : 0u;
+    search.n_undecided += is_undecided ? 1u : 0u;
+    const elvis_real candidate_t = search.from + search.candidate.t * (search.to - search.from);
+    search.undecided_t = is_undecided || is_blurred ? min(search.undecided_t, is_undecided ? candidate_t : root_t) : search.undecided_t;
+
+    const core_frame frame = found.frame;
+    const elvis_vec3 gradient = found.gradient.x * frame.row0 + found.gradient.y * frame.row1 + found.gradient.z * frame.row2;
+    const elvis_vec3 point = found.xi + found.q + (root_t - t) * found.w;
+    const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
+    core_nearest_take(is_hit,
+                      core_nearest(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y, gradient.z,
+                                   inverse_square * bend_here / length(gradient), search.element, elvis_fetch_core_elements(search.element, 0u),
+                                   is_surely_inside),
+                      nearest);
+    const bool is_estimated = core_is_model_estimated(search.element) || search.part.is_estimated || CORE_PLAIN == 1;
+    search.flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+    search.phase = is_hit ? CORE_PHASE_SEEK : is_settled || is_last ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
+    core_follow_to(search.follower, is_within ? next : elvis_real(0.5LF) * (search.bracket_from + search.bracket_to));
+}

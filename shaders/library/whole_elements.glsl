@@ -1,4 +1,0 @@
-// From here on elements count as if none were cut (library/inside.glsl).
-
-#undef ELVIS_HAS_INSIDE
-#define ELVIS_HAS_INSIDE 0

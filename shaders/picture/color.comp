@@ -1,0 +1,206 @@
+// Colours of a surface's samples: a table of (value, r, g, b), piecewise linear, with colours of its own below, above and for NaN;
+// lines over it; nothing where it is clipped.
+
+layout(local_size_x = CORE_GROUP_SIZE) in;
+
+#include "arithmetic/precision.glsl"
+#include "picture/cut_frame.glsl"
+#include "arithmetic/finite.glsl"
+#include "picture/samples.glsl"
+// A kernel without light costs nothing for it.
+#if CORE_IS_LIT
+#define CORE_LIGHTS_BINDING 6
+#include "picture/lighting.glsl"
+layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
+#endif
+
+layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
+// In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of undecided contours, of
+// mesh lines and undecided ones; opacity, and colour outside of elements; limits of values: up to the first they have no
+// place on the table's scale, and below the second and above the third they are outside of it; planes that clip; isovalues with
+// the colours of their contours.
+layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+// Four words a surface: 1 where there are values below, above, and such that are no numbers; where a pixel shows it.
+layout(set = 0, binding = 5, std430) buffer core_special_block { uint core_special_values[]; };
+layout(push_constant) uniform core_parameters {
+    uint core_n_pixels;
+    uint core_groups_x;
+    uint core_width;
+    uint core_n_points;
+    uint core_n_isovalues;
+    uint core_n_clips;
+    // Flags of every pixel that is hit.
+    uint core_common_flags;
+    uint core_surface;
+    // CORE_STYLE_...
+    uint core_contour_style;
+    uint core_mesh_style;
+    // In pixels, from one that meets the line to the farthest that is drawn.
+    float core_contour_reach;
+    float core_mesh_reach;
+    // The surface has one normal, that of the rays' plane.
+    uint core_is_plane;
+};
+
+#define CORE_STYLE_UNDECIDED 1u
+#define CORE_STYLE_COLOR 2u
+#define CORE_STYLE_ONLY_DECIDED 4u
+
+elvis_vec4 core_special(uint which) { return core_rows[core_n_points + which]; }
+
+// The point that the pixel sees, relative to the reference point, and the direction of its ray, of any length.
+elvis_vec3 core_position(uint pixel, elvis_real depth, out elvis_vec3 direction) {
+    const core_cut_column column = core_cut_begin(elvis_real(pixel % core_width));
+    const elvis_real down = elvis_real(pixel / core_width) - column.row0;
+    direction = (column.direction + down * column.direction_row).xyz;
+    return (column.base + down * column.base_row).xyz + (depth / length(direction) - column.reference_distance) * direction;
+}
+
+// Whether that point is cut away.
+bool core_is_clipped(uint pixel, elvis_real depth) {
+    elvis_vec3 direction;
+    const elvis_vec3 position = core_position(pixel, depth, direction);
+    bool is_clipped = false;
+    for (uint i = 0u; i < core_n_clips; ++i) {
+        const elvis_vec4 plane = core_special(9u + i);
+        is_clipped = is_clipped || dot(plane.xyz, position) + plane.w < elvis_real(0);
+    }
+    return is_clipped;
+}
+
+// The isovalue nearest to a value, of which there is at least one, and the colour of its contour.
+elvis_vec4 core_nearest_isovalue(elvis_real value) {
+    elvis_vec4 nearest = core_special(9u + core_n_clips);
+    elvis_real distance = elvis_real(3.0e38LF);
+    for (uint i = 0u; i < core_n_isovalues; ++i) {
+        const elvis_vec4 isovalue = core_special(9u + core_n_clips + i);
+        nearest = abs(isovalue.x - value) < distance ? isovalue : nearest;
+        distance = min(distance, abs(isovalue.x - value));
+    }
+    return nearest;
+}
+
+// Flags of the pixel and of those within reach of it.
+uint core_flags_near(uint pixel, float reach) {
+    uint flags = core_marks[pixel].flags;
+    const int width = int(core_width), height = int(core_n_pixels / core_width);
+    const int column = int(pixel) % width, row = int(pixel) / width;
+    const int most = int(reach);
+    for (int down = -most; down <= most; ++down) {
+        for (int across = -most; across <= most; ++across) {
+            const int there_row = row + down, there_column = column + across;
+            const bool is_near = float(down * down + across * across) <= reach * reach + 0.25;
+            const bool is_inside = there_row >= 0 && there_row < height && there_column >= 0 && there_column < width;
+            flags |= is_near && is_inside ? core_marks[there_row * width + there_column].flags : 0u;
+        }
+    }
+    return flags;
+}
+
+void main() {
+    const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    const bool is_inside = pixel < core_n_pixels;
+    const uint owner = is_inside ? core_marks[pixel].owner : 0u;
+    const bool is_drawn = owner != 0u;
+    elvis_real value = elvis_real(0);
+    bool is_clipped = false, is_outside = false;
+#if CORE_HAS_LINES
+    bool is_contour = false, is_contour_undecided = false, is_mesh_line = false, is_mesh_undecided = false;
+#endif
+    if (is_drawn) {
+        value = core_samples[pixel].value;
+        is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
+#if CORE_HAS_LINES
+        // Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own or
+        // are to be left out.
+        const uint contour = core_flags_near(pixel, core_contour_reach);
+        is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
+        is_contour = (contour & CORE_FLAG_CONTOUR) != 0u ||
+                     (is_contour_undecided && (core_contour_style & (CORE_STYLE_UNDECIDED | CORE_STYLE_ONLY_DECIDED)) == 0u);
+        const uint mesh = core_flags_near(pixel, core_mesh_reach);
+        is_mesh_undecided = (mesh & CORE_FLAG_MESH_UNDECIDED) != 0u;
+        is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u ||
+                       (is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) == 0u);
+#endif
+    }
+    if (is_drawn && core_n_clips > 0u) {
+        is_clipped = core_is_clipped(pixel, core_samples[pixel].depth);
+    }
+    const bool is_nan = !core_is_finite(value) && !is_outside;
+#if CORE_HAS_LINES
+    elvis_vec4 contour_color = elvis_vec4(0);
+    if (is_contour) {
+        const elvis_vec4 isovalue = core_nearest_isovalue(value);
+        value = is_nan || (core_contour_style & CORE_STYLE_COLOR) != 0u ? value : isovalue.x;
+        contour_color = elvis_vec4(isovalue.yzw, elvis_real(1));
+    }
+#endif
+
+    // How many points are not above the value.
+    uint low = 0u;
+    uint high = is_drawn && !is_nan && !is_outside ? core_n_points : 0u;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        const bool is_below = core_rows[middle].x <= value;
+        low = is_below ? middle + 1u : low;
+        high = is_below ? high : middle;
+    }
+    const elvis_vec4 from = core_rows[low > 0u ? low - 1u : 0u];
+    const elvis_vec4 to = core_rows[min(low, core_n_points - 1u)];
+    const elvis_real extent = to.x - from.x;
+    const elvis_real t = extent > elvis_real(0) ? (value - from.x) / extent : elvis_real(0);
+    const bool is_below = low == 0u, is_above = low == core_n_points && value > from.x;
+    const bool is_seen = is_drawn && !is_clipped;
+    const elvis_vec4 limits = core_special(8u);
+    const bool has_no_place = is_nan || (value <= limits.x && !is_outside);
+    const uint special = is_seen ? (has_no_place ? 2u : (is_below ? 0u : 1u)) : 3u;
+    const bool is_special = !is_seen || has_no_place || is_below || is_above;
+    elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+    color = is_seen && is_outside ? elvis_vec4(core_special(7u).yzw, elvis_real(1)) : color;
+#if CORE_IS_LIT
+    if (is_seen) {
+        elvis_vec3 direction;
+        const elvis_vec3 position = core_position(pixel, core_samples[pixel].depth, direction);
+        const elvis_vec3 own_normal =
+            elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+        const elvis_vec3 normal = core_is_plane != 0u ? core_plane_normal.xyz : own_normal;
+        color.xyz = core_lit(color.xyz, normal, position, -normalize(direction));
+    }
+#endif
+
+    const bool is_far = !is_outside && (value < limits.y || value > limits.z);
+    if (is_seen && (has_no_place || is_far)) {
+        core_special_values[4u * core_surface + (has_no_place ? 2u : (is_below ? 0u : 1u))] = 1u;
+    }
+    // Few write what nearly all would.
+    if (is_seen && core_special_values[4u * core_surface + 3u] == 0u) {
+        core_special_values[4u * core_surface + 3u] = 1u;
+    }
+
+#if CORE_HAS_LINES
+    // Lines have their colours whatever the light. What is decided goes over what is not, contours over mesh lines.
+    const bool has_contour_color = is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;
+    const bool shows_undecided_contour =
+        is_contour_undecided && !is_contour && (core_contour_style & CORE_STYLE_UNDECIDED) != 0u;
+    const bool has_mesh_color = is_mesh_line && (core_mesh_style & CORE_STYLE_COLOR) != 0u;
+    const bool shows_undecided_mesh = is_mesh_undecided && !is_mesh_line;
+    color = is_seen && shows_undecided_mesh ? core_special(6u) : color;
+    color = is_seen && has_mesh_color ? core_special(5u) : color;
+    color = is_seen && shows_undecided_contour ? core_special(4u) : color;
+    color = is_seen && has_contour_color ? contour_color : color;
+#endif
+    color.w *= is_seen ? core_special(7u).x : elvis_real(1);
+    if (is_inside) {
+        core_colors[pixel] = color;
+    }
+
+    // On a face that no other element shares the domain may end; on one that is shared the field may have two values.
+    const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
+    const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
+    const uint flags = core_common_flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
+    if (is_drawn && flags != 0u) {
+        core_marks[pixel].flags |= flags;
+    }
+}

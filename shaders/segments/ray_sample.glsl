@@ -1,0 +1,212 @@
+// The shown field at points of a ray inside an element, found by Newton's method, one evaluation of mapping and field a step.
+//
+// The point wanted next is predicted from the last one found, with the Jacobian there. Where Newton's method does not find it
+// from so far away, a point half the way is found first, and so on: the prediction is then followed along the ray.
+//
+// The field is taken to first order from the point that was evaluated, so that what Newton's method leaves counts twice only. Its
+// error is bounded as in isosurface/ray_piece.glsl.
+//
+// A sample is good enough where the bounds of its errors say so, else where Newton's method has come to rest.
+//
+// The kernel brings segments/ray_part.glsl and field/shown_model.glsl.
+
+#define CORE_SAMPLE_RUNNING 0u
+#define CORE_SAMPLE_FOUND 1u
+#define CORE_SAMPLE_FAILED 2u
+
+// Steps towards one point, before one half the way is looked for; and in all.
+#define CORE_SAMPLE_STEPS 8u
+#define CORE_SAMPLE_MOST_STEPS 64u
+
+struct core_follower {
+    // A point that was found: parameter, reference coordinates and their change with the parameter.
+    elvis_real known, known_x, known_y, known_z, slope_x, slope_y, slope_z;
+    // The one found before that; the same one if there is none.
+    elvis_real before, before_x, before_y, before_z, before_slope_x, before_slope_y, before_slope_z;
+    // Parameter wanted in the end, and the one that is looked for; the prediction for that.
+    elvis_real goal, at, x, y, z;
+    // The part of the ray from the goal on, or back, over which `bend` is wanted; error of the field that is good enough.
+    elvis_real span, enough;
+    uint steps, all_steps;
+};
+
+struct core_ray_sample {
+    uint status;
+    // Of the field at the parameter, its change with it, and its error.
+    elvis_real value, slope, error, slope_error;
+    // How far the field may be from the line through value and slope, over the follower's span.
+    elvis_real bend;
+    bool is_known;
+    // Of the point in reference coordinates: offset of the point from xi, change with the parameter, rounding.
+    elvis_vec3 xi, q, w;
+    elvis_real rounding, beyond;
+    // Of the field in reference coordinates, and J^-1.
+    elvis_vec3 gradient;
+    core_frame frame;
+    bool is_finite;
+};
+
+// Starts from a point that was found: where it is, and how it changes with the parameter.
+core_follower core_follow_from(elvis_real known, elvis_vec3 point, elvis_vec3 slope) {
+    core_follower follower;
+    follower.known = follower.before = known;
+    follower.known_x = follower.before_x = point.x;
+    follower.known_y = follower.before_y = point.y;
+    follower.known_z = follower.before_z = point.z;
+    follower.slope_x = follower.before_slope_x = slope.x;
+    follower.slope_y = follower.before_slope_y = slope.y;
+    follower.slope_z = follower.before_slope_z = slope.z;
+    return follower;
+}
+
+// By the cubic through the last two points that were found and their slopes, between them or not much farther beyond the last one than they are
+// apart; else along the last one's slope.
+void core_predict(inout core_follower follower, elvis_real at) {
+    const elvis_real since = at - follower.known, width = follower.before - follower.known;
+    const bool is_near = (since - width) * (since + elvis_real(1.5LF) * width) < elvis_real(0);
+    const elvis_real t = is_near ? since / width : elvis_real(0), s = elvis_real(1) - t;
+    const elvis_real of_before = t * t * (elvis_real(3) - elvis_real(2) * t), of_slope = is_near ? width * t * s * s : since;
+    const elvis_real of_slope_before = -width * t * t * s;
+    // Far predictions are of no use but for their direction, and could overflow.
+    const elvis_real limit = elvis_real(4);
+    follower.at = at;
+    follower.x = clamp(follower.known_x + of_before * (follower.before_x - follower.known_x) + of_slope * follower.slope_x +
+                           of_slope_before * follower.before_slope_x,
+                       -limit, limit);
+    follower.y = clamp(follower.known_y + of_before * (follower.before_y - follower.known_y) + of_slope * follower.slope_y +
+                           of_slope_before * follower.before_slope_y,
+                       -limit, limit);
+    follower.z = clamp(follower.known_z + of_before * (follower.before_z - follower.known_z) + of_slope * follower.slope_z +
+                           of_slope_before * follower.before_slope_z,
+                       -limit, limit);
+    follower.steps = 0u;
+}
+
+void core_follow_to(inout core_follower follower, elvis_real goal) {
+    follower.goal = goal;
+    follower.span = follower.enough = elvis_real(0);
+    follower.all_steps = 0u;
+    core_predict(follower, goal);
+}
+
+// The field at a point of the ray that is off by result.beyond at most, and how far it may be from a line over the span. `step`: of Newton's
+// method that led there; `far_step`: that to the farthest point of the span. The change of the point with the parameter is that where the
+// step began.
+void core_sample_field(uint element, elvis_vec3 point, elvis_real step, elvis_real far_step, elvis_real curvature, elvis_real span,
+                       inout core_ray_sample result) {
+    elvis_real x = point.x, y = point.y, z = point.z;
+    // Or at the nearest point of the shape.
+    core_project(x, y, z);
+    result.xi = elvis_vec3(x, y, z);
+    result.q = point - result.xi;
+    const elvis_real outside = core_max_norm(result.q);
+    const elvis_vec3 far = result.q + span * result.w;
+    core_patch region;
+    region.corner0 = region.corner1 = result.q;
+    region.corner2 = region.corner3 = far;
+    region.beyond = result.beyond;
+    region.radius = max(outside, core_max_norm(far)) + result.beyond;
+    elvis_real value;
+    const core_model model = core_shown_model(element, result.xi, region, value);
+    result.gradient = model.slope;
+    const elvis_real size = core_model_norm1(model.slope);
+    const elvis_real blur = size * (result.beyond + elvis_real(4) * CORE_ROUNDOFF * region.radius);
+    result.is_known = core_model_is_known(model);
+    result.value = result.is_known ? model.value + dot(model.slope, result.q) : value;
+    result.slope = dot(model.slope, result.w);
+    // Remainders go with the square of the distance, but for rounding.
+    const elvis_real share = (outside + result.beyond) / region.radius;
+    const elvis_real remainder = region.radius > elvis_real(0) ? model.remainder * share * share : model.remainder;
+    // Without a model: what rounding alone does.
+    result.error = (result.is_known ? CORE_MODEL_UP * (remainder + blur) +
+                                          (elvis_real(1) - share) * CORE_MODEL_OPERATIONS * CORE_ROUNDOFF * (abs(model.value) + size * outside)
+                                    : elvis_real(64) * CORE_ROUNDOFF * abs(value) + blur) +
+                   elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
+    result.bend = result.is_known ? model.remainder + size * core_prediction_error(curvature, max(step, far_step)) : CORE_UNKNOWN;
+    const elvis_real speed = core_max_norm(result.w);
+    result.slope_error = elvis_real(2) * remainder / max(outside + result.beyond, elvis_real(1e-30LF)) * speed +
+                         elvis_real(2) * curvature * step * size * speed;
+    result.is_finite = core_is_finite(value);
+}
+
+// What the slope is off does to a polynomial over the span, which has slopes at both ends: an eighth.
+bool core_sample_is_enough(core_ray_sample result, elvis_real span, elvis_real enough) {
+    return result.is_known && result.error + elvis_real(0.125LF) * abs(span) * result.slope_error <= enough;
+}
+
+// One evaluation.
+core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
+    core_ray_sample result;
+    elvis_real x = follower.x, y = follower.y, z = follower.z;
+    core_project(x, y, z);
+    const elvis_vec3 xi = elvis_vec3(x, y, z);
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, xi, position, jacobian);
+    const elvis_vec3 shift = CORE_CENTRE - elvis_origin(element), way = follower.at * ray.direction;
+    result.frame = core_frame_at(position, jacobian,
+                                 ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(way)));
+    const elvis_vec3 newton = core_to_xi(result.frame, ((shift - position) + ray.origin) + way);
+    result.w = core_to_xi(result.frame, ray.direction);
+    result.rounding = core_max_norm(result.frame.xi_error);
+    const elvis_vec3 found = xi + newton;
+    const elvis_real change = core_max_norm(found - elvis_vec3(follower.x, follower.y, follower.z));
+    const elvis_real step = core_max_norm(newton);
+    // Where the bound says nothing, two predictions that agree do, as in element/newton.glsl.
+    result.beyond = min(core_prediction_error(curvature, step), change) + result.rounding;
+
+    core_sample_field(element, found, step, core_max_norm(newton + follower.span * result.w), curvature, follower.span, result);
+    const bool is_enough = core_sample_is_enough(result, follower.span, follower.enough);
+    result.is_finite = result.is_finite && core_is_finite(core_max_norm(position));
+
+    const bool is_sound = result.frame.is_sound && core_is_finite(step + core_max_norm(result.w));
+    const bool has_converged = change <= elvis_real(4) * result.rounding;
+    const bool is_found = is_sound && (has_converged || is_enough);
+    result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(follower.span) * result.slope_error;
+    follower.steps += 1u;
+    follower.all_steps += 1u;
+    const bool is_stuck = !is_found && (!is_sound || follower.steps >= CORE_SAMPLE_STEPS);
+    const bool is_there = is_found && follower.at == follower.goal;
+    follower.before = is_found ? follower.known : follower.before;
+    follower.before_x = is_found ? follower.known_x : follower.before_x;
+    follower.before_y = is_found ? follower.known_y : follower.before_y;
+    follower.before_z = is_found ? follower.known_z : follower.before_z;
+    follower.before_slope_x = is_found ? follower.slope_x : follower.before_slope_x;
+    follower.before_slope_y = is_found ? follower.slope_y : follower.before_slope_y;
+    follower.before_slope_z = is_found ? follower.slope_z : follower.before_slope_z;
+    follower.known = is_found ? follower.at : follower.known;
+    follower.known_x = is_found ? found.x : follower.known_x;
+    follower.known_y = is_found ? found.y : follower.known_y;
+    follower.known_z = is_found ? found.z : follower.known_z;
+    follower.slope_x = is_found ? result.w.x : follower.slope_x;
+    follower.slope_y = is_found ? result.w.y : follower.slope_y;
+    follower.slope_z = is_found ? result.w.z : follower.slope_z;
+    const elvis_real limit = elvis_real(4);
+    follower.x = is_sound ? clamp(found.x, -limit, limit) : follower.x;
+    follower.y = is_sound ? clamp(found.y, -limit, limit) : follower.y;
+    follower.z = is_sound ? clamp(found.z, -limit, limit) : follower.z;
+    if (is_stuck || (is_found && !is_there)) {
+        core_predict(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known + follower.at));
+    }
+    const bool is_given_up = follower.all_steps >= CORE_SAMPLE_MOST_STEPS;
+    result.status = is_there ? CORE_SAMPLE_FOUND : is_given_up ? CORE_SAMPLE_FAILED : CORE_SAMPLE_RUNNING;
+    return result;
+}
+
+// The field at the ray's point at `at`, as it is predicted from the evaluation of the mapping that found where the ray leaves: another one
+// is not needed if that was near enough, which the status says.
+core_ray_sample core_sample_predicted(core_part part, elvis_real at, elvis_real span, elvis_real enough) {
+    core_ray_sample result;
+    const elvis_real since = at - part.anchor;
+    result.w = elvis_vec3(part.slope_x, part.slope_y, part.slope_z);
+    const elvis_real speed = core_max_norm(result.w), step = part.step + abs(since) * speed;
+    const elvis_real off = core_prediction_error(part.curvature, step);
+    result.rounding = part.noise;
+    result.beyond = off + part.noise;
+    core_sample_field(part.element, elvis_vec3(part.x, part.y, part.z) + since * result.w, step, step + abs(span) * speed, part.curvature, span,
+                      result);
+    const bool is_enough = core_sample_is_enough(result, span, enough), has_converged = result.is_known && off <= elvis_real(3) * part.noise;
+    result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(span) * result.slope_error;
+    result.status = (is_enough || has_converged) && result.is_finite && step < elvis_real(1) ? CORE_SAMPLE_FOUND : CORE_SAMPLE_RUNNING;
+    return result;
+}

@@ -1,0 +1,71 @@
+// Which groups of rays (tiles/ray_group.glsl) have something to do (volume/volume_state.glsl), of those in a list. An idle group of
+// volume/volume_march.comp takes a tenth of a busy one's time.
+
+layout(local_size_x = CORE_TILE_WIDTH) in;
+
+#include "volume/volume_state.glsl"
+
+layout(set = 0, binding = 0, std430) buffer core_states_block { core_volume_state core_states[]; };
+// For each tile: 0 if there is nothing in which its rays can start (tiles/ray_tiles.comp).
+layout(set = 0, binding = 1, std430) readonly buffer core_has_starts_block { uint core_has_starts[]; };
+layout(set = 0, binding = 2, std430) readonly buffer core_groups_block { uint core_groups[]; };
+// Groups with rays that have something to do; with rays that have not ended.
+layout(set = 0, binding = 3, std430) writeonly buffer core_live_block { uint core_live[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer core_open_block { uint core_open[]; };
+// How many there are of each.
+layout(set = 0, binding = 5, std430) buffer core_counts_block { uint core_counts[]; };
+layout(push_constant) uniform core_parameters {
+    uvec2 core_size;
+    // Of the list.
+    uint core_first, core_n_groups;
+    // Rays that look for a start, and those that can find none end; else those that go on in these elements, and rays that found no start end.
+    uint core_seeks;
+    uint core_first_element;
+    uint core_n_elements;
+};
+
+// Whether any ray of a group is live, and open.
+shared uint core_is_live[CORE_GROUPS];
+shared uint core_is_open[CORE_GROUPS];
+
+void main() {
+    const uint lane = gl_LocalInvocationID.x, tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    const uint first = core_first + gl_WorkGroupID.x * CORE_GROUPS, end = min(first + CORE_GROUPS, core_first + core_n_groups);
+    for (uint i = lane; i < CORE_GROUPS; i += CORE_TILE_WIDTH) {
+        core_is_live[i] = core_is_open[i] = 0u;
+    }
+    barrier();
+    for (uint i = first; i < end; ++i) {
+        const uint group = core_groups[i], tile = group % tiles_a_row, row = group / tiles_a_row;
+        const bool has_starts = core_has_starts[row / CORE_TILE_HEIGHT * tiles_a_row + tile] != 0u;
+        const uint column = tile * CORE_TILE_WIDTH + lane;
+        const bool is_pixel = column < core_size.x;
+        const uint pixel = is_pixel ? row * core_size.x + column : 0u;
+        const uint status = core_states[pixel].status, element = core_states[pixel].element;
+        const bool has_sought = status == CORE_RAY_HAS_SOUGHT;
+        const bool ends = core_seeks != 0u ? status == CORE_RAY_SEEKS && !has_starts : has_sought && element == CORE_NO_ELEMENT;
+        const bool is_own = element >= core_first_element && element - core_first_element < core_n_elements;
+        const bool goes = (status == CORE_RAY_GOES || has_sought) && is_own;
+        const bool seeks = (status == CORE_RAY_SEEKS && has_starts) || has_sought;
+        const bool is_live = is_pixel && (core_seeks != 0u ? seeks : goes && !ends);
+        if (is_live) {
+            core_is_live[i - first] = 1u;
+        }
+        if (is_pixel && !ends && status != CORE_RAY_ENDS) {
+            core_is_open[i - first] = 1u;
+        }
+        if (is_pixel && ends) {
+            core_states[pixel].status = CORE_RAY_ENDS;
+        }
+    }
+    barrier();
+    for (uint i = lane; first + i < end; i += CORE_TILE_WIDTH) {
+        const uint group = core_groups[first + i];
+        if (core_is_live[i] != 0u) {
+            core_live[atomicAdd(core_counts[0], 1u)] = group;
+        }
+        if (core_seeks != 0u && core_is_open[i] != 0u) {
+            core_open[atomicAdd(core_counts[1], 1u)] = group;
+        }
+    }
+}

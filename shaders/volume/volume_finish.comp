@@ -1,0 +1,39 @@
+// Puts what rays have gathered in front of the picture.
+
+layout(local_size_x = CORE_GROUP_SIZE) in;
+
+#include "picture/samples.glsl"
+#include "volume/volume_state.glsl"
+
+layout(set = 0, binding = 0, std430) readonly buffer core_states_block { core_volume_state core_states[]; };
+layout(set = 0, binding = 1, std430) buffer core_colors_block { elvis_vec4 core_colors[]; };
+layout(set = 0, binding = 2, std430) buffer core_marks_block { core_mark core_marks[]; };
+// Pixels that the volume colours.
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(push_constant) uniform core_parameters {
+    uint core_n_pixels;
+    uint core_groups_x;
+    float core_tolerance;
+};
+
+void main() {
+    const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    const bool is_inside = pixel < core_n_pixels;
+    const core_volume_state state = core_states[min(pixel, core_n_pixels - 1u)];
+    const bool is_drawn = is_inside && state.left < elvis_real(1);
+    const bool is_inexact = state.error > elvis_real(core_tolerance);
+    if (is_drawn) {
+        // Colours are not multiplied by opacity, so that an opaque background stays what it is; light is.
+        const elvis_vec4 under = core_colors[pixel];
+        const elvis_real rest = under.w * state.left, alpha = elvis_real(1) - state.left + rest;
+        const elvis_vec3 light = elvis_vec3(state.red, state.green, state.blue) + rest * under.xyz;
+        core_colors[pixel] = elvis_vec4(alpha > elvis_real(0) ? light / alpha : under.xyz, alpha);
+    }
+    if (is_inside) {
+        core_marks[pixel].flags |= state.flags | (state.status == CORE_RAY_ENDS ? 0u : CORE_FLAG_WORK_LIMIT) | (is_inexact ? CORE_FLAG_VOLUME_TOLERANCE : 0u);
+    }
+    const uint all_drawn = subgroupAdd(is_drawn ? 1u : 0u);
+    if (subgroupElect()) {
+        atomicAdd(core_counts[0], all_drawn);
+    }
+}

@@ -1,0 +1,273 @@
+// The volume rendering integral along a ray's part in one element, by polynomials through samples with slopes: at both ends of a
+// step, which makes a cubic, and where that may not be good enough inside, which makes a quintic. Steps adapt to what each channel may
+// be off.
+//
+//     core_integral integral = core_integral_begin(from, to, per_parameter);
+//     while (integral.wants != CORE_WANTS_NOTHING) {
+//         while (core_integral_wants_sample(integral)) {
+//             (take a sample at core_integral_at(integral));
+//             core_integral_add(integral, ...);
+//         }
+//         core_integral_settle(integral, ...);
+//     }
+//
+// The sample inside is not in the middle, so that fields that are symmetric in the element do not look simpler than they are.
+//
+// What a polynomial is off is estimated from the Chebyshev coefficients of its highest terms, which are taken to go on as the last two pairs of
+// them do, with a margin, since fields in coarse elements do not decay evenly; of a cubic not less than a small part of how far the field may be from a line
+// (segments/ray_sample.glsl): two samples alone are not believed where bounds say that it may do much in between.
+//
+// The kernel brings volume/volume_exact.glsl.
+
+// The end of the segment is wanted first, which may tell that there is nothing in it.
+#define CORE_BEGINS_AT_END 1
+// Some work is left for when samples are there.
+#define CORE_SETTLES 1
+#define CORE_WANTS_NOTHING 0u
+#define CORE_WANTS_RIGHT 1u
+#define CORE_WANTS_LEFT 2u
+#define CORE_WANTS_INNER 3u
+// No sample.
+#define CORE_WANTS_TO_SETTLE 4u
+
+#define CORE_INNER_AT elvis_real(0.4375LF)
+// Steps are not made shorter than this part of the segment.
+#define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
+// Share of how far the field may be from a line that a cubic is taken to be off at least.
+#define CORE_CUBIC_DOUBT elvis_real(0.0625LF)
+// The same of a quintic where density or light have steps: a short part beyond one that is missed is much light, and no slope tells of it.
+#define CORE_QUINTIC_DOUBT elvis_real(CORE_HAS_STEPS == 1 ? 0.00390625LF : 0.0LF)
+#define CORE_MARGIN elvis_real(15)
+// Share of what a step may be off that a line may be.
+#define CORE_LINE_SHARE elvis_real(0.125LF)
+// Of pairs of Chebyshev coefficients: none is believed to be faster; one that is slower is none.
+#define CORE_FASTEST_DECAY elvis_real(0.25LF)
+#define CORE_SLOWEST_DECAY elvis_real(0.75LF)
+// Share of what is left of the tolerance that any step may use.
+#define CORE_LEAST_SHARE elvis_real(0.0625LF)
+
+struct core_integral {
+    elvis_real from, to;
+    // The step; slopes are those with the ray's parameter.
+    elvis_real left, left_value, left_slope;
+    elvis_real right, right_value, right_slope;
+    elvis_real end_value, end_slope;
+    bool has_end, has_left;
+    elvis_real inner_value, inner_slope;
+    // What the next polynomial is: a quintic; a line from the right, which bounds tell how far the field may be from.
+    bool has_inner, is_line;
+    uint wants;
+    // Largest error of a sample, and deviation from a line over the step.
+    elvis_real error, bend;
+    uint n_steps, n_breakpoints;
+};
+
+// `step`: how long the first one may be, in the ray's parameter.
+core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per_parameter, elvis_real step) {
+    core_integral integral;
+    integral.from = integral.left = from;
+    integral.to = to;
+    integral.right = elvis_real(1.5LF) * step < to - from ? from + step : to;
+    integral.left_value = integral.left_slope = integral.right_value = integral.right_slope = elvis_real(0);
+    integral.end_value = integral.end_slope = integral.inner_value = integral.inner_slope = elvis_real(0);
+    integral.has_end = false;
+    integral.wants = from < to ? CORE_WANTS_RIGHT : CORE_WANTS_NOTHING;
+    integral.has_left = integral.has_inner = integral.is_line = false;
+    integral.error = integral.bend = elvis_real(0);
+    integral.n_steps = integral.n_breakpoints = 0u;
+    return integral;
+}
+
+bool core_integral_wants_sample(core_integral integral) {
+    return integral.wants != CORE_WANTS_NOTHING && integral.wants != CORE_WANTS_TO_SETTLE;
+}
+
+bool core_is_shortest(core_integral integral) {
+    return integral.right - integral.left <= CORE_SHORTEST_STEP * (integral.to - integral.from);
+}
+
+// Up to where light is settled, and how long the step from there is.
+bool core_integral_may_stop(core_integral integral) { return true; }
+elvis_real core_integral_done(core_integral integral) { return integral.left; }
+elvis_real core_integral_step(core_integral integral) { return integral.right - integral.left; }
+
+// Where the next sample is wanted, and how far from there its line is wanted.
+elvis_real core_integral_at(core_integral integral) {
+    const elvis_real inner = integral.left + CORE_INNER_AT * (integral.right - integral.left);
+    return integral.wants == CORE_WANTS_LEFT ? integral.left : integral.wants == CORE_WANTS_RIGHT ? integral.right : inner;
+}
+
+elvis_real core_integral_span(core_integral integral) {
+    const elvis_real width = integral.right - integral.left;
+    return integral.wants == CORE_WANTS_RIGHT ? -width : width;
+}
+
+// Divisions take ten times as long as products.
+#define CORE_ONE_THIRD elvis_real(0.33333333333333333333LF)
+#define CORE_ONE_FIFTH elvis_real(0.2LF)
+
+struct core_fitted {
+    // In the Bernstein basis, and by powers of the step's parameter.
+    core_polynomial p, powers;
+    elvis_real error;
+};
+
+core_fitted core_fit_step(core_integral integral) {
+    const bool with_inner = integral.has_inner;
+    const elvis_real width = integral.right - integral.left;
+    const elvis_real c0 = integral.left_value, c3 = integral.right_value;
+    const elvis_real c1 = c0 + CORE_ONE_THIRD * width * integral.left_slope, c2 = c3 - CORE_ONE_THIRD * width * integral.right_slope;
+    const elvis_real cubic = c3 - c0 + elvis_real(3) * (c1 - c2), square = elvis_real(3) * (c0 - elvis_real(2) * c1 + c2);
+    // What is added to it: t^2 (1 - t)^2 (shift + tilt (t - at)).
+    const elvis_real at = CORE_INNER_AT, rest = elvis_real(1) - CORE_INNER_AT;
+    const elvis_real there = rest * rest * rest * c0 + elvis_real(3) * rest * at * (rest * c1 + at * c2) + at * at * at * c3;
+    const elvis_real slope_there =
+        elvis_real(3) * (rest * rest * (c1 - c0) + elvis_real(2) * rest * at * (c2 - c1) + at * at * (c3 - c2));
+    const elvis_real per_bubble = elvis_real(1) / (at * at * rest * rest), bubble_slope = elvis_real(2) * at * rest * (rest - at);
+    const elvis_real shift = with_inner ? (integral.inner_value - there) * per_bubble : elvis_real(0);
+    const elvis_real tilt =
+        with_inner ? (width * integral.inner_slope - slope_there - bubble_slope * shift) * per_bubble : elvis_real(0);
+    core_fitted fitted;
+    fitted.p.c[0] = c0;
+    fitted.p.c[1] = CORE_ONE_FIFTH * (elvis_real(2) * c0 + elvis_real(3) * c1);
+    fitted.p.c[2] = elvis_real(0.5LF) * CORE_ONE_FIFTH * (c0 + elvis_real(6) * c1 + elvis_real(3) * c2 + shift - at * tilt);
+    fitted.p.c[3] = elvis_real(0.5LF) * CORE_ONE_FIFTH * (c3 + elvis_real(6) * c2 + elvis_real(3) * c1 + shift + rest * tilt);
+    fitted.p.c[4] = CORE_ONE_FIFTH * (elvis_real(2) * c3 + elvis_real(3) * c2);
+    fitted.p.c[5] = c3;
+    const elvis_real level = shift - at * tilt;
+    const elvis_real a2 = square + level, a3 = cubic - elvis_real(2) * level + tilt, a4 = level - elvis_real(2) * tilt;
+    fitted.powers.c[0] = c0;
+    fitted.powers.c[1] = width * integral.left_slope;
+    fitted.powers.c[2] = a2;
+    fitted.powers.c[3] = a3;
+    fitted.powers.c[4] = a4;
+    fitted.powers.c[5] = tilt;
+    // From them the Chebyshev coefficients from the second on.
+    const elvis_real second = abs(a2 * elvis_real(0.125LF) + a3 * elvis_real(0.1875LF) + a4 * elvis_real(0.21875LF) + tilt * elvis_real(0.234375LF));
+    const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
+    const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
+    const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
+    const elvis_real of_quintic = max(CORE_MARGIN * last * decay / (elvis_real(1) - decay), CORE_QUINTIC_DOUBT * integral.bend);
+    const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_DOUBT * integral.bend) *
+                                (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
+    const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
+    fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    return fitted;
+}
+
+// What a step may be off, and whether it is worth while to integrate it.
+struct core_judgement {
+    elvis_real allowed;
+    // No other sample would make it better.
+    bool is_exhausted;
+    bool is_tried;
+};
+
+// `held`: the piece that holds the step's beginning, or another one.
+core_judgement core_judge_step(core_integral integral, core_fitted fitted, core_light light, elvis_real per_parameter, elvis_real tolerance,
+                               elvis_real ahead, core_held_piece held) {
+    const elvis_real width = integral.right - integral.left;
+    // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
+    const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
+    const bool is_whole = core_least(fitted.p) - fitted.error >= held.lower && core_most(fitted.p) + fitted.error < held.upper;
+    // What cannot be good, and a cubic that may not be, is not tried: another sample is.
+    const elvis_real worst = light.left * width * per_parameter * fitted.error;
+    core_judgement judgement;
+    judgement.allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
+    judgement.is_exhausted = integral.has_inner && (core_is_shortest(integral) || fitted.error <= elvis_real(2) * integral.error);
+    // Of a line the bound is what it may well be off.
+    const elvis_real acceptable = integral.is_line ? CORE_LINE_SHARE * judgement.allowed : judgement.allowed;
+    const bool is_hopeful = is_whole ? worst * held.steepness <= acceptable
+                                     : integral.has_inner || worst * elvis_real(core_steepest) <= acceptable;
+    judgement.is_tried = is_hopeful || judgement.is_exhausted;
+    return judgement;
+}
+
+// A sample where one was wanted. `per_parameter`: length of the ray for its parameter. `tolerance`: what each channel may be off in the
+// end; `ahead`: how much of the ray is left at most, from `from` on.
+void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error, elvis_real bend,
+                       elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
+                       inout core_held_piece held, inout uint work) {
+    integral.error = max(integral.error, error);
+    const bool is_left = integral.wants == CORE_WANTS_LEFT, is_inner = integral.wants == CORE_WANTS_INNER;
+    const bool is_right = integral.wants == CORE_WANTS_RIGHT, is_end = is_right && integral.right >= integral.to;
+    integral.end_value = is_end ? value : integral.end_value;
+    integral.end_slope = is_end ? slope : integral.end_slope;
+    integral.has_end = integral.has_end || is_end;
+    integral.left_value = is_left ? value : integral.left_value;
+    integral.left_slope = is_left ? slope : integral.left_slope;
+    integral.has_left = integral.has_left || is_left;
+    integral.right_value = is_right ? value : integral.right_value;
+    integral.right_slope = is_right ? slope : integral.right_slope;
+    integral.inner_value = is_inner ? value : integral.inner_value;
+    integral.inner_slope = is_inner ? slope : integral.inner_slope;
+    integral.bend = is_right ? bend : is_left ? max(integral.bend, bend) : integral.bend;
+    // A line from the first end may do, mostly not.
+    integral.is_line = !integral.has_left;
+    integral.has_inner = is_inner;
+    const elvis_real width = integral.right - integral.left;
+    const elvis_real left_value = integral.left_value, left_slope = integral.left_slope;
+    integral.left_value = integral.is_line ? integral.right_value - width * integral.right_slope : left_value;
+    integral.left_slope = integral.is_line ? integral.right_slope : left_slope;
+    const core_judgement judgement =
+        core_judge_step(integral, core_fit_step(integral), light, per_parameter, tolerance, ahead, held);
+    integral.wants = judgement.is_tried || is_inner ? CORE_WANTS_TO_SETTLE : integral.is_line ? CORE_WANTS_LEFT : CORE_WANTS_INNER;
+}
+
+// As much of the integral as samples allow, where it wants to settle. `work` grows by what loops have done. Up to integral.left light is
+// settled.
+void core_integral_settle(inout core_integral integral, inout core_light light, elvis_real per_parameter, elvis_real tolerance,
+                          elvis_real ahead, inout core_held_piece held, inout uint work) {
+    while (integral.wants == CORE_WANTS_TO_SETTLE) {
+        const elvis_real width = integral.right - integral.left;
+        const core_fitted fitted = core_fit_step(integral);
+        core_hold_value(held, fitted.p.c[0]);
+        const core_held_piece beginning = held;
+        const core_judgement judgement = core_judge_step(integral, fitted, light, per_parameter, tolerance, ahead, held);
+        const elvis_real allowed = judgement.allowed;
+        core_light next = light;
+        uint n_breakpoints = 0u;
+        elvis_real missed = elvis_real(0);
+        work += CORE_WORK_A_STEP;
+        if (judgement.is_tried) {
+            const elvis_real most = judgement.is_exhausted ? CORE_FAR : light.error + allowed;
+            core_add_polynomial(next, fitted.p, fitted.powers, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed,
+                                held, n_breakpoints, missed, work);
+        }
+        // The rest is not of the polynomial's making.
+        const bool is_rounding = fitted.error <= elvis_real(2) * integral.error && missed <= allowed;
+        const bool is_good = (judgement.is_tried && next.error - light.error <= allowed) ||
+                             (integral.has_inner && (core_is_shortest(integral) || is_rounding));
+        const bool is_shorter = !is_good && integral.has_inner;
+        integral.n_steps += is_good ? 1u : 0u;
+        integral.n_breakpoints += is_good ? n_breakpoints : 0u;
+        if (is_good) {
+            light = next;
+        } else {
+            held = beginning;
+        }
+        // On: to the end, or as far again and a little more. Back: to the sample inside, without a new one.
+        const elvis_real inner = integral.left + CORE_INNER_AT * width;
+        const elvis_real reach = integral.right + elvis_real(1.5LF) * width;
+        const bool is_last = reach >= integral.to;
+        // Of half a step, or of one about as long.
+        integral.bend *= is_shorter ? CORE_INNER_AT * CORE_INNER_AT : elvis_real(1);
+        const elvis_real next_right = is_good ? (is_last ? integral.to : reach) : is_shorter ? inner : integral.right;
+        integral.left_value = is_good ? integral.right_value : integral.left_value;
+        integral.left_slope = is_good ? integral.right_slope : integral.left_slope;
+        integral.left = is_good ? integral.right : integral.left;
+        integral.right_value = is_good && is_last && integral.has_end ? integral.end_value : is_shorter ? integral.inner_value : integral.right_value;
+        integral.right_slope = is_good && is_last && integral.has_end ? integral.end_slope : is_shorter ? integral.inner_slope : integral.right_slope;
+        integral.right = next_right;
+        const bool is_known = is_last && integral.has_end;
+        integral.wants = is_good ? (integral.left >= integral.to ? CORE_WANTS_NOTHING : is_known ? CORE_WANTS_TO_SETTLE : CORE_WANTS_RIGHT)
+                         : integral.is_line ? CORE_WANTS_LEFT
+                         : is_shorter       ? CORE_WANTS_TO_SETTLE
+                                            : CORE_WANTS_INNER;
+        integral.has_left = integral.has_left || is_good;
+        integral.has_inner = integral.is_line = false;
+        if (integral.wants != CORE_WANTS_TO_SETTLE) {
+            break;
+        }
+    }
+}

@@ -1,0 +1,35 @@
+// Rays go through a transparent surface, as far as they have got, and go on behind it.
+
+layout(local_size_x = CORE_GROUP_SIZE) in;
+
+#include "picture/samples.glsl"
+#include "volume/volume_light.glsl"
+#include "volume/volume_state.glsl"
+
+layout(set = 0, binding = 0, std430) buffer core_states_block { core_volume_state core_states[]; };
+layout(set = 0, binding = 1, std430) readonly buffer core_layer_colors_block { elvis_vec4 core_layer_colors[]; };
+layout(set = 0, binding = 2, std430) readonly buffer core_layer_depths_block { elvis_real core_layer_depths[]; };
+// Of the nearest opaque surface.
+layout(set = 0, binding = 3, std430) readonly buffer core_depths_block { elvis_real core_depths[]; };
+layout(push_constant) uniform core_parameters {
+    uint core_n_pixels;
+    uint core_groups_x;
+    float core_tolerance;
+};
+
+void main() {
+    const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    const uint safe = min(pixel, core_n_pixels - 1u);
+    const bool is_seen = pixel < core_n_pixels && core_layer_depths[safe] < core_depths[safe];
+    if (is_seen) {
+        const core_volume_state state = core_states[pixel];
+        const elvis_vec4 color = core_layer_colors[pixel];
+        core_light light = core_light(state.red, state.green, state.blue, state.left, state.error);
+        core_add_light(light, color.w * color.xyz, elvis_real(1) - color.w);
+        core_states[pixel].red = light.red;
+        core_states[pixel].green = light.green;
+        core_states[pixel].blue = light.blue;
+        core_states[pixel].left = light.left;
+        core_states[pixel].status = state.status == CORE_RAY_WAITS ? CORE_RAY_GOES : state.status;
+    }
+}
