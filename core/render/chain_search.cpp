@@ -88,7 +88,7 @@ void ChainSearch::compile() {
             tiles.push_constant_bytes = sizeof(TilesParameters);
             kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
         }
-        KernelRequest seek = request(range, "segments/chain_seek");
+        KernelRequest seek = request(range, "segments/find_walk");
         seek.instances = {m_data.instance(range.element_class)};
         add_storage_buffers(seek, 4);
         seek.push_constant_bytes = sizeof(SeekParameters);

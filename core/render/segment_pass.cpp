@@ -16,7 +16,7 @@ constexpr std::uint32_t list_capacity = 48;
 /** More than any ray has chains, and chains parts in different classes, and their parts take dispatches. */
 constexpr std::uint32_t most_rounds = 4096;
 constexpr std::uint32_t estimated_segment = 0x80000000u;
-/** Of shaders/segments/chain_state.glsl. */
+/** Of shaders/segments/walk_state.glsl. */
 constexpr std::uint32_t ray_seeks = 0, ray_ends = 2, no_element = 0xffffffffu;
 constexpr double far = 3e38;
 

@@ -84,7 +84,7 @@ VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const 
       m_search(device, data, m_chains, volume, {}, false), m_models(device, volume, data),
       m_begin(device,
               pixel_kernel("volume/volume_begin", data.precision(), {BindingType::storage_buffer}, sizeof(PixelParameters))),
-      m_veil(device, pixel_kernel("volume/volume_veil", data.precision(),
+      m_veil(device, pixel_kernel("volume/volume_transparency", data.precision(),
                                   {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
                                    BindingType::storage_buffer},
                                   sizeof(PixelParameters))),

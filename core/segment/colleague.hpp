@@ -1,6 +1,6 @@
 /**
  * @file colleague.hpp
- * Roots as eigenvalues: the reference method (shaders/segments/segment_colleague.glsl), in double precision, by Eigen.
+ * Roots as eigenvalues: the reference method (shaders/segments/colleague.glsl), in double precision, by Eigen.
  */
 #pragma once
 

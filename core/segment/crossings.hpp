@@ -1,6 +1,6 @@
 /**
  * @file crossings.hpp
- * Where a polynomial takes given values, in order along the segment: the CPU's twin of shaders/segments/segment_crossings.glsl,
+ * Where a polynomial takes given values, in order along the segment: the CPU's twin of shaders/segments/crossings.glsl,
  * where the method is explained.
  */
 #pragma once

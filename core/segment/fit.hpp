@@ -1,6 +1,6 @@
 /**
  * @file fit.hpp
- * Samples to polynomial, one sample at a time: the CPU's twin of shaders/segments/segment_fit.glsl, where the method and the
+ * Samples to polynomial, one sample at a time: the CPU's twin of shaders/segments/fit.glsl, where the method and the
  * error estimate are explained.
  */
 #pragma once

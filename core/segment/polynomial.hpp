@@ -1,7 +1,7 @@
 /**
  * @file polynomial.hpp
  * Polynomials on a segment, t in [0, 1], in the Chebyshev or the Bernstein basis: the CPU's twin of
- * shaders/segments/segment_bernstein.glsl, in both precisions, for tests and for work on the host.
+ * shaders/segments/bernstein.glsl, in both precisions, for tests and for work on the host.
  */
 #pragma once
 

@@ -60,7 +60,7 @@ std::vector<double> bernstein_growth(int n);
 /** n over i, for i = 0 .. n. */
 std::vector<double> binomials(int n);
 
-/** All of it as GLSL, which segments/segment_polynomial.glsl needs before it. */
+/** All of it as GLSL, which segments/polynomial.glsl needs before it. */
 std::string segment_glsl(const SamplePlan& plan);
 
 } // namespace elvis::segment

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t place_of_curvature = 7;
 constexpr std::uint32_t words_a_node = 8;
-/** CORE_FOLLOWED_CURVATURE of shaders/segments/ray_part.glsl. */
+/** CORE_FOLLOWED_CURVATURE of shaders/segments/segment.glsl. */
 constexpr float followed_curvature = 0.25f;
 /** Elements asked for at once. */
 constexpr std::uint64_t block = 1u << 16;

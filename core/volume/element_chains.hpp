@@ -51,7 +51,7 @@ public:
      */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
     /** CORE_HAS_CURVED for kernels on the class's elements: whether rays have to be followed in any of them
-     * (shaders/segments/ray_part.glsl). */
+     * (shaders/segments/segment.glsl). */
     std::pair<std::string, std::string> curved_define(std::uint32_t element_class) const;
     std::uint64_t n_starts(std::uint32_t element_class) const { return m_classes[element_class].n_starts; }
 

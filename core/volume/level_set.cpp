@@ -20,7 +20,7 @@ constexpr std::size_t child_word = 3;
 constexpr std::uint32_t cell_size = 24, cell_words = 32;
 constexpr std::size_t cell_slope = 12, cell_error = 16, cell_scale = 17, cell_element = 18, cell_code = 19, cell_curvature = 20,
                       cell_range = 24, cell_box = 26;
-/** shaders/isosurface/level_cell.glsl */
+/** shaders/isosurface/octant.glsl */
 constexpr std::uint32_t cell_place_bits = 6, cell_is_estimated = 0x80000000u;
 constexpr std::uint32_t most_levels = 3;
 /** Cells for which there is room where there are fewer elements, and octants of one level that are looked at for them. */
@@ -129,7 +129,7 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
         levels.cells = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_cells, cell_size);
         KernelRequest request;
         request.name = "level_cells of element class " + std::to_string(index);
-        request.kernel = "isosurface/level_cells.comp";
+        request.kernel = "isosurface/octants.comp";
         request.watches_loops = true;
         request.precision = data.precision();
         data.add_field(request, index, true);

@@ -4,8 +4,8 @@
 
 elvis_real core_level_value(uint i) { return elvis_real(0); }
 
-#include "segments/segment_polynomial.glsl"
-#include "segments/segment_colleague.glsl"
+#include "segments/polynomial.glsl"
+#include "segments/colleague.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer core_input_block { elvis_real core_input[]; };

@@ -46,7 +46,7 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 #if CORE_LINES
 layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 
-#include "lines/cell.glsl"
+#include "lines/subpixel.glsl"
 #include "field/shown_model.glsl"
 
 struct core_pixel_lines {

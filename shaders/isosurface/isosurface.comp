@@ -2,10 +2,10 @@
 //
 // The list of a tile of pixels (tiles/ray_tiles.comp) names the cells, octants of elements that can hold an isovalue, in the order of
 // depth, so that the search ends at the first cell behind the crossing found. A work group is a few rows of a tile, and takes over what
-// these can meet (isosurface/group_cells.glsl).
+// these can meet (isosurface/group_octants.glsl).
 //
-// A ray is cut down to what a cell's linear models of mapping and field leave (isosurface/level_cell.glsl), and then a piece at a time is
-// looked at, front to back (isosurface/ray_piece.glsl). One evaluation bounds the field over the whole piece by a line and an error. So it
+// A ray is cut down to what a cell's linear models of mapping and field leave (isosurface/octant.glsl), and then a piece at a time is
+// looked at, front to back (isosurface/ray_interval.glsl). One evaluation bounds the field over the whole piece by a line and an error. So it
 // is known that
 //
 //   no isovalue is taken         the piece is done: that is certified, as far as the bounds are
@@ -14,7 +14,7 @@
 //   or little                    the piece is halved
 //
 // until the piece is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
-// pixel is undecided if that cannot be told: isosurface/piece_look.glsl, piece_root.glsl and cell_search.glsl.
+// pixel is undecided if that cannot be told: isosurface/interval_bounds.glsl, piece_root.glsl and cell_search.glsl.
 //
 // One evaluation of mapping and field a turn, whatever element and piece a lane is at, so that lanes do not wait for each other.
 
@@ -53,12 +53,12 @@ layout(push_constant) uniform core_parameters {
 #include "picture/distrust_column.glsl"
 #include "element/element_frame.glsl"
 #include "field/shown_model.glsl"
-#include "isosurface/ray_piece.glsl"
-#include "isosurface/group_cells.glsl"
+#include "isosurface/ray_interval.glsl"
+#include "isosurface/group_octants.glsl"
 #include "isosurface/nearest_crossing.glsl"
-#include "isosurface/piece_look.glsl"
-#include "isosurface/piece_root.glsl"
-#include "isosurface/cell_search.glsl"
+#include "isosurface/interval_bounds.glsl"
+#include "isosurface/interval_root.glsl"
+#include "isosurface/octant_search.glsl"
 
 // Turns of one pixel: all pixels of an invocation stay below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u

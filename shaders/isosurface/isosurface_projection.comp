@@ -3,7 +3,7 @@
 // rendering, 2006).
 //
 // Elements whose range holds an isovalue are visited nearest first, and in each the parts of the ray inside, from exact entry to
-// exact exit (segments/ray_part.glsl). Along a part the field is sampled and becomes a polynomial (segments/segment_fit.glsl), whose
+// exact exit (segments/segment.glsl). Along a part the field is sampled and becomes a polynomial (segments/fit.glsl), whose
 // degree is raised, and then the part halved, until the error E is small beside how much the polynomial varies. Beside values each
 // sample has the field's slope along the ray, which the polynomial must have, too: few values alone can deceive. A piece without an
 // isovalue within E of the polynomial's Bernstein coefficients is left out: that is verified, not certified. Else the polynomial's
@@ -12,7 +12,7 @@
 //     E shows that the field crosses in the bracket in which the root was found    or
 //     the field is seen on both sides, or surely keeps its slope within what rounding moves the root.
 //
-// (isosurface/projection_part.glsl, projection_piece.glsl and projection_polish.glsl.)
+// (isosurface/projection_segment.glsl, projection_piece.glsl and projection_polish.glsl.)
 //
 // Where neither holds the piece is halved as long as E is more than rounding; then the pixel is undecided.
 //
@@ -56,12 +56,12 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
 #define CORE_CERTAIN_TURNS 96u
 #define CORE_PART_TURNS 160u
-#include "segments/ray_part.glsl"
+#include "segments/segment.glsl"
 #include "segments/ray_sample.glsl"
-#include "isosurface/level_model.glsl"
-#include "isosurface/level_span.glsl"
-#include "segments/segment_polynomial.glsl"
-#include "segments/segment_colleague.glsl"
+#include "isosurface/linear_model.glsl"
+#include "isosurface/value_span.glsl"
+#include "segments/polynomial.glsl"
+#include "segments/colleague.glsl"
 
 // Turns of a pixel, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
@@ -77,11 +77,11 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 #endif
 
 #include "isosurface/nearest_crossing.glsl"
-#include "segments/segment_candidate.glsl"
-#include "segments/segment_pieces.glsl"
+#include "segments/root_candidate.glsl"
+#include "segments/dyadic_interval.glsl"
 #include "isosurface/projection_search.glsl"
-#include "isosurface/projection_part.glsl"
-#include "isosurface/projection_piece.glsl"
+#include "isosurface/projection_segment.glsl"
+#include "isosurface/projection_interval.glsl"
 #include "isosurface/projection_polish.glsl"
 
 void main() {

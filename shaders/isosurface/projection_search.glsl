@@ -1,7 +1,7 @@
 // What projection (isosurface/isosurface_projection.comp) is at with a ray: the element, the part of the ray in it, the piece of that, and
 // the candidate for a crossing.
 //
-// The kernel brings segments/ray_part.glsl, segments/ray_sample.glsl, segments/segment_candidate.glsl and segments/segment_pieces.glsl.
+// The kernel brings segments/segment.glsl, segments/ray_sample.glsl, segments/root_candidate.glsl and segments/dyadic_interval.glsl.
 
 // What is next: an element, the part of the ray in it, a sample of a piece, a candidate, a step towards its crossing.
 #define CORE_PHASE_SEEK 0u

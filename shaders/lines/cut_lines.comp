@@ -2,7 +2,7 @@
 //
 // A pixel is a closed square. Each element of the class that may reach into it is asked by itself, with its own values, so that a
 // jump between elements is no contour. The square is one cell at first; a cell in which the answer is open is halved in both
-// directions, at most core_subdivisions times (lines/cell.glsl tells what is certain about a cell). Cells are visited depth
+// directions, at most core_subdivisions times (lines/subpixel.glsl tells what is certain about a cell). Cells are visited depth
 // first, in the order (0,0) (1,0) (0,1) (1,1), which needs no stack.
 //
 // One evaluation of mapping and field a turn, whatever element and cell a lane is at.
@@ -36,7 +36,7 @@ layout(push_constant) uniform core_parameters {
 
 
 #include "arithmetic/driver_limit.glsl"
-#include "lines/cell.glsl"
+#include "lines/subpixel.glsl"
 #include "field/shown_model.glsl"
 
 #define CORE_NO_ELEMENT 0xffffffffu

@@ -20,7 +20,7 @@ layout(local_size_x = 32) in;
 #include "picture/samples.glsl"
 #include "lines/face_line_bindings.glsl"
 #include "lines/own_face.glsl"
-#include "lines/cell_walk.glsl"
+#include "lines/subpixel_quadtree.glsl"
 #include "arithmetic/driver_limit.glsl"
 #include "picture/surroundings.glsl"
 #if CORE_WITH_CONTOURS

@@ -22,7 +22,7 @@ layout(local_size_x = 32) in;
 #include "element/place.glsl"
 #include "picture/samples.glsl"
 #include "lines/face_line_bindings.glsl"
-#include "lines/cell.glsl"
+#include "lines/subpixel.glsl"
 #include "arithmetic/driver_limit.glsl"
 #include "picture/surroundings.glsl"
 #if CORE_WITH_CONTOURS

@@ -12,7 +12,7 @@
 #ifndef CORE_OWN_FACE
 #define CORE_OWN_FACE
 
-#include "lines/cell.glsl"
+#include "lines/subpixel.glsl"
 #include "cut_surface/tangent_square.glsl"
 
 elvis_vec4 core_own_constraint(int own_face) {

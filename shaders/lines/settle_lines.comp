@@ -1,7 +1,7 @@
 // What the element that a pixel shows tells by itself of the lines that the pixel meets, on any surface but planes. Pixels that
 // need more are listed.
 //
-// The pixel's square is one cell (lines/cell.glsl). Where all of it lies in the element, the element's part of the surface fills
+// The pixel's square is one cell (lines/subpixel.glsl). Where all of it lies in the element, the element's part of the surface fills
 // the square: no other element is met, and whatever lies behind does not matter. On faces the linear model of the face itself
 // tells so (lines/own_face.glsl); elsewhere the surface must also be smooth around the pixel, because it may end. Something in
 // front of it could hide a part: where a neighbouring pixel sees such a thing, nothing is settled. A boundary that runs through the
@@ -42,7 +42,7 @@ layout(push_constant) uniform core_parameters {
 
 
 #include "picture/distrust_column.glsl"
-#include "lines/cell.glsl"
+#include "lines/subpixel.glsl"
 #include "lines/own_face.glsl"
 #include "picture/surroundings.glsl"
 #if CORE_WITH_CONTOURS

@@ -10,7 +10,7 @@
 //
 // What then stays open is listed for the next round: after a first one without halving, which most pixels need no more than, one
 // with it. On quadrics without ends the last ones (CORE_BY_SEGMENTS) look at silhouettes, too. There, a cell is all that its rays
-// can meet of the quadric (cut_surface/quadric_segment.glsl), which shrinks with the cell and needs no plane of the whole pixel. If the
+// can meet of the quadric (cut_surface/quadric_span.glsl), which shrinks with the cell and needs no plane of the whole pixel. If the
 // pixel shows the front of the quadric, then its back counts as hidden, and a line on the front is met.
 
 layout(local_size_x = 32) in;
@@ -47,11 +47,11 @@ layout(push_constant) uniform core_parameters {
 
 
 #include "arithmetic/driver_limit.glsl"
-#include "lines/cell.glsl"
-#include "lines/cell_walk.glsl"
+#include "lines/subpixel.glsl"
+#include "lines/subpixel_quadtree.glsl"
 #include "picture/surroundings.glsl"
 #if CORE_SHAPE_ROWS > 0
-#include "cut_surface/quadric_segment.glsl"
+#include "cut_surface/quadric_span.glsl"
 #endif
 #if CORE_WITH_CONTOURS
 #include "field/shown_model.glsl"

@@ -2,7 +2,7 @@
 // (core_part_enter): Newton's method for a point of the face and the parameter, from several points of the face. Which of them are found is
 // no certainty, but each one that is found is an entry.
 //
-// The kernel brings segments/ray_part.glsl.
+// The kernel brings segments/segment.glsl.
 
 #define CORE_EDGE_START 5u
 #define CORE_EXIT_START (CORE_EDGE_START + uint(CORE_N_FACES))

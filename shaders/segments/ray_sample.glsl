@@ -4,11 +4,11 @@
 // from so far away, a point half the way is found first, and so on: the prediction is then followed along the ray.
 //
 // The field is taken to first order from the point that was evaluated, so that what Newton's method leaves counts twice only. Its
-// error is bounded as in isosurface/ray_piece.glsl.
+// error is bounded as in isosurface/ray_interval.glsl.
 //
 // A sample is good enough where the bounds of its errors say so, else where Newton's method has come to rest.
 //
-// The kernel brings segments/ray_part.glsl and field/shown_model.glsl.
+// The kernel brings segments/segment.glsl and field/shown_model.glsl.
 
 #define CORE_SAMPLE_RUNNING 0u
 #define CORE_SAMPLE_FOUND 1u

@@ -1,9 +1,9 @@
-// Where a ray has got to (segments/chain_state.glsl), with what is to be told of its segments.
+// Where a ray has got to (segments/walk_state.glsl), with what is to be told of its segments.
 
 #ifndef CORE_SEGMENT_STATE
 #define CORE_SEGMENT_STATE
 
-#include "segments/chain_state.glsl"
+#include "segments/walk_state.glsl"
 
 struct core_segment_state {
     elvis_real done, chain, start;

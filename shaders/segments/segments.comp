@@ -1,4 +1,4 @@
-// Segments of rays: their parts inside of elements, front to back, without overlaps (segments/chain_walk.glsl). Where chains of elements
+// Segments of rays: their parts inside of elements, front to back, without overlaps (segments/neighbour_walk.glsl). Where chains of elements
 // overlap, the one entered first owns the ray to its exit, and of the others counts what is left beyond it.
 //
 // One invocation a ray, for the elements of one class. That one element is left where the next one is entered shows as two
@@ -33,14 +33,14 @@ layout(push_constant) uniform core_parameters {
 };
 
 #define CORE_RAYS_BINDING 4
-#include "segments/chain_ray.glsl"
+#include "segments/source_ray.glsl"
 #include "arithmetic/driver_limit.glsl"
 #define CORE_ASSUMED_CURVATURE elvis_real(64)
 #define CORE_CERTAIN_TURNS 512u
 #define CORE_PART_TURNS 640u
-#include "segments/ray_part.glsl"
-#include "segments/walk_ray.glsl"
-#include "segments/chain_walk.glsl"
+#include "segments/segment.glsl"
+#include "segments/traced_ray.glsl"
+#include "segments/neighbour_walk.glsl"
 
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 256u
@@ -70,7 +70,7 @@ void main() {
     part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
     part.turns = 0u;
     const uint most = core_capacity > 0u ? core_capacity : 0xffffffffu;
-    // What few rays need stands outside of the loop over elements (segments/chain_walk.glsl).
+    // What few rays need stands outside of the loop over elements (segments/neighbour_walk.glsl).
     while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
         while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
             n_elements += 1u;

@@ -33,12 +33,12 @@ layout(push_constant) uniform core_constants {
 layout(std430, set = 0, binding = 2) buffer core_has_starts_block { uint core_has_starts[]; };
 #endif
 
-#include "tiles/tile_beam.glsl"
+#include "tiles/tile_frustum.glsl"
 
 #ifdef CORE_TESTS_LEVELS
-#include "isosurface/level_leaf_test.glsl"
+#include "isosurface/octant_leaf_test.glsl"
 #elif defined(CORE_TESTS_STARTS)
-#include "segments/chain_leaf_test.glsl"
+#include "segments/walk_leaf_test.glsl"
 #else
 bool core_leaf_is_met(uint item, core_beam beam, vec2 span) { return true; }
 #endif

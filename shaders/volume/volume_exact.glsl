@@ -7,7 +7,7 @@
 //
 // The kernel brings volume/volume_light.glsl and the tables of degree 5 (core/segment/tables.hpp).
 
-#include "segments/segment_bernstein.glsl"
+#include "segments/bernstein.glsl"
 
 // Of what the kernel does in one dispatch.
 #define CORE_WORK_A_STEP 3u

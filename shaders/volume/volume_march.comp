@@ -1,6 +1,6 @@
 // Light along the rays of pixels, from element to element of one class (volume/volume_state.glsl).
 //
-// In each element: where the ray leaves it, by evaluations of the mapping alone (segments/ray_part.glsl); then samples of the field, as
+// In each element: where the ray leaves it, by evaluations of the mapping alone (segments/segment.glsl); then samples of the field, as
 // the integrator wants them, and its integral of what lies between. Lanes do both together, each in its own element.
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
@@ -42,14 +42,14 @@ layout(push_constant) uniform core_parameters {
 #define CORE_GROUPS_BINDING 7
 #include "tiles/ray_group.glsl"
 #include "arithmetic/driver_limit.glsl"
-#include "segments/ray_part.glsl"
-#include "segments/walk_ray.glsl"
-#include "segments/chain_walk.glsl"
+#include "segments/segment.glsl"
+#include "segments/traced_ray.glsl"
+#include "segments/neighbour_walk.glsl"
 #include "field/shown_model.glsl"
 #include "segments/ray_sample.glsl"
 #include "volume/transfer.glsl"
 #include "volume/volume_light.glsl"
-#include "volume/volume_level.glsl"
+#include "volume/volume_constant.glsl"
 #include "volume/volume_integrators.glsl"
 #if CORE_INTEGRATOR == CORE_INTEGRATOR_EXACT
 #include "volume/volume_exact.glsl"

@@ -1,9 +1,9 @@
-// Where a pixel's ray has got to on its way through the elements (segments/chain_state.glsl), with the light that it has gathered.
+// Where a pixel's ray has got to on its way through the elements (segments/walk_state.glsl), with the light that it has gathered.
 
 #ifndef CORE_VOLUME_STATE
 #define CORE_VOLUME_STATE
 
-#include "segments/chain_state.glsl"
+#include "segments/walk_state.glsl"
 
 struct core_volume_state {
     // Up to here light is settled; where the chain has got to; where it began, and the element in which it began.

@@ -31,8 +31,8 @@ std::vector<Real> run(const std::string& text, const SamplePlan& plan, const std
     request.kernel_text = R"(
 const elvis_real level_values[3] = {elvis_real(-0.25LF), elvis_real(0), elvis_real(0.5LF)};
 elvis_real core_level_value(uint i) { return level_values[i]; }
-#include "segments/segment_polynomial.glsl"
-#include "segments/segment_colleague.glsl"
+#include "segments/polynomial.glsl"
+#include "segments/colleague.glsl"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer given_block { elvis_real given[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer results_block { elvis_real results[]; };

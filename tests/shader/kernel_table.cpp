@@ -25,7 +25,7 @@ const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_c
 void add_pixel_kernels(std::vector<KernelUse>& uses) {
     for (const char* kernel :
          {"picture/blend", "isosurface/list_open_pixels", "picture/merge", "picture/occlude", "picture/order_layers",
-          "picture/take_layer", "volume/volume_begin", "volume/volume_finish", "volume/volume_veil"}) {
+          "picture/take_layer", "volume/volume_begin", "volume/volume_finish", "volume/volume_transparency"}) {
         uses.push_back({.kernel = kernel, .choices = {pixel_group}});
     }
     uses.push_back(
@@ -139,7 +139,7 @@ void add_line_kernels(std::vector<KernelUse>& uses) {
 }
 
 void add_isosurface_kernels(std::vector<KernelUse>& uses) {
-    for (const char* kernel : {"isosurface/level_models", "isosurface/level_cells"}) {
+    for (const char* kernel : {"isosurface/linear_models", "isosurface/octants"}) {
         uses.push_back({.kernel = kernel,
                         .element = Element::model,
                         .is_for_solids = true,
@@ -177,8 +177,8 @@ void add_ray_kernels(std::vector<KernelUse>& uses) {
         };
         const std::vector<Choice> for_segments{yes("CORE_MAKES_SEGMENTS"), no_or_yes("CORE_RAYS_ARE_GIVEN")};
         uses.push_back(use("tiles/ray_tiles", Element::snippet, {yes("CORE_TESTS_STARTS")}));
-        uses.push_back(use("segments/chain_seek", Element::snippet, {}));
-        uses.push_back(use("segments/chain_seek", Element::snippet, for_segments));
+        uses.push_back(use("segments/find_walk", Element::snippet, {}));
+        uses.push_back(use("segments/find_walk", Element::snippet, for_segments));
         uses.push_back(use("segments/segments", Element::snippet, for_segments));
         KernelUse march = use("volume/volume_march", Element::model,
                               {{"CORE_INTEGRATOR", {"0", "1", "2", "3", "4"}}, no_or_yes("CORE_HAS_STEPS")});

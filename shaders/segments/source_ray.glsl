@@ -1,4 +1,4 @@
-// The rays of segments/chain_seek.comp and segments/segments.comp: those of pixels, or (CORE_RAYS_ARE_GIVEN) of a list.
+// The rays of segments/find_walk.comp and segments/segments.comp: those of pixels, or (CORE_RAYS_ARE_GIVEN) of a list.
 //
 // The kernel brings core_extent, the diagonal of the volume's bounds, and for rays that are given their binding, CORE_RAYS_BINDING.
 

@@ -1,5 +1,5 @@
 // Where a polynomial along a piece of a ray may cross an isovalue, one place after the other: by Bernstein coefficients
-// (segments/segment_polynomial.glsl) or, with CORE_USES_COLLEAGUE, by eigenvalues (segments/segment_colleague.glsl).
+// (segments/polynomial.glsl) or, with CORE_USES_COLLEAGUE, by eigenvalues (segments/colleague.glsl).
 
 struct core_candidate {
     uint kind, index;

@@ -1,9 +1,9 @@
 // Where along rays an isovalue can be met in an element, as far as its linear models tell: of the mapping (element/linearization.glsl)
-// and of the field (isosurface/level_model.glsl). Nothing is evaluated for it.
+// and of the field (isosurface/linear_model.glsl). Nothing is evaluated for it.
 //
 // `start` + t `direction`: the ray in reference coordinates, as linearized.
 
-#include "isosurface/level_part.glsl"
+#include "isosurface/value_interval.glsl"
 
 // Of the linearization at the centroid, which keeps this many digits of coordinates in the element.
 #define CORE_LINEAR_ERROR 2e-2

@@ -17,8 +17,8 @@
 #ifndef CORE_SEGMENT_POLYNOMIAL
 #define CORE_SEGMENT_POLYNOMIAL
 
-#include "segments/segment_bernstein.glsl"
-#include "segments/segment_fit.glsl"
-#include "segments/segment_crossings.glsl"
+#include "segments/bernstein.glsl"
+#include "segments/fit.glsl"
+#include "segments/crossings.glsl"
 
 #endif

@@ -1,6 +1,6 @@
 // The root of a piece's line: whether it is a crossing of the field with an isovalue, and where.
 //
-// The kernel brings isosurface/piece_look.glsl.
+// The kernel brings isosurface/interval_bounds.glsl.
 
 // Error of the unit normal that is left.
 #if ELVIS_REAL_IS_DOUBLE

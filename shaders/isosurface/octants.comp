@@ -1,11 +1,11 @@
-// The linear models of cells, which are octants of elements (isosurface/level_cell.glsl), the range of the field in each, and a box.
+// The linear models of cells, which are octants of elements (isosurface/octant.glsl), the range of the field in each, and a box.
 
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
 #include "arithmetic/finite.glsl"
 #include "element/element_frame.glsl"
-#include "isosurface/level_cell.glsl"
+#include "isosurface/octant.glsl"
 #include "element/face_frame.glsl"
 #include "element/measured_curvature.glsl"
 

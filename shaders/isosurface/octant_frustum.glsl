@@ -1,8 +1,8 @@
 // Whether the rays between those at four corners of a picture can meet an isovalue in a cell, as far as its linear models tell
-// (isosurface/level_cell.glsl). The kernel brings isosurface/isovalues.glsl.
+// (isosurface/octant.glsl). The kernel brings isosurface/isovalues.glsl.
 
-#include "isosurface/level_cell.glsl"
-#include "tiles/tile_beam.glsl"
+#include "isosurface/octant.glsl"
+#include "tiles/tile_frustum.glsl"
 
 // Largest coordinate of the beam's origins.
 float core_beam_far(core_beam beam, vec3 shift) {

@@ -1,4 +1,4 @@
-// From element to element through shared faces (segments/chain_state.glsl):
+// From element to element through shared faces (segments/walk_state.glsl):
 //
 //     chain = where the ray has got to;
 //     goes = core_chain_begin(chain, its end, its status there)
@@ -13,13 +13,13 @@
 // Few rays need help. The code for it is gone through for all of them where it stands, so kernels whose loops are long have another loop
 // inside, from which all lanes break when one needs it.
 //
-// The kernel brings segments/ray_part.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
+// The kernel brings segments/segment.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
 // volume, which links are of; core_extent, the diagonal of the volume's bounds.
 
 #ifndef CORE_CHAIN_WALK
 #define CORE_CHAIN_WALK
 
-#include "segments/chain_state.glsl"
+#include "segments/walk_state.glsl"
 
 // Parts on end that are too short to matter, before the element around the ray is looked for.
 #define CORE_MOST_GRAZES 4u

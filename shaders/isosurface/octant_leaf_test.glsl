@@ -5,7 +5,7 @@
 layout(std430, set = 0, binding = 3) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 
 #include "isosurface/isovalues.glsl"
-#include "isosurface/level_beam.glsl"
+#include "isosurface/octant_frustum.glsl"
 
 bool core_leaf_is_met(uint item, core_beam beam, vec2 span) {
     core_begin_isovalues();

@@ -1,4 +1,4 @@
-// For rays that look for their next chain (segments/chain_state.glsl): the nearest start in the elements of one class.
+// For rays that look for their next chain (segments/walk_state.glsl): the nearest start in the elements of one class.
 //
 // A hierarchy over the elements in which rays can start, of which each tile of pixels has a list (tiles/ray_tiles.comp). Rays that are
 // given one by one descend from its root.
@@ -38,11 +38,11 @@ layout(push_constant) uniform core_parameters {
 #define CORE_GROUPS_BINDING 4
 #include "tiles/ray_group.glsl"
 #endif
-#include "segments/chain_ray.glsl"
+#include "segments/source_ray.glsl"
 #include "arithmetic/driver_limit.glsl"
-#include "segments/ray_part.glsl"
-#include "segments/walk_ray.glsl"
-#include "segments/chain_start.glsl"
+#include "segments/segment.glsl"
+#include "segments/traced_ray.glsl"
+#include "segments/start_bounds.glsl"
 #if CORE_HAS_CURVED
 #include "segments/curved_start.glsl"
 #endif
@@ -196,7 +196,7 @@ void main() {
 #if CORE_MAKES_SEGMENTS
                 best_error = is_better ? entry.error : best_error;
 #endif
-                // There is but one entry through a face with such directions (segments/chain_start.glsl).
+                // There is but one entry through a face with such directions (segments/start_bounds.glsl).
                 const bool is_only = entry.is_found && core_surely_crosses(part.element, face, along, -1.0);
                 start = is_only ? CORE_FACE_STARTS : start + 1u;
                 open = start < CORE_FACE_STARTS ? open : open & (open - 1u);

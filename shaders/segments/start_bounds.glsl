@@ -5,9 +5,9 @@
 // shape lies in it; in others because a face that has all its directions within an angle does not come back above itself, but as a spiral
 // staircase. Others it can meet only where the face's constraint may be zero and the others may hold.
 //
-// The kernel brings segments/ray_part.glsl and core_links.
+// The kernel brings segments/segment.glsl and core_links.
 
-#include "segments/chain_motion.glsl"
+#include "segments/ray_motion.glsl"
 
 // In [begin, end], where the ray meets the element's box. `from`: starts before it do not count; `is_taken`: the start there is one through
 // a face of this element.

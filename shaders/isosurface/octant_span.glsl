@@ -1,8 +1,8 @@
-// Where along rays an isovalue can be met in a cell, as far as its linear models tell (isosurface/level_cell.glsl). Nothing is evaluated
+// Where along rays an isovalue can be met in a cell, as far as its linear models tell (isosurface/octant.glsl). Nothing is evaluated
 // for it.
 
-#include "isosurface/level_cell.glsl"
-#include "isosurface/level_part.glsl"
+#include "isosurface/octant.glsl"
+#include "isosurface/value_interval.glsl"
 
 // `start` + t `motion`: the ray in the cell's coordinates. The part of `span` in the cell.
 vec2 core_cell_inside(core_level_cell cell, vec3 start, vec3 motion, float tolerance, vec2 span) {

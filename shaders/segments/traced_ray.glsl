@@ -1,4 +1,4 @@
-// A pixel's ray as segments/ray_part.glsl wants it. The kernel brings both and picture/pixel_ray.glsl.
+// A pixel's ray as segments/segment.glsl wants it. The kernel brings both and picture/pixel_ray.glsl.
 
 // Distance within which the ends of parts are wanted, over the volume's size.
 #if ELVIS_REAL_IS_DOUBLE

@@ -11,7 +11,7 @@
 #ifndef CORE_SEGMENT_CROSSINGS
 #define CORE_SEGMENT_CROSSINGS
 
-#include "segments/segment_bernstein.glsl"
+#include "segments/bernstein.glsl"
 
 #define CORE_CROSSING_NONE 0u
 // The field itself crosses: at the ends of the bracket it is on both sides of the value by more than E.

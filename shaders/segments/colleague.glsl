@@ -9,7 +9,7 @@
 #ifndef CORE_SEGMENT_COLLEAGUE
 #define CORE_SEGMENT_COLLEAGUE
 
-#include "segments/segment_bernstein.glsl"
+#include "segments/bernstein.glsl"
 
 // For one eigenvalue, every tenth with shifts out of the ordinary. EISPACK's limit of 30 left one in 15,000 polynomials unsolved.
 #define CORE_COLLEAGUE_SWEEPS 90u

@@ -5,8 +5,8 @@
 //
 // The kernel brings core_tiles, picture/pixel_ray.glsl, tiles/ray_tiles.glsl and isosurface/isovalues.glsl.
 
-#include "isosurface/cell_span.glsl"
-#include "isosurface/level_beam.glsl"
+#include "isosurface/octant_span.glsl"
+#include "isosurface/octant_frustum.glsl"
 
 #define CORE_CELLS_AHEAD 32u
 #define CORE_MASKS ((CORE_TILE_CAPACITY + 31u) / 32u)

@@ -25,7 +25,7 @@
 #define CORE_SEGMENT_FIT
 
 #include "arithmetic/finite.glsl"
-#include "segments/segment_bernstein.glsl"
+#include "segments/bernstein.glsl"
 
 #define CORE_SEGMENT_WANTS 0u
 #define CORE_SEGMENT_DONE 1u

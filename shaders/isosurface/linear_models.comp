@@ -1,9 +1,9 @@
-// A linear model of the shown field over each whole element, and its range (isosurface/level_model.glsl).
+// A linear model of the shown field over each whole element, and its range (isosurface/linear_model.glsl).
 
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "isosurface/level_model.glsl"
+#include "isosurface/linear_model.glsl"
 
 layout(set = 0, binding = 0, std430) writeonly buffer core_output { float core_numbers[]; };
 layout(push_constant) uniform core_parameters {

@@ -1,7 +1,7 @@
 // Whether the rays of a tile can come into an element through one of its faces without neighbour, or begin in it; for
 // tiles/ray_tiles.comp.
 
-#include "segments/chain_motion.glsl"
+#include "segments/ray_motion.glsl"
 
 // Directions of rays lie in the hull of those at the tile's corners.
 bool core_leaf_is_met(uint item, core_beam beam, vec2 span) {

@@ -1,6 +1,6 @@
 // Projection: the parts of a ray in an element.
 //
-// The kernel brings isosurface/projection_search.glsl, isosurface/level_model.glsl and isosurface/level_span.glsl.
+// The kernel brings isosurface/projection_search.glsl, isosurface/linear_model.glsl and isosurface/value_span.glsl.
 
 // Parts of a ray in one element.
 #define CORE_MOST_PARTS 16u

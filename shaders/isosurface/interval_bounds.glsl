@@ -1,6 +1,6 @@
 // What a ray's search in a cell is at, and what one evaluation at it tells.
 //
-// The kernel brings isosurface/ray_piece.glsl and isosurface/nearest_crossing.glsl.
+// The kernel brings isosurface/ray_interval.glsl and isosurface/nearest_crossing.glsl.
 
 // Offsets from xi, in reference coordinates, below which rounding counts more than what the linearization leaves out.
 #if ELVIS_REAL_IS_DOUBLE

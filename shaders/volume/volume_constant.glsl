@@ -1,9 +1,9 @@
 // What is known of the field along a ray's part in an element without evaluating it: bounds, from the element's linear model
-// (isosurface/level_model.glsl) and the line that the ray is in reference coordinates but for the mapping's curvature.
+// (isosurface/linear_model.glsl) and the line that the ray is in reference coordinates but for the mapping's curvature.
 //
-// The kernel brings segments/ray_part.glsl and volume/volume_light.glsl.
+// The kernel brings segments/segment.glsl and volume/volume_light.glsl.
 
-#include "isosurface/level_model.glsl"
+#include "isosurface/linear_model.glsl"
 
 // Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `part`: as the search for where the
 // ray leaves has left it.

@@ -1,6 +1,6 @@
 // A ray's search for a crossing in one cell: which piece is looked at next.
 //
-// The kernel brings isosurface/piece_look.glsl, isosurface/piece_root.glsl and isosurface/level_cell.glsl.
+// The kernel brings isosurface/interval_bounds.glsl, isosurface/interval_root.glsl and isosurface/octant.glsl.
 
 // Evaluations in one cell, beyond which the ray is left to projection.
 #define CORE_MOST_EVALUATIONS 96u
