@@ -116,36 +116,38 @@ std::string model_glsl(const Expression& expression, const ExpressionClass& elem
     const auto leaf = [&](const Node& node) -> std::string {
         if (node.operation == Operation::field) {
             const std::string at = LeafWriter::field_suffix(leaves.slot(node.field), node.component);
-            return call("core_model_leaf", {"core_f" + at, "core_s" + at, call("core_leaf_bounds", {row(node)}), "cell"});
+            return call("core_model_leaf", {"core_f" + at, "core_s" + at, call("core_leaf_bounds", {row(node)}), "region"});
         }
         if (node.operation == Operation::position) {
             const std::string i = std::to_string(node.index[0]);
             const std::string slope =
                 call("elvis_vec3", {"core_j[0][" + i + "]", "core_j[1][" + i + "]", "core_j[2][" + i + "]"});
-            return call("core_model_coordinate", {"core_x[" + i + "]", slope, "cell"});
+            return call("core_model_coordinate", {"core_x[" + i + "]", slope, "region"});
         }
         return call("core_model_constant", {leaves.leaf(node)});
     };
-    std::string text = "#include \"arithmetic/model.glsl\"\n#include \"arithmetic/model_choice.glsl\"\n#include "
-                       "\"field/leaf_bounds.glsl\"\n" +
-                       commented(expression) +
-                       "core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell, out elvis_real value) {\n" +
-                       leaves.declarations();
+    std::string text =
+        "#include \"arithmetic/model.glsl\"\n#include \"arithmetic/model_choice.glsl\"\n#include "
+        "\"field/leaf_bounds.glsl\"\n" +
+        commented(expression) +
+        "core_model core_shown_model(uint element, elvis_vec3 xi, core_region region, out elvis_real value) {\n" +
+        leaves.declarations();
     std::string is_estimated = "false";
     for (const NodeId id : needed) {
         if (expression.graph().node(id).operation == Operation::field) {
             is_estimated += " || " + row(expression.graph().node(id)) + ".w > elvis_real(0)";
         }
     }
-    NodeWriter models(expression.graph(), needed,
-                      {"core_model", "core_model_", leaf,
-                       [](const Node& node, const Operands& operands) {
-                           return enclosure_operation(node, operands, "core_model_", ", cell");
-                       },
-                       [](const std::string& variable, double constant) {
-                           return call("core_model_add", {variable, call("core_model_constant", {literal(constant)}), "cell"});
-                       },
-                       [&](const Node& node) { return leaves.offset(node); }});
+    NodeWriter models(
+        expression.graph(), needed,
+        {"core_model", "core_model_", leaf,
+         [](const Node& node, const Operands& operands) {
+             return enclosure_operation(node, operands, "core_model_", ", region");
+         },
+         [](const std::string& variable, double constant) {
+             return call("core_model_add", {variable, call("core_model_constant", {literal(constant)}), "region"});
+         },
+         [&](const Node& node) { return leaves.offset(node); }});
     // What is drawn is the value itself, not the model's, which is 0 where nothing is known.
     NodeWriter values(expression.graph(), needed, dialect_of(leaves));
     const std::string model = models.whole(expression.value()), value = values.whole(expression.value());

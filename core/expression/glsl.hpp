@@ -5,7 +5,7 @@
  *
  *     elvis_real core_shown_value(uint element, elvis_vec3 xi)
  *     void core_shown_gradient(uint element, elvis_vec3 xi, out elvis_real value, out elvis_vec3 gradient)   by xi
- *     core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell, out elvis_real value)
+ *     core_model core_shown_model(uint element, elvis_vec3 xi, core_region region, out elvis_real value)
  *     bool core_is_model_estimated(uint element)   (both by shaders/arithmetic/model.glsl)
  *
  * and for implicit expressions, without any instance,

@@ -23,7 +23,7 @@ struct ChainRays {
     std::uint32_t width = 0, height = 0;
     /** Rows of a CutPlaneGeometry. */
     const Buffer& frame;
-    /** One record a ray, which begins as core_chain does (shaders/segments/walk_state.glsl). */
+    /** One record a ray, which begins as core_walk does (shaders/segments/walk_state.glsl). */
     const Buffer& states;
     /** The rays themselves; null if they are those of the pixels. */
     const Buffer* given = nullptr;

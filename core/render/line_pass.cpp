@@ -150,7 +150,7 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
                 own.name = std::string("surface_lines of element class ").append(std::to_string(index));
                 own.kernel = "lines/surface_lines.comp";
                 own.defines.insert(own.defines.end(), {{"CORE_FEW_SUBDIVISIONS", std::to_string(few_subdivisions) + "u"},
-                                                       {"CORE_BY_SEGMENTS", by_segments ? "1" : "0"},
+                                                       {"CORE_BY_QUADRIC_SPANS", by_segments ? "1" : "0"},
                                                        {"CORE_HAS_ENDS", "0"},
                                                        {"CORE_SHAPE_ROWS", std::to_string(m_quadric_rows)}});
                 own.bindings = bindings_up_to(9);

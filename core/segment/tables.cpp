@@ -229,16 +229,15 @@ std::string segment_glsl(const SamplePlan& plan) {
         counts.append(separator).append(std::to_string(level.n_samples)).append("u");
     }
     const std::string levels = std::to_string(n_levels);
-    return "#define CORE_SEGMENT_DEGREE " + std::to_string(plan.degree) + "\n#define CORE_SEGMENT_LEVELS " + levels +
-           "\n#define CORE_SEGMENT_CHECKS " + std::to_string(n_checks) + "\n#define CORE_SEGMENT_SAMPLES " +
-           std::to_string(n_samples) + "\nconst uint core_segment_degrees[" + levels + "] = {" + degrees +
-           "};\nconst uint core_segment_counts[" + levels + "] = {" + counts + "};\n" +
-           array("core_segment_parameters", {n_samples}, plan.parameters) +
-           array("core_segment_fits", {n_levels, size, n_samples}, fits) +
-           array("core_segment_misfits", {n_levels, n_checks, n_samples}, misfits) +
-           array("core_segment_bernstein", {size, size}, bernstein_of_chebyshev(plan.degree)) +
-           array("core_segment_growth", {size}, bernstein_growth(plan.degree)) +
-           array("core_segment_binomials", {size}, binomials(plan.degree));
+    return "#define CORE_FIT_DEGREE " + std::to_string(plan.degree) + "\n#define CORE_FIT_LEVELS " + levels +
+           "\n#define CORE_FIT_CHECKS " + std::to_string(n_checks) + "\n#define CORE_FIT_SAMPLES " + std::to_string(n_samples) +
+           "\nconst uint core_fit_degrees[" + levels + "] = {" + degrees + "};\nconst uint core_fit_counts[" + levels +
+           "] = {" + counts + "};\n" + array("core_fit_parameters", {n_samples}, plan.parameters) +
+           array("core_fit_fits", {n_levels, size, n_samples}, fits) +
+           array("core_fit_misfits", {n_levels, n_checks, n_samples}, misfits) +
+           array("core_fit_bernstein", {size, size}, bernstein_of_chebyshev(plan.degree)) +
+           array("core_fit_growth", {size}, bernstein_growth(plan.degree)) +
+           array("core_fit_binomials", {size}, binomials(plan.degree));
 }
 
 } // namespace elvis::segment

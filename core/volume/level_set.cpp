@@ -128,7 +128,7 @@ LevelSet::LevelSet(const Device& device, const RuntimeVolume& volume, const Devi
             std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_cells - 1, record_size);
         levels.cells = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_cells, cell_size);
         KernelRequest request;
-        request.name = "level_cells of element class " + std::to_string(index);
+        request.name = "octants of element class " + std::to_string(index);
         request.kernel = "isosurface/octants.comp";
         request.watches_loops = true;
         request.precision = data.precision();
@@ -327,7 +327,7 @@ std::vector<FetchBuffer> LevelSet::element_buffers(std::uint32_t element_class) 
 }
 
 std::vector<FetchBuffer> LevelSet::cell_buffers(std::uint32_t element_class) const {
-    return {{"core_nodes", m_classes[element_class].cell_nodes.get()}, {"core_cells", m_classes[element_class].cells.get()}};
+    return {{"core_nodes", m_classes[element_class].cell_nodes.get()}, {"core_octants", m_classes[element_class].cells.get()}};
 }
 
 } // namespace elvis

@@ -33,7 +33,7 @@ public:
 
     /** `core_nodes`, in which leaves are local elements, and `core_models`. Valid as long as this. Of classes with elements. */
     std::vector<FetchBuffer> element_buffers(std::uint32_t element_class) const;
-    /** `core_nodes`, in which leaves are cells, and `core_cells`. */
+    /** `core_nodes`, in which leaves are cells, and `core_octants`. */
     std::vector<FetchBuffer> cell_buffers(std::uint32_t element_class) const;
     /** Before the nodes of element_buffers() are used. */
     void provide_element_nodes(std::uint32_t element_class);

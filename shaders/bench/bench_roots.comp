@@ -2,7 +2,7 @@
 // CORE_COLLEAGUE, by eigenvalues. Three numbers each: the first crossing (2 where there is none, 3 where the method gave up), and between
 // what ends the touches before it lie (2 and 0 where there is none).
 
-elvis_real core_level_value(uint i) { return elvis_real(0); }
+elvis_real core_listed_value(uint i) { return elvis_real(0); }
 
 #include "segments/polynomial.glsl"
 #include "segments/colleague.glsl"
@@ -18,8 +18,8 @@ void main() {
         return;
     }
     core_polynomial chebyshev;
-    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
-        chebyshev.c[k] = core_input[at * CORE_SEGMENT_SIZE + k];
+    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
+        chebyshev.c[k] = core_input[at * CORE_FIT_SIZE + k];
     }
     elvis_real root_t = elvis_real(2), touch_from = elvis_real(2), touch_to = elvis_real(0);
 #if CORE_COLLEAGUE
@@ -28,9 +28,9 @@ void main() {
 #else
     const core_polynomial bernstein = core_to_bernstein(chebyshev);
     const elvis_real error = core_bernstein_rounding(chebyshev);
-    core_walk walk = core_walk_begin();
-    while (root_t > elvis_real(1) && !core_walk_is_over(walk)) {
-        const core_crossing crossing = core_next_crossing(bernstein, error, 1u, walk);
+    core_isolation isolation = core_isolation_begin();
+    while (root_t > elvis_real(1) && !core_isolation_is_over(isolation)) {
+        const core_crossing crossing = core_next_crossing(bernstein, error, 1u, isolation);
         const bool is_touch = crossing.kind == CORE_CROSSING_TOUCH;
         touch_from = is_touch ? min(touch_from, crossing.lower) : touch_from;
         touch_to = is_touch ? crossing.upper : touch_to;

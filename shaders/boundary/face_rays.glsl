@@ -40,7 +40,7 @@ core_face_step core_face_newton(core_face_point point, elvis_vec3 shift, core_ra
 }
 
 // The nearest crossing so far.
-struct core_nearest {
+struct core_nearest_face {
     uint face, number, patch_index, key;
     elvis_real u, v, t, slack;
     // Where the next pixel of the column meets the face, to first order.
@@ -49,8 +49,8 @@ struct core_nearest {
     uint n_candidates;
 };
 
-core_nearest core_nothing_yet() {
-    core_nearest nearest;
+core_nearest_face core_nothing_yet() {
+    core_nearest_face nearest;
     nearest.face = nearest.number = nearest.patch_index = CORE_NO_FACE;
     nearest.key = 0u;
     nearest.u = nearest.v = nearest.slack = nearest.next_u = nearest.next_v = elvis_real(0);
@@ -63,7 +63,7 @@ core_nearest core_nothing_yet() {
 // Takes a crossing if it is before the nearest, or the same within rounding and goes before it: of two faces that coincide, that
 // of the element on the viewer's side; on an edge, the face that the ray meets less obliquely, because its error is smaller; of
 // equals, the lower number.
-void core_take_crossing(inout core_nearest nearest, bool is_hit, uint face, uint number, uint patch_index, uint key, elvis_real u,
+void core_take_crossing(inout core_nearest_face nearest, bool is_hit, uint face, uint number, uint patch_index, uint key, elvis_real u,
                         elvis_real v, bool is_on_edge, core_face_step s, elvis_vec3 motion) {
     const bool is_same = abs(s.t - nearest.t) <= max(s.width, nearest.slack);
     const bool is_number_lower = number < nearest.number || (number == nearest.number && face < nearest.face);

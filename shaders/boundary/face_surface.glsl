@@ -32,7 +32,7 @@ layout(push_constant) uniform core_parameters {
 #include "picture/look_beyond.glsl"
 #include "cut_surface/show.glsl"
 
-core_location core_location_of(core_nearest nearest, uint n_steps) {
+core_location core_location_of(core_nearest_face nearest, uint n_steps) {
     const bool has_found = nearest.face != CORE_NO_FACE;
     const uvec4 place = elvis_fetch4_core_faces(has_found ? nearest.face : 0u, 0u);
     core_location found;
@@ -52,7 +52,7 @@ core_location core_location_of(core_nearest nearest, uint n_steps) {
 }
 
 // Returns the number of field evaluations.
-uint core_show(uint pixel, core_ray ray, core_nearest nearest, core_location found, elvis_real value) {
+uint core_show(uint pixel, core_ray ray, core_nearest_face nearest, core_location found, elvis_real value) {
     core_cut_point point;
     point.is_hit = found.element != CORE_NO_ELEMENT;
     point.t = nearest.t;

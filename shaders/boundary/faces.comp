@@ -50,7 +50,7 @@ void main() {
         core_ray ray = core_pixel_ray(along, elvis_real(row));
         const uint pixel = row * core_size.x + column;
         const uint n_entries = core_look_beyond(pixel, ray) ? n_listed : 0u;
-        core_nearest nearest = core_nothing_yet();
+        core_nearest_face nearest = core_nothing_yet();
 #if CORE_DESCENDS
         uint stack[CORE_STACK_SIZE];
 #define CORE_TOP stack[stack_size - 1u]

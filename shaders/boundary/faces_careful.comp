@@ -43,7 +43,7 @@ void main() {
     const uint list = (column / CORE_TILE_WIDTH + (row / CORE_TILE_HEIGHT) * core_tiles_per_row) * CORE_TILE_STRIDE;
     const uint n_entries = is_pixel && is_wanted ? core_tiles[list] & ~CORE_TILE_INNER : 0u;
 
-    core_nearest nearest = core_nothing_yet();
+    core_nearest_face nearest = core_nothing_yet();
     uint stack[CORE_STACK_SIZE];
     uint squares[CORE_SQUARES];
     uint stack_size = 0u, n_squares = 0u, entry = 0u, work = 0u, steps = 0u, n_steps = 0u;

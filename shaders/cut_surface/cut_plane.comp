@@ -63,16 +63,16 @@ core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, e
     const elvis_vec3 origin = shift - position;
     const elvis_real error = square.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
     const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
-    core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
+    core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
                                   origin + square.corner2, origin + square.corner3, curvature, core_plane_normal.xyz, direction,
                                   CORE_NO_FACE);
 #if ELVIS_HAS_INSIDE
-    core_judge_inside(cell, element, xi);
+    core_judge_inside(subpixel, element, xi);
 #endif
     core_pixel_lines lines;
-    const core_model model = core_shown_model(element, xi, cell.region, lines.value);
-    const core_level_test test = core_test_levels(model, cell.region);
-    lines.is_settled = square.all_hit && cell.is_inside && (test.is_excluded || test.is_met);
+    const core_model model = core_shown_model(element, xi, subpixel.region, lines.value);
+    const core_isovalue_test test = core_test_isovalues(model, subpixel.region);
+    lines.is_settled = square.all_hit && subpixel.is_inside && (test.is_excluded || test.is_met);
     lines.has_contour = lines.is_settled && test.is_met;
     lines.is_estimated = core_n_isovalues > 0u && core_is_model_estimated(element);
     return lines;

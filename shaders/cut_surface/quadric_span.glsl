@@ -18,7 +18,7 @@
 #include "cut_surface/surface_quadric.glsl"
 #include "cut_surface/tangent_square.glsl"
 
-struct core_segment {
+struct core_quadric_span {
     // Relative to the reference point.
     elvis_vec3 from, to;
     // How far points of the other rays may be from it, in each coordinate.
@@ -30,7 +30,7 @@ struct core_segment {
 };
 
 // `is_front`: only the front of the quadric counts, which hides its back.
-core_segment core_quadric_segment(elvis_real column, elvis_real row, elvis_real half_size, bool is_front) {
+core_quadric_span core_quadric_span_at(elvis_real column, elvis_real row, elvis_real half_size, bool is_front) {
     const core_cut_column along = core_cut_begin(column);
     const elvis_real down = row - along.row0;
     const elvis_vec3 base = (along.base + down * along.base_row).xyz;
@@ -59,7 +59,7 @@ core_segment core_quadric_segment(elvis_real column, elvis_real row, elvis_real 
     const elvis_real discriminant = b * b - elvis_real(4) * high * c;
     const elvis_real reach = (b + sqrt(max(discriminant, elvis_real(0)))) / (elvis_real(2) * high) * up;
 
-    core_segment segment;
+    core_quadric_span segment;
     segment.is_known = high > elvis_real(0) && core_is_finite(reach);
     const elvis_real least = elvis_real(64) * CORE_ROUNDOFF * (b * b + abs(elvis_real(4) * high * c));
     segment.is_absent = segment.is_known && discriminant < -least;
@@ -86,7 +86,7 @@ struct core_front {
     bool is_known;
 };
 
-core_front core_quadric_front(elvis_real column, elvis_real row, elvis_real half_size, core_segment segment) {
+core_front core_quadric_front(elvis_real column, elvis_real row, elvis_real half_size, core_quadric_span segment) {
     const core_cut_column along = core_cut_begin(column);
     const elvis_real down = row - along.row0;
     const elvis_vec3 base = (along.base + down * along.base_row).xyz;

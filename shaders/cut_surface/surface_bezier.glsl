@@ -38,7 +38,7 @@ struct core_net {
     elvis_vec4 c0, c1, c2, c3;
 };
 
-core_net core_net_part(core_net net, elvis_vec4 u0, elvis_vec4 u1, elvis_vec4 u2, elvis_vec4 u3, elvis_vec4 v0, elvis_vec4 v1,
+core_net core_subnet(core_net net, elvis_vec4 u0, elvis_vec4 u1, elvis_vec4 u2, elvis_vec4 u3, elvis_vec4 v0, elvis_vec4 v1,
                        elvis_vec4 v2, elvis_vec4 v3) {
     const elvis_vec4 a = u0.x * net.c0 + u0.y * net.c1 + u0.z * net.c2 + u0.w * net.c3;
     const elvis_vec4 b = u1.x * net.c0 + u1.y * net.c1 + u1.z * net.c2 + u1.w * net.c3;
@@ -75,7 +75,7 @@ elvis_real core_net_deviation_v(core_net net, elvis_real from) {
     return max(max(most.x, most.y), most.z);
 }
 
-core_hit core_next_hit(core_ray ray) {
+core_hit core_next_hit(core_surface_ray ray) {
     core_hit best = core_no_hit();
     const elvis_vec3 origin = ray.origin + CORE_SHAPE(0).xyz;
     const elvis_real stretch = length(ray.direction);
@@ -142,7 +142,7 @@ core_hit core_next_hit(core_ray ray) {
         const elvis_vec4 u0 = core_bernstein(u_low), u1 = core_blossom(u_low, u_low, u_high), u2 = core_blossom(u_low, u_high, u_high);
         const elvis_vec4 u3 = core_bernstein(u_high), v0 = core_bernstein(v_low), v1 = core_blossom(v_low, v_low, v_high);
         const elvis_vec4 v2 = core_blossom(v_low, v_high, v_high), v3 = core_bernstein(v_high);
-        const core_net part_x = core_net_part(x, u0, u1, u2, u3, v0, v1, v2, v3), part_y = core_net_part(y, u0, u1, u2, u3, v0, v1, v2, v3);
+        const core_net part_x = core_subnet(x, u0, u1, u2, u3, v0, v1, v2, v3), part_y = core_subnet(y, u0, u1, u2, u3, v0, v1, v2, v3);
 
         // Coordinates in which the part is nearly the unit square.
         const elvis_real half_one = elvis_real(0.5LF);

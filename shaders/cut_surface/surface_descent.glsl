@@ -10,7 +10,7 @@ struct core_box_ray {
 };
 
 // `shift`: what was added to the ray's origin to make `origin`.
-core_box_ray core_make_box_ray(core_ray ray, elvis_vec3 origin, elvis_vec3 shift) {
+core_box_ray core_make_box_ray(core_surface_ray ray, elvis_vec3 origin, elvis_vec3 shift) {
     core_box_ray result;
     result.origin = vec3(origin);
     const vec3 direction = vec3(ray.direction);

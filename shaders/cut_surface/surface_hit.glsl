@@ -2,7 +2,7 @@
 //
 // cut_surface/surface_KIND.glsl defines
 //
-//     core_hit core_next_hit(core_ray ray)
+//     core_hit core_next_hit(core_surface_ray ray)
 //
 // the crossing with the least t in (ray.from, ray.to) that lies beyond ray.after by more than its own rounding error. A ray that is
 // not wanted has from > to, and must cost little.
@@ -13,7 +13,7 @@
 #include "arithmetic/precision.glsl"
 #include "picture/samples.glsl"
 
-struct core_ray {
+struct core_surface_ray {
     // The ray is origin + t direction, relative to the picture's reference point; direction is of length 1 to about 2.
     elvis_vec3 origin, direction;
     elvis_real from, to, after;
@@ -48,7 +48,7 @@ layout(std140, set = 0, binding = 1) uniform core_shape_block { elvis_vec4 core_
 elvis_real core_norm1(elvis_vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
 // Whether a crossing counts, and goes before what was found.
-bool core_is_next(core_ray ray, elvis_real t, elvis_real error, core_hit best) {
+bool core_is_next(core_surface_ray ray, elvis_real t, elvis_real error, core_hit best) {
     return t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after && t < best.t;
 }
 

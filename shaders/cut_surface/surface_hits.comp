@@ -74,7 +74,7 @@ void main() {
     while (row < end_row) {
         const uint pixel = row * core_size.x + column;
         const elvis_real down = elvis_real(row) - along.row0;
-        core_ray ray;
+        core_surface_ray ray;
         ray.origin = (along.base + down * along.base_row).xyz;
         ray.direction = (along.direction + down * along.direction_row).xyz;
         const elvis_real stretch = length(ray.direction);

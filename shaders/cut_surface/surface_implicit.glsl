@@ -17,7 +17,7 @@
 #define CORE_IMPLICIT_LEVELS 30u
 #define CORE_IMPLICIT_STEPS 60u
 
-elvis_vec3 core_implicit_point(core_ray ray, elvis_real t) { return CORE_SHAPE(0).xyz + (ray.origin + t * ray.direction); }
+elvis_vec3 core_implicit_point(core_surface_ray ray, elvis_real t) { return CORE_SHAPE(0).xyz + (ray.origin + t * ray.direction); }
 
 // All that the coordinate can be between two points of the ray, with what rounding does to it.
 core_interval core_implicit_coordinate(elvis_real a, elvis_real b, elvis_real noise) {
@@ -25,7 +25,7 @@ core_interval core_implicit_coordinate(elvis_real a, elvis_real b, elvis_real no
     return core_interval_outward(min(a, b) - width, max(a, b) + width, elvis_real(2));
 }
 
-core_hit core_next_hit(core_ray ray) {
+core_hit core_next_hit(core_surface_ray ray) {
     core_hit best = core_no_hit();
     const elvis_real zero = elvis_real(0);
     const elvis_real from = max(ray.from, min(ray.after, ray.to)), extent = ray.to - from;

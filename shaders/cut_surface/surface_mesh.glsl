@@ -29,7 +29,7 @@ elvis_real core_edge_function(elvis_real a, elvis_real b, elvis_real c, elvis_re
 
 elvis_real core_component(elvis_vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
 
-core_hit core_next_hit(core_ray ray) {
+core_hit core_next_hit(core_surface_ray ray) {
     core_hit best = core_no_hit();
     const elvis_vec3 origin = ray.origin + CORE_SHAPE(0).xyz;
     const elvis_vec3 steep = abs(ray.direction);

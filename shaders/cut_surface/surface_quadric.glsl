@@ -38,7 +38,7 @@ core_quadric_point core_quadric_at(elvis_vec3 origin, elvis_vec3 direction, elvi
     return point;
 }
 
-void core_quadric_consider(core_ray ray, elvis_real t0, elvis_real s, elvis_real limit, elvis_real quadratic, elvis_vec3 origin,
+void core_quadric_consider(core_surface_ray ray, elvis_real t0, elvis_real s, elvis_real limit, elvis_real quadratic, elvis_vec3 origin,
                            elvis_vec3 direction, inout core_hit best) {
     const elvis_real bounded = clamp(s, ray.from - t0, max(ray.to, ray.from) - t0);
     const core_quadric_point point = core_quadric_at(origin, direction, bounded, ray.noise);
@@ -74,7 +74,7 @@ void core_quadric_consider(core_ray ray, elvis_real t0, elvis_real s, elvis_real
 }
 
 #if CORE_HAS_ENDS
-void core_quadric_cap(core_ray ray, elvis_real t0, elvis_real end, elvis_vec3 origin, elvis_vec3 direction, inout core_hit best) {
+void core_quadric_cap(core_surface_ray ray, elvis_real t0, elvis_real end, elvis_vec3 origin, elvis_vec3 direction, inout core_hit best) {
     const elvis_real s = (end - origin.z) / direction.z;
     const elvis_real bounded = clamp(s, ray.from - t0, max(ray.to, ray.from) - t0);
     const core_quadric_point point = core_quadric_at(origin, direction, bounded, ray.noise);
@@ -94,7 +94,7 @@ void core_quadric_cap(core_ray ray, elvis_real t0, elvis_real end, elvis_vec3 or
 }
 #endif
 
-core_hit core_next_hit(core_ray ray) {
+core_hit core_next_hit(core_surface_ray ray) {
     const elvis_vec3 shifted = ray.origin - CORE_SHAPE(3).xyz;
     const elvis_real last = max(ray.to, ray.from);
     // Nearest to the anchor, then where f is extreme.

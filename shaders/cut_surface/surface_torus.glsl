@@ -77,7 +77,7 @@ elvis_real core_torus_extremum(core_torus_ray ray, elvis_real low, elvis_real hi
     return result;
 }
 
-core_hit core_next_hit(core_ray ray) {
+core_hit core_next_hit(core_surface_ray ray) {
     core_hit best = core_no_hit();
     core_torus_ray local;
     local.major_radius = CORE_SHAPE(0).w;

@@ -24,7 +24,7 @@ elvis_real core_shown_value(uint element, elvis_vec3 xi) {
     return value;
 }
 
-core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell, out elvis_real value) {
+core_model core_shown_model(uint element, elvis_vec3 xi, core_region region, out elvis_real value) {
     elvis_vec3 gradient;
     core_shown_gradient(element, xi, value, gradient);
 #if ELVIS_HAS_INSIDE
@@ -32,7 +32,7 @@ core_model core_shown_model(uint element, elvis_vec3 xi, core_patch cell, out el
 #else
     const elvis_vec2 bounds = elvis_vec2(0);
 #endif
-    return core_model_leaf(value, gradient, core_leaf_bounds(elvis_vec4(bounds.y, bounds.x, abs(value) + bounds.x, 0)), cell);
+    return core_model_leaf(value, gradient, core_leaf_bounds(elvis_vec4(bounds.y, bounds.x, abs(value) + bounds.x, 0)), region);
 }
 
 bool core_is_model_estimated(uint element) { return false; }

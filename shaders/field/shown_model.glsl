@@ -1,4 +1,4 @@
-// What a surface shows as a Taylor model over a pixel's cell. The kernel brings core_first_component and core_end_component, and
+// What a surface shows as a Taylor model over a pixel's region. The kernel brings core_first_component and core_end_component, and
 // the host's buffer core_bounds: for each element and component the bounds of second and first derivatives and of the size of the
 // field, and whether they are estimated.
 
@@ -10,13 +10,13 @@
 #ifndef CORE_SHOWN_BY_EXPRESSION
 
 // `value`: what core_shown_value gives, also where there is no model.
-core_model core_component_model(uint element, elvis_vec3 xi, uint component, core_patch region, out elvis_real value) {
+core_model core_component_model(uint element, elvis_vec3 xi, uint component, core_region region, out elvis_real value) {
     elvis_vec3 gradient;
     elvis_field_gradient(element, xi, component, value, gradient);
     return core_model_leaf(value, gradient, core_leaf_bounds(elvis_fetch4_core_bounds(element, component)), region);
 }
 
-core_model core_shown_model(uint element, elvis_vec3 xi, core_patch region, out elvis_real value) {
+core_model core_shown_model(uint element, elvis_vec3 xi, core_region region, out elvis_real value) {
     core_model model = core_component_model(element, xi, core_first_component, region, value);
 #if ELVIS_N_COMPONENTS > 1
     core_model square = core_model_square(model, region);
@@ -57,7 +57,7 @@ bool core_is_model_estimated(uint element) {
 elvis_real core_shown_rounding(uint element, elvis_vec3 xi) {
     const elvis_vec3 here = elvis_vec3(0);
     elvis_real value;
-    return core_shown_model(element, xi, core_patch(here, here, here, here, elvis_real(0), elvis_real(0)), value).remainder;
+    return core_shown_model(element, xi, core_region(here, here, here, here, elvis_real(0), elvis_real(0)), value).remainder;
 }
 
 #endif

@@ -1,4 +1,4 @@
-// The cells that the rays of one work group can meet, and which of them one ray can.
+// The octants that the rays of one work group can meet, and which of them one ray can.
 //
 // A tile's list (tiles/ray_tiles.comp) is of many rows of pixels. The group takes over what its own few rows can meet, one entry an
 // invocation at a time. Then each ray tells which of 32 entries it can meet: all look at the same one, so none waits for others.
@@ -8,7 +8,7 @@
 #include "isosurface/octant_span.glsl"
 #include "isosurface/octant_frustum.glsl"
 
-#define CORE_CELLS_AHEAD 32u
+#define CORE_OCTANTS_AHEAD 32u
 #define CORE_MASKS ((CORE_TILE_CAPACITY + 31u) / 32u)
 
 // Of each entry of the tile's list, a bit: the group takes it over.
@@ -28,9 +28,9 @@ uint core_n_taken(uint end) {
 
 // From the list of `n_listed` entries at `list` to core_group_words and core_group_entries, in its order; returns their number.
 // `column`, `row`: the group's first pixel. All of the group's invocations come here together.
-uint core_take_cells(uint list, uint n_listed, uint column, uint row) {
+uint core_take_octants(uint list, uint n_listed, uint column, uint row) {
     const uint lane = gl_LocalInvocationID.x;
-    const core_beam beam = core_tile_beam(elvis_real(column), elvis_real(row), CORE_TILE_WIDTH, CORE_ROWS);
+    const core_frustum frustum = core_tile_frustum(elvis_real(column), elvis_real(row), CORE_TILE_WIDTH, CORE_ROWS);
     for (uint i = lane; i < CORE_MASKS; i += CORE_TILE_WIDTH) {
         core_taken[i] = 0u;
     }
@@ -39,7 +39,7 @@ uint core_take_cells(uint list, uint n_listed, uint column, uint row) {
         const uint word = core_tiles[list + 1u + 2u * i];
         const bool is_inner = (word & CORE_TILE_INNER) != 0u;
         const vec2 span = vec2(uintBitsToFloat(core_tiles[list + 2u + 2u * i]), 3e38);
-        const bool is_met = core_beam_meets_level(core_fetch_level_cell(is_inner ? 0u : word), beam, span);
+        const bool is_met = core_frustum_meets_isovalue(core_fetch_octant(is_inner ? 0u : word), frustum, span);
         atomicOr(core_taken[i / 32u], is_inner || is_met ? 1u << (i % 32u) : 0u);
     }
     barrier();
@@ -54,16 +54,16 @@ uint core_take_cells(uint list, uint n_listed, uint column, uint row) {
     return core_n_taken(n_listed);
 }
 
-// Of the group's entries from `first` to before `end`, at most CORE_CELLS_AHEAD, those that have to be looked into, as bits: inner nodes,
-// and cells in which the ray can meet an isovalue before `end_t`, or where estimates alone say that it does not.
-uint core_cells_ahead(core_ray ray, uint first, uint end, float end_t) {
+// Of the group's entries from `first` to before `end`, at most CORE_OCTANTS_AHEAD, those that have to be looked into, as bits: inner nodes,
+// and octants in which the ray can meet an isovalue before `end_t`, or where estimates alone say that it does not.
+uint core_octants_ahead(core_ray ray, uint first, uint end, float end_t) {
     uint ahead = 0u, i = first;
     while (i < end) {
         const uint word = core_group_words[i];
         const bool is_inner = (word & CORE_TILE_INNER) != 0u;
-        const core_level_cell cell = core_fetch_level_cell(is_inner ? 0u : word);
-        const core_cell_part found = core_cell_part_of(cell, ray, end_t);
-        const bool is_wanted = is_inner || (found.is_inside && (found.is_met || (cell.code & CORE_CELL_ESTIMATED) != 0u));
+        const core_octant octant = core_fetch_octant(is_inner ? 0u : word);
+        const core_octant_span found = core_octant_span_of(octant, ray, end_t);
+        const bool is_wanted = is_inner || (found.is_inside && (found.is_met || (octant.code & CORE_OCTANT_ESTIMATED) != 0u));
         ahead |= is_wanted ? 1u << (i - first) : 0u;
         i += 1u;
         if (i >= end) {

@@ -1,4 +1,4 @@
-// What a ray's search in a cell is at, and what one evaluation at it tells.
+// What a ray's search in an octant is at, and what one evaluation at it tells.
 //
 // The kernel brings isosurface/ray_interval.glsl and isosurface/nearest_crossing.glsl.
 
@@ -8,28 +8,28 @@
 #else
 #define CORE_NARROW elvis_real(2e-3LF)
 #endif
-// Pieces are not made shorter than this part of that.
+// Intervals are not made shorter than this part of that.
 #define CORE_FLOOR elvis_real(0.25LF)
 
-struct core_search {
+struct core_interval_search {
     // CORE_NO_ELEMENT: nothing is looked at.
     uint element;
-    // The piece; where the one after it begins, and where the cell ends.
+    // The interval; where the one after it begins, and where the octant ends.
     elvis_real from, to, next, last;
-    // Half of what is looked at at least: where the field is so flat that rounding moves the crossing by more than the piece is long.
+    // Half of what is looked at at least: where the field is so flat that rounding moves the crossing by more than the interval is long.
     elvis_real wide;
     // Where the mapping is linearized.
     elvis_real x, y, z;
-    // Of the mapping in the cell.
+    // Of the mapping in the octant.
     elvis_real curvature;
-    // Bound of the field's second derivatives, from the last piece that was long enough for it.
+    // Bound of the field's second derivatives, from the last interval that was long enough for it.
     elvis_real bend;
-    // Evaluations in the cell; those of them that linearized the mapping anew for the same piece.
+    // Evaluations in the octant; those of them that linearized the mapping anew for the same interval.
     uint used, moves;
 };
 
-core_search core_search_nothing() {
-    core_search search;
+core_interval_search core_no_search() {
+    core_interval_search search;
     search.element = CORE_NO_ELEMENT;
     search.from = search.to = search.next = search.last = search.wide = elvis_real(0);
     search.x = search.y = search.z = elvis_real(0);
@@ -39,21 +39,21 @@ core_search core_search_nothing() {
     return search;
 }
 
-struct core_look {
+struct core_evaluation {
     // The search's element, or any where it has none.
     uint element;
     elvis_vec3 xi;
     core_frame frame;
-    // Of the piece: where the ray's parameter s is zero, half its length, and half of what was looked at.
+    // Of the interval: where the ray's parameter s is zero, half its length, and half of what was looked at.
     elvis_real middle, half_width, reach;
-    // The shortest half length of a piece.
+    // The shortest half length of an interval.
     elvis_real shortest;
     // Change of reference coordinates along the ray, in the maximum norm.
     elvis_real speed;
-    core_piece piece;
+    core_ray_interval interval;
     // Of the field's model: its slope in reference coordinates.
     elvis_vec3 slope;
-    core_crossing crossing;
+    core_linear_root crossing;
     // Bound of the field's second derivatives along curves that are straight in the world: the mapping's own bending counts, too.
     elvis_real bend;
     bool is_finite;
@@ -65,36 +65,36 @@ struct core_look {
 // From here on the remainder of a model tells second derivatives, not rounding.
 #define CORE_WIDE_ENOUGH (elvis_real(8) * CORE_NARROW)
 
-core_look core_look_at(core_ray ray, inout core_search search) {
-    core_look look;
-    look.element = search.element != CORE_NO_ELEMENT ? search.element : 0u;
-    look.xi = elvis_vec3(search.x, search.y, search.z);
+core_evaluation core_evaluate_at(core_ray ray, inout core_interval_search search) {
+    core_evaluation evaluation;
+    evaluation.element = search.element != CORE_NO_ELEMENT ? search.element : 0u;
+    evaluation.xi = elvis_vec3(search.x, search.y, search.z);
     elvis_vec3 position;
     elvis_mat3 jacobian;
-    elvis_mapping_jacobian(look.element, look.xi, position, jacobian);
-    const elvis_vec3 shift = core_reference.xyz - elvis_origin(look.element);
-    look.middle = elvis_real(0.5LF) * (search.from + search.to);
-    const elvis_vec3 step = look.middle * ray.direction;
+    elvis_mapping_jacobian(evaluation.element, evaluation.xi, position, jacobian);
+    const elvis_vec3 shift = core_reference.xyz - elvis_origin(evaluation.element);
+    evaluation.middle = elvis_real(0.5LF) * (search.from + search.to);
+    const elvis_vec3 step = evaluation.middle * ray.direction;
     const elvis_real error = ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(step));
-    look.frame = core_frame_at(position, jacobian, error);
-    look.speed = core_max_norm(core_to_xi(look.frame, ray.direction));
-    look.shortest = CORE_FLOOR * CORE_NARROW / look.speed;
-    look.half_width = elvis_real(0.5LF) * (search.to - search.from);
-    look.reach = max(max(look.half_width, look.shortest), search.wide);
-    look.piece = core_piece_in_element(look.xi, look.frame, ((shift - position) + ray.origin) + step, ray.direction, look.reach,
+    evaluation.frame = core_frame_at(position, jacobian, error);
+    evaluation.speed = core_max_norm(core_to_xi(evaluation.frame, ray.direction));
+    evaluation.shortest = CORE_FLOOR * CORE_NARROW / evaluation.speed;
+    evaluation.half_width = elvis_real(0.5LF) * (search.to - search.from);
+    evaluation.reach = max(max(evaluation.half_width, evaluation.shortest), search.wide);
+    evaluation.interval = core_interval_in_element(evaluation.xi, evaluation.frame, ((shift - position) + ray.origin) + step, ray.direction, evaluation.reach,
                                        search.curvature);
 #if ELVIS_HAS_INSIDE
-    look.own = core_inside_at(look.element, look.xi);
-    core_cut_piece_inside(look.own, look.piece);
+    evaluation.own = core_inside_at(evaluation.element, evaluation.xi);
+    core_cut_interval_inside(evaluation.own, evaluation.interval);
 #endif
     core_model model;
     elvis_real value;
-    core_piece_take_field(look.piece, look.element, look.xi, model, value);
-    look.slope = model.slope;
-    look.crossing = core_first_crossing(look.piece);
-    const bool is_wide_enough = look.piece.radius > CORE_WIDE_ENOUGH;
-    search.bend = is_wide_enough ? elvis_real(2) * model.remainder / (look.piece.radius * look.piece.radius) : search.bend;
-    look.bend = search.bend + elvis_real(2) * search.curvature * core_model_norm1(model.slope);
-    look.is_finite = core_is_finite(value + core_max_norm(position));
-    return look;
+    core_interval_take_field(evaluation.interval, evaluation.element, evaluation.xi, model, value);
+    evaluation.slope = model.slope;
+    evaluation.crossing = core_first_linear_root(evaluation.interval);
+    const bool is_wide_enough = evaluation.interval.radius > CORE_WIDE_ENOUGH;
+    search.bend = is_wide_enough ? elvis_real(2) * model.remainder / (evaluation.interval.radius * evaluation.interval.radius) : search.bend;
+    evaluation.bend = search.bend + elvis_real(2) * search.curvature * core_model_norm1(model.slope);
+    evaluation.is_finite = core_is_finite(value + core_max_norm(position));
+    return evaluation;
 }

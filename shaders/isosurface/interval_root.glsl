@@ -1,4 +1,4 @@
-// The root of a piece's line: whether it is a crossing of the field with an isovalue, and where.
+// The root of an interval's line: whether it is a crossing of the field with an isovalue, and where.
 //
 // The kernel brings isosurface/interval_bounds.glsl.
 
@@ -29,43 +29,43 @@ struct core_root {
     elvis_real bend;
 };
 
-core_root core_root_of(core_look look, core_search search) {
-    const core_piece piece = look.piece;
-    const core_crossing crossing = look.crossing;
+core_root core_root_of(core_evaluation evaluation, core_interval_search search) {
+    const core_ray_interval interval = evaluation.interval;
+    const core_linear_root crossing = evaluation.crossing;
     core_root root;
     // At both ends of the part the field lies on different sides. It crosses once only if its slope along the ray surely keeps its sign. The
     // part may reach beyond a face by what rounding makes of it: then the root is what decides.
-    root.is_crossing = piece.is_known && crossing.s - crossing.half_width >= -look.reach && crossing.s + crossing.half_width <= look.reach &&
-                       look.speed * look.bend * piece.radius < abs(piece.slope);
-    const elvis_vec3 to_root = piece.q + crossing.s * piece.w;
+    root.is_crossing = interval.is_known && crossing.s - crossing.half_width >= -evaluation.reach && crossing.s + crossing.half_width <= evaluation.reach &&
+                       evaluation.speed * evaluation.bend * interval.radius < abs(interval.slope);
+    const elvis_vec3 to_root = interval.q + crossing.s * interval.w;
     const elvis_real distance = core_max_norm(to_root);
-    root.xi = look.xi + to_root;
+    root.xi = evaluation.xi + to_root;
     // J^-T times the gradient in xi.
-    root.gradient = look.slope.x * look.frame.row0 + look.slope.y * look.frame.row1 + look.slope.z * look.frame.row2;
+    root.gradient = evaluation.slope.x * evaluation.frame.row0 + evaluation.slope.y * evaluation.frame.row1 + evaluation.slope.z * evaluation.frame.row2;
     // At least the spectral norm of J^-1: the square root of the largest sums of rows and columns.
-    const elvis_vec3 columns = abs(look.frame.row0) + abs(look.frame.row1) + abs(look.frame.row2);
-    const elvis_real rows = max(max(core_model_norm1(look.frame.row0), core_model_norm1(look.frame.row1)), core_model_norm1(look.frame.row2));
+    const elvis_vec3 columns = abs(evaluation.frame.row0) + abs(evaluation.frame.row1) + abs(evaluation.frame.row2);
+    const elvis_real rows = max(max(core_model_norm1(evaluation.frame.row0), core_model_norm1(evaluation.frame.row1)), core_model_norm1(evaluation.frame.row2));
     const elvis_real inverse_size = sqrt(core_max_norm(columns) * rows);
     const elvis_real size = length(root.gradient);
-    root.bend = inverse_size * inverse_size * look.bend / size;
+    root.bend = inverse_size * inverse_size * evaluation.bend / size;
     // From xi to the root the gradient changes by this much at most, and the line's root is wrong by half the product.
-    const elvis_real change = look.bend * distance;
+    const elvis_real change = evaluation.bend * distance;
     root.is_exact = (distance <= CORE_LAST_STEP && change * inverse_size <= CORE_NORMAL_ERROR * size &&
-                     change * distance * look.speed <= CORE_NORMAL_ERROR * abs(piece.slope)) ||
-                    distance <= core_max_norm(look.frame.xi_error) ||
+                     change * distance * evaluation.speed <= CORE_NORMAL_ERROR * abs(interval.slope)) ||
+                    distance <= core_max_norm(evaluation.frame.xi_error) ||
                     // Rounding is most of the error: nothing more is to be had.
-                    (look.bend * piece.radius * piece.radius <= piece.error &&
-                     distance <= (search.moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * look.speed * crossing.half_width);
+                    (evaluation.bend * interval.radius * interval.radius <= interval.error &&
+                     distance <= (search.moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * evaluation.speed * crossing.half_width);
     // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face.
     const elvis_real excess = core_excess(root.xi.x, root.xi.y, root.xi.z);
-    const elvis_real along_ray = elvis_real(0.25LF) * look.speed * crossing.half_width;
-    root.is_inside = excess <= CORE_CONSTRAINT_NORM * (elvis_real(2) * piece.beyond + along_ray);
-    root.is_surely_inside = excess <= -CORE_CONSTRAINT_NORM * (piece.beyond + along_ray);
+    const elvis_real along_ray = elvis_real(0.25LF) * evaluation.speed * crossing.half_width;
+    root.is_inside = excess <= CORE_CONSTRAINT_NORM * (elvis_real(2) * interval.beyond + along_ray);
+    root.is_surely_inside = excess <= -CORE_CONSTRAINT_NORM * (interval.beyond + along_ray);
 #if ELVIS_HAS_INSIDE
-    const elvis_real own_excess = look.own.value + dot(look.own.slope, to_root), own_size = core_model_norm1(look.own.slope);
-    const elvis_real own_error = look.own.rounding + core_inside_bend(look.own, distance);
-    root.is_inside = root.is_inside && own_excess <= own_size * (elvis_real(2) * piece.beyond + along_ray) + own_error;
-    root.is_surely_inside = root.is_surely_inside && own_excess <= -own_size * (piece.beyond + along_ray) - own_error;
+    const elvis_real own_excess = evaluation.own.value + dot(evaluation.own.slope, to_root), own_size = core_model_norm1(evaluation.own.slope);
+    const elvis_real own_error = evaluation.own.rounding + core_inside_bend(evaluation.own, distance);
+    root.is_inside = root.is_inside && own_excess <= own_size * (elvis_real(2) * interval.beyond + along_ray) + own_error;
+    root.is_surely_inside = root.is_surely_inside && own_excess <= -own_size * (interval.beyond + along_ray) - own_error;
 #endif
     return root;
 }

@@ -1,22 +1,22 @@
 // The first point of each pixel's ray at which the field takes one of the isovalues, in the elements of one class.
 //
-// The list of a tile of pixels (tiles/ray_tiles.comp) names the cells, octants of elements that can hold an isovalue, in the order of
-// depth, so that the search ends at the first cell behind the crossing found. A work group is a few rows of a tile, and takes over what
+// The list of a tile of pixels (tiles/ray_tiles.comp) names the octants, octants of elements that can hold an isovalue, in the order of
+// depth, so that the search ends at the first octant behind the crossing found. A work group is a few rows of a tile, and takes over what
 // these can meet (isosurface/group_octants.glsl).
 //
-// A ray is cut down to what a cell's linear models of mapping and field leave (isosurface/octant.glsl), and then a piece at a time is
-// looked at, front to back (isosurface/ray_interval.glsl). One evaluation bounds the field over the whole piece by a line and an error. So it
+// A ray is cut down to what an octant's linear models of mapping and field leave (isosurface/octant.glsl), and then an interval at a time is
+// looked at, front to back (isosurface/ray_interval.glsl). One evaluation bounds the field over the whole interval by a line and an error. So it
 // is known that
 //
-//   no isovalue is taken         the piece is done: that is certified, as far as the bounds are
-//   one is taken in a part       the piece is cut down to that part, before which there is none: the interval Newton method
+//   no isovalue is taken         the interval is done: that is certified, as far as the bounds are
+//   one is taken in a part       the interval is cut down to that part, before which there is none: the interval Newton method
 //                                (R. E. Moore, Interval Analysis, 1966), which converges quadratically where the field is steep
-//   or little                    the piece is halved
+//   or little                    the interval is halved
 //
-// until the piece is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
+// until the interval is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
 // pixel is undecided if that cannot be told: isosurface/interval_bounds.glsl, piece_root.glsl and cell_search.glsl.
 //
-// One evaluation of mapping and field a turn, whatever element and piece a lane is at, so that lanes do not wait for each other.
+// One evaluation of mapping and field a turn, whatever element and interval a lane is at, so that lanes do not wait for each other.
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
@@ -64,16 +64,16 @@ layout(push_constant) uniform core_parameters {
 #define CORE_WORK_LIMIT 1500u
 
 // The root, as a crossing of the ray.
-core_nearest core_found_at(core_look look, core_root root) {
-    return core_nearest(look.middle + look.crossing.s, look.crossing.half_width, root.xi.x, root.xi.y, root.xi.z, look.crossing.isovalue,
-                        root.gradient.x, root.gradient.y, root.gradient.z, root.bend, look.element,
-                        elvis_fetch_core_elements(look.element, 0u), root.is_surely_inside);
+core_nearest_crossing core_found_at(core_evaluation evaluation, core_root root) {
+    return core_nearest_crossing(evaluation.middle + evaluation.crossing.s, evaluation.crossing.half_width, root.xi.x, root.xi.y, root.xi.z, evaluation.crossing.isovalue,
+                        root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
+                        elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
 }
 
 // Flag of a pixel in which rounding may have led the crossing away.
-uint core_blur_of(core_nearest nearest, core_ray ray, elvis_real stretch) {
+uint core_blur_of(core_nearest_crossing nearest, core_ray ray, elvis_real stretch) {
 #if ELVIS_REAL_IS_DOUBLE
-    // Rounding alone: the crossing's own width is that of the piece in which it was found. In single precision bounds of rounding say too
+    // Rounding alone: the crossing's own width is that of the interval in which it was found. In single precision bounds of rounding say too
     // little: projection would be as uncertain, and less exact.
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     const elvis_vec3 xi = elvis_vec3(nearest.xi_x, nearest.xi_y, nearest.xi_z);
@@ -92,7 +92,7 @@ void main() {
     const uint first_row = tile / core_tiles_per_row * CORE_TILE_HEIGHT + gl_WorkGroupID.y * CORE_ROWS;
     const uint list = tile * CORE_TILE_STRIDE;
     core_begin_isovalues();
-    const uint n_listed = core_take_cells(list, core_tiles[list] & ~CORE_TILE_INNER, first_column, first_row);
+    const uint n_listed = core_take_octants(list, core_tiles[list] & ~CORE_TILE_INNER, first_column, first_row);
     const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_ROWS, core_size.y) : first_row;
     const core_cut_column along = core_cut_begin(elvis_real(column));
     uint n_evaluations = 0u, n_excluded = 0u, n_outside = 0u, n_undecided = 0u, n_crossings = 0u;
@@ -110,12 +110,12 @@ void main() {
 #define CORE_TOP 0u
 #endif
         uint stack_size = 0u, entry = 0u, ahead = 0u, work = 0u, flags = 0u;
-        core_search search = core_search_nothing();
-        core_nearest nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
+        core_interval_search search = core_no_search();
+        core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
         while (entry < n_entries && work < CORE_WORK_LIMIT) {
             const uint first = entry;
-            entry = min(first + CORE_CELLS_AHEAD, n_entries);
-            ahead = core_cells_ahead(ray, first, entry, float(core_nearest_end(nearest)));
+            entry = min(first + CORE_OCTANTS_AHEAD, n_entries);
+            ahead = core_octants_ahead(ray, first, entry, float(core_nearest_end(nearest)));
             while ((search.element != CORE_NO_ELEMENT || stack_size > 0u || ahead != 0u) && work < CORE_WORK_LIMIT) {
                 work += 1u;
                 while (search.element == CORE_NO_ELEMENT && (stack_size > 0u || ahead != 0u) && work < CORE_WORK_LIMIT) {
@@ -145,8 +145,8 @@ void main() {
                     }
 #endif
                     if (is_cell) {
-                        const core_level_cell cell = core_fetch_level_cell(index);
-                        flags |= core_search_begin(cell, core_cell_part_of(cell, ray, end_t), search);
+                        const core_octant octant = core_fetch_octant(index);
+                        flags |= core_interval_search_begin(octant, core_octant_span_of(octant, ray, end_t), search);
                     }
                     if (search.element != CORE_NO_ELEMENT || (stack_size == 0u && ahead == 0u)) {
                         break;
@@ -155,22 +155,22 @@ void main() {
 
                 const bool is_active = search.element != CORE_NO_ELEMENT;
                 search.used += 1u;
-                const core_look look = core_look_at(ray, search);
-                const core_root root = core_root_of(look, search);
-                const core_verdict verdict = core_judge_piece(look, root, search);
-                const core_nearest found = core_found_at(look, root);
+                const core_evaluation evaluation = core_evaluate_at(ray, search);
+                const core_root root = core_root_of(evaluation, search);
+                const core_verdict verdict = core_judge_interval(evaluation, root, search);
+                const core_nearest_crossing found = core_found_at(evaluation, root);
                 const bool is_ahead = found.t > ray.least_t + ray.widths_behind * found.slack && found.t > ray.least_t;
                 const bool is_hit = verdict.is_crossing && root.is_inside && is_ahead;
                 core_nearest_take(is_hit, found, nearest);
-                const bool is_open = core_search_on(look, verdict, is_hit, core_nearest_end(nearest), search);
+                const bool is_open = core_interval_search_next(evaluation, verdict, is_hit, core_nearest_end(nearest), search);
 
                 n_evaluations += is_active ? 1u : 0u;
                 n_outside += verdict.is_empty ? 1u : 0u;
                 n_excluded += verdict.is_excluded ? 1u : 0u;
                 n_crossings += verdict.is_crossing ? 1u : 0u;
                 n_undecided += is_open ? 1u : 0u;
-                flags |= is_active && core_is_model_estimated(look.element) ? CORE_FLAG_ESTIMATED : 0u;
-                flags |= is_open ? (look.is_finite ? CORE_FLAG_ISOSURFACE_UNDECIDED : CORE_FLAG_NAN) : 0u;
+                flags |= is_active && core_is_model_estimated(evaluation.element) ? CORE_FLAG_ESTIMATED : 0u;
+                flags |= is_open ? (evaluation.is_finite ? CORE_FLAG_ISOSURFACE_UNDECIDED : CORE_FLAG_NAN) : 0u;
                 if (search.element == CORE_NO_ELEMENT && stack_size == 0u && ahead == 0u) {
                     break;
                 }

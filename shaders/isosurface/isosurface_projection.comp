@@ -5,7 +5,7 @@
 // Elements whose range holds an isovalue are visited nearest first, and in each the parts of the ray inside, from exact entry to
 // exact exit (segments/segment.glsl). Along a part the field is sampled and becomes a polynomial (segments/fit.glsl), whose
 // degree is raised, and then the part halved, until the error E is small beside how much the polynomial varies. Beside values each
-// sample has the field's slope along the ray, which the polynomial must have, too: few values alone can deceive. A piece without an
+// sample has the field's slope along the ray, which the polynomial must have, too: few values alone can deceive. An interval without an
 // isovalue within E of the polynomial's Bernstein coefficients is left out: that is verified, not certified. Else the polynomial's
 // crossings are looked at in order. Each is polished on the field itself by Newton's method along the ray; it is taken if
 //
@@ -14,7 +14,7 @@
 //
 // (isosurface/projection_segment.glsl, projection_piece.glsl and projection_polish.glsl.)
 //
-// Where neither holds the piece is halved as long as E is more than rounding; then the pixel is undecided.
+// Where neither holds the interval is halved as long as E is more than rounding; then the pixel is undecided.
 //
 // With CORE_PLAIN the method is that of 2006: each part as one polynomial of fixed degree, whose first root is the answer.
 
@@ -44,10 +44,10 @@ layout(push_constant) uniform core_parameters {
 };
 
 #include "isosurface/isovalues.glsl"
-elvis_real core_level_value(uint i) { return core_isovalues[i]; }
+elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 
 #define CORE_CENTRE core_reference.xyz
-#define CORE_PART_CURVATURE(element) elvis_real(elvis_fetch_core_curvatures(element, 0u))
+#define CORE_SEGMENT_CURVATURE(element) elvis_real(elvis_fetch_core_curvatures(element, 0u))
 
 #include "picture/look_beyond.glsl"
 #include "arithmetic/driver_limit.glsl"
@@ -55,7 +55,7 @@ elvis_real core_level_value(uint i) { return core_isovalues[i]; }
 // Of elements that are curved more than usual a part that is missed would be a crossing missed.
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
 #define CORE_CERTAIN_TURNS 96u
-#define CORE_PART_TURNS 160u
+#define CORE_SEGMENT_TURNS 160u
 #include "segments/segment.glsl"
 #include "segments/ray_sample.glsl"
 #include "isosurface/linear_model.glsl"
@@ -97,21 +97,21 @@ void main() {
     const core_node root = core_fetch_node(0u);
     const vec3 root_size = max(abs(root.lower), abs(root.upper)), root_sides = root.upper - root.lower;
     const elvis_real far = elvis_real(max(max(max(root_size.x, root_size.y), root_size.z), ray.far));
-    core_walk_ray walk_ray;
-    walk_ray.origin = ray.origin;
-    walk_ray.direction = ray.direction;
-    walk_ray.speed = stretch;
-    walk_ray.reach = elvis_real(4) * far / stretch;
+    core_traced_ray traced_ray;
+    traced_ray.origin = ray.origin;
+    traced_ray.direction = ray.direction;
+    traced_ray.speed = stretch;
+    traced_ray.reach = elvis_real(4) * far / stretch;
     // Of the volume, in the ray's parameter.
     const elvis_real size = elvis_real(length(root_sides)) / stretch;
-    walk_ray.tolerance = CORE_END_TOLERANCE * size;
-    walk_ray.error = ray.error + elvis_real(2) * CORE_ROUNDOFF * far;
+    traced_ray.tolerance = CORE_END_TOLERANCE * size;
+    traced_ray.error = ray.error + elvis_real(2) * CORE_ROUNDOFF * far;
 
     uint stack[CORE_STACK_SIZE];
     stack[0] = 0u;
     uint stack_size = is_wanted ? 1u : 0u, work = 0u;
-    core_search search = core_search_begin();
-    core_nearest nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
+    core_projection_search search = core_projection_begin();
+    core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
     while ((search.phase != CORE_PHASE_SEEK || stack_size > 0u) && work < CORE_WORK_LIMIT) {
         work += 1u;
         while (search.phase == CORE_PHASE_SEEK && stack_size > 0u && work < CORE_WORK_LIMIT) {
@@ -130,7 +130,7 @@ void main() {
                 stack_size += 2u;
             }
             if (is_touched && node.is_leaf) {
-                core_search_element(ray, walk_ray, node.child, span, search);
+                core_projection_element(ray, traced_ray, node.child, span, search);
             }
             if (search.phase != CORE_PHASE_SEEK || stack_size == 0u) {
                 break;
@@ -138,31 +138,31 @@ void main() {
         }
 
         if (search.phase == CORE_PHASE_CLIP) {
-            core_search_part(ray, walk_ray, search);
+            core_projection_segment(ray, traced_ray, search);
         }
         if (search.phase == CORE_PHASE_SOLVE) {
-            core_search_solve(walk_ray, search);
+            core_projection_solve(traced_ray, search);
         }
         core_ray_sample found;
         found.status = CORE_SAMPLE_RUNNING;
         if (search.phase == CORE_PHASE_SAMPLE || search.phase == CORE_PHASE_POLISH) {
-            found = core_search_sample(walk_ray, search);
+            found = core_projection_sample(traced_ray, search);
         }
         bool is_judged = false;
         if (search.phase == CORE_PHASE_SAMPLE && found.status == CORE_SAMPLE_FOUND) {
-            is_judged = core_search_add(found, search);
+            is_judged = core_projection_add(found, search);
         }
         if (is_judged) {
-            core_search_judge(search);
+            core_projection_judge(search);
         }
         if (search.phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND) {
-            core_search_polish(ray, walk_ray, size, found, search, nearest);
+            core_projection_polish(ray, traced_ray, size, found, search, nearest);
         }
         if (search.phase == CORE_PHASE_PIECE_DONE) {
-            core_search_behind_piece(core_nearest_end(nearest), search);
+            core_projection_behind_interval(core_nearest_end(nearest), search);
         }
         if (search.phase == CORE_PHASE_PART_DONE) {
-            core_search_behind_part(walk_ray, core_nearest_end(nearest), search);
+            core_projection_behind_segment(traced_ray, core_nearest_end(nearest), search);
         }
         if (search.phase == CORE_PHASE_SEEK && stack_size == 0u) {
             break;

@@ -3,9 +3,9 @@
 // the field, which the host chooses elements by; and whether a ray that passes the element by, on the word of these, is to be flagged,
 // because they are estimates.
 
-#define CORE_LEVEL_UNKNOWN 3e38
+#define CORE_VALUE_UNKNOWN 3e38
 
-struct core_level_model {
+struct core_linear_model {
     float value;
     vec3 slope;
     float remainder;
@@ -13,8 +13,8 @@ struct core_level_model {
 };
 
 #ifdef elvis_fetch4_core_models
-core_level_model core_fetch_level_model(uint element) {
+core_linear_model core_fetch_linear_model(uint element) {
     const uvec4 first = elvis_fetch4_core_models(element, 0u), second = elvis_fetch4_core_models(element, 1u);
-    return core_level_model(uintBitsToFloat(first.x), uintBitsToFloat(first.yzw), uintBitsToFloat(second.x), second.w != 0u);
+    return core_linear_model(uintBitsToFloat(first.x), uintBitsToFloat(first.yzw), uintBitsToFloat(second.x), second.w != 0u);
 }
 #endif

@@ -33,8 +33,8 @@ void main() {
     elvis_real reach = elvis_real(0), remainder = elvis_real(0);
     for (int level = -1; level <= 1; ++level) {
         const int side = level == 0 ? 0 : 1;
-        const core_patch region =
-            core_patch(core_way_to(-1, -side, level), core_way_to(1, side, level), core_way_to(-side, 1, level),
+        const core_region region =
+            core_region(core_way_to(-1, -side, level), core_way_to(1, side, level), core_way_to(-side, 1, level),
                        core_way_to(side, -1, level), elvis_real(0), CORE_EXTENT);
         elvis_real value;
         model = core_shown_model(core_first + i, CORE_CENTROID, region, value);
@@ -53,8 +53,8 @@ void main() {
     core_numbers[at + 1u] = slope.x;
     core_numbers[at + 2u] = slope.y;
     core_numbers[at + 3u] = slope.z;
-    core_numbers[at + 4u] = is_known ? float(model.remainder) + rounding : CORE_LEVEL_UNKNOWN;
-    core_numbers[at + 5u] = is_known ? float(model.value - reach) - rounding : -CORE_LEVEL_UNKNOWN;
-    core_numbers[at + 6u] = is_known ? float(model.value + reach) + rounding : CORE_LEVEL_UNKNOWN;
+    core_numbers[at + 4u] = is_known ? float(model.remainder) + rounding : CORE_VALUE_UNKNOWN;
+    core_numbers[at + 5u] = is_known ? float(model.value - reach) - rounding : -CORE_VALUE_UNKNOWN;
+    core_numbers[at + 6u] = is_known ? float(model.value + reach) + rounding : CORE_VALUE_UNKNOWN;
     core_numbers[at + 7u] = core_is_model_estimated(core_first + i) ? 1.0 : 0.0;
 }

@@ -4,7 +4,7 @@
 
 #define CORE_NO_ELEMENT 0xffffffffu
 
-struct core_nearest {
+struct core_nearest_crossing {
     // Along the ray; within `slack` of it, crossings are the same one.
     elvis_real t, slack;
     elvis_real xi_x, xi_y, xi_z;
@@ -22,9 +22,9 @@ struct core_nearest {
 };
 
 // What another class has left in the pixel. `stretch`: length of the ray's direction; `reference_distance`: of the eye.
-core_nearest core_nearest_begin(uint pixel, elvis_real stretch, elvis_real reference_distance) {
+core_nearest_crossing core_nearest_begin(uint pixel, elvis_real stretch, elvis_real reference_distance) {
     const bool was_hit = core_marks[pixel].owner != 0u;
-    core_nearest nearest;
+    core_nearest_crossing nearest;
     nearest.t = was_hit ? core_samples[pixel].depth / stretch - reference_distance : CORE_FAR;
     nearest.slack = was_hit ? elvis_real(16) * CORE_ROUNDOFF * core_samples[pixel].depth : elvis_real(0);
     nearest.xi_x = nearest.xi_y = nearest.xi_z = nearest.isovalue = elvis_real(0);
@@ -37,10 +37,10 @@ core_nearest core_nearest_begin(uint pixel, elvis_real stretch, elvis_real refer
 }
 
 // Where rays need not be looked at any more.
-elvis_real core_nearest_end(core_nearest nearest) { return nearest.t + nearest.slack; }
+elvis_real core_nearest_end(core_nearest_crossing nearest) { return nearest.t + nearest.slack; }
 
 // Takes what was found, if it is a crossing (`is_hit`), into account. `found` as above, certain if it surely lies in its element.
-void core_nearest_take(bool is_hit, core_nearest found, inout core_nearest nearest) {
+void core_nearest_take(bool is_hit, core_nearest_crossing found, inout core_nearest_crossing nearest) {
     const bool is_same = abs(found.t - nearest.t) <= max(found.slack, nearest.slack);
     const bool is_better = is_hit && (is_same ? found.number < nearest.number : found.t < nearest.t);
     const bool is_shared = is_same && nearest.element != found.element;
@@ -60,7 +60,7 @@ void core_nearest_take(bool is_hit, core_nearest found, inout core_nearest neare
 }
 
 // Flags of a pixel that has it, and puts it into the picture.
-uint core_nearest_store(core_nearest nearest, uint pixel, core_ray ray, elvis_real stretch, elvis_real reference_distance) {
+uint core_nearest_store(core_nearest_crossing nearest, uint pixel, core_ray ray, elvis_real stretch, elvis_real reference_distance) {
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     if (is_hit) {
         core_store_crossing(pixel, core_surface, nearest.isovalue, (nearest.t + reference_distance) * stretch, nearest.number,

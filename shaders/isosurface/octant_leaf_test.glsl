@@ -1,4 +1,4 @@
-// Whether the rays of a tile can meet an isovalue in a cell; for tiles/ray_tiles.comp.
+// Whether the rays of a tile can meet an isovalue in an octant; for tiles/ray_tiles.comp.
 
 #include "picture/samples.glsl"
 
@@ -7,7 +7,7 @@ layout(std430, set = 0, binding = 3) readonly buffer core_isovalues_block { elvi
 #include "isosurface/isovalues.glsl"
 #include "isosurface/octant_frustum.glsl"
 
-bool core_leaf_is_met(uint item, core_beam beam, vec2 span) {
+bool core_leaf_is_met(uint item, core_frustum frustum, vec2 span) {
     core_begin_isovalues();
-    return core_beam_meets_level(core_fetch_level_cell(item), beam, span);
+    return core_frustum_meets_isovalue(core_fetch_octant(item), frustum, span);
 }

@@ -1,4 +1,4 @@
-// The linear models of cells, which are octants of elements (isosurface/octant.glsl), the range of the field in each, and a box.
+// The linear models of octants, which are octants of elements (isosurface/octant.glsl), the range of the field in each, and a box.
 
 layout(local_size_x = 32) in;
 
@@ -9,13 +9,13 @@ layout(local_size_x = 32) in;
 #include "element/face_frame.glsl"
 #include "element/measured_curvature.glsl"
 
-// Two words a cell: element and code.
+// Two words an octant: element and code.
 layout(set = 0, binding = 0, std430) readonly buffer core_input { uint core_wanted[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer core_output { uint core_words[]; };
 // Of the hierarchies.
 layout(set = 0, binding = 2, std430) readonly buffer core_centre_block { elvis_real core_centre[]; };
 layout(push_constant) uniform core_parameters {
-    uint core_n_cells;
+    uint core_n_octants;
     uint core_first_component;
     uint core_end_component;
 };
@@ -24,7 +24,7 @@ layout(push_constant) uniform core_parameters {
 #include "field/shown_model.glsl"
 
 #define CORE_WORDS 32u
-// Of elements that are nearly linear it is not measured for each cell.
+// Of elements that are nearly linear it is not measured for each octant.
 #define CORE_SMALL_CURVATURE elvis_real(0.05LF)
 // A linearization that leaves out more than this much of the reference shape is of no use.
 #define CORE_MOST_BENDING elvis_real(2)
@@ -37,12 +37,12 @@ elvis_vec3 core_projected(elvis_vec3 point) {
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
-    if (i >= core_n_cells) {
+    if (i >= core_n_octants) {
         return;
     }
     const uint element = core_wanted[2u * i], code = core_wanted[2u * i + 1u];
-    const elvis_real half_side = elvis_real(core_cell_half_side(code));
-    const elvis_vec3 middle = elvis_vec3(core_cell_middle(code));
+    const elvis_real half_side = elvis_real(core_octant_half_side(code));
+    const elvis_vec3 middle = elvis_vec3(core_octant_middle(code));
     // Where the mapping and the field are linearized: in the shape.
     const elvis_vec3 xi = core_projected(middle);
     const elvis_vec3 shift = middle - xi;
@@ -64,7 +64,7 @@ void main() {
     }
     const elvis_real norm = max(max(core_model_norm1(frame.row0), core_model_norm1(frame.row1)), core_model_norm1(frame.row2));
     const elvis_vec3 sizes = abs(middle_position) + abs(elvis_origin(element)) + abs(position);
-    const elvis_real rounding = elvis_real(CORE_CELL_ROUNDING) * norm * core_max_norm(sizes) +
+    const elvis_real rounding = elvis_real(CORE_OCTANT_ROUNDING) * norm * core_max_norm(sizes) +
                                 half_side * (elvis_real(2) * defect + elvis_real(1e-4LF)) + core_max_norm(frame.xi_error);
     const elvis_real of_element = elvis_fetch_core_curvatures(element, 0u);
     const bool is_measured = (code & 7u) != 0u && of_element > CORE_SMALL_CURVATURE;
@@ -80,7 +80,7 @@ void main() {
     elvis_real remainder = elvis_real(0), value;
     for (int level = -1; level <= 1; ++level) {
         const elvis_real side = level == 0 ? elvis_real(0) : half_side, up = elvis_real(level) * half_side;
-        core_patch region;
+        core_region region;
         region.corner0 = core_projected(middle + elvis_vec3(-half_side, -side, up)) - xi;
         region.corner1 = core_projected(middle + elvis_vec3(half_side, side, up)) - xi;
         region.corner2 = core_projected(middle + elvis_vec3(-side, half_side, up)) - xi;
@@ -99,7 +99,7 @@ void main() {
     // Single precision, whatever the kernel's.
     const elvis_real lost = elvis_real(16.0 * CORE_FLOAT_ROUNDOFF) * (abs(model.value) + elvis_real(4) * steepness + remainder) + elvis_real(1e-36LF);
     const bool is_known = remainder <= CORE_LARGEST_REMAINDER;
-    const float error = is_known && is_linear ? float(remainder + steepness * bending + lost) : CORE_LEVEL_UNKNOWN;
+    const float error = is_known && is_linear ? float(remainder + steepness * bending + lost) : CORE_VALUE_UNKNOWN;
     const elvis_real reach = remainder + steepness * half_side + lost;
     const vec3 slope = is_known ? vec3(size * model.slope) : vec3(0);
     const float scale = 1.0 / float(size);
@@ -123,6 +123,6 @@ void main() {
     core_words[at + 18u] = element;
     core_words[at + 19u] = code;
     core_words[at + 20u] = floatBitsToUint(float(curvature));
-    core_words[at + 24u] = floatBitsToUint(is_known ? float(at_middle - reach) : -CORE_LEVEL_UNKNOWN);
-    core_words[at + 25u] = floatBitsToUint(is_known ? float(at_middle + reach) : CORE_LEVEL_UNKNOWN);
+    core_words[at + 24u] = floatBitsToUint(is_known ? float(at_middle - reach) : -CORE_VALUE_UNKNOWN);
+    core_words[at + 25u] = floatBitsToUint(is_known ? float(at_middle + reach) : CORE_VALUE_UNKNOWN);
 }

@@ -1,4 +1,4 @@
-// Projection: a polynomial along a piece of a part, and where it may cross an isovalue.
+// Projection: a polynomial along an interval of a part, and where it may cross an isovalue.
 //
 // The kernel brings isosurface/projection_search.glsl.
 
@@ -17,32 +17,32 @@
 #endif
 
 // Takes a sample. Returns whether there are as many as a degree of the polynomial needs.
-bool core_search_add(core_ray_sample found, inout core_search search) {
-    core_add_sample(search.piece, found);
-    bool is_enough = search.piece.values.status != CORE_SEGMENT_WANTS;
-    for (int i = 0; i < CORE_SEGMENT_LEVELS; ++i) {
-        is_enough = is_enough || search.piece.values.n_samples == core_segment_counts[i];
+bool core_projection_add(core_ray_sample found, inout core_projection_search search) {
+    core_add_sample(search.interval, found);
+    bool is_enough = search.interval.values.status != CORE_FIT_WANTS;
+    for (int i = 0; i < CORE_FIT_LEVELS; ++i) {
+        is_enough = is_enough || search.interval.values.n_samples == core_fit_counts[i];
     }
     core_want_sample(search);
     return is_enough;
 }
 
-// What the samples tell: no isovalue is taken, or the polynomial is good enough to look for where; else more samples, or half the piece.
-void core_search_judge(inout core_search search) {
-    search.fit = core_segment_fit(search.piece.values);
+// What the samples tell: no isovalue is taken, or the polynomial is good enough to look for where; else more samples, or half the interval.
+void core_projection_judge(inout core_projection_search search) {
+    search.fit = core_fit_of(search.interval.values);
     search.bernstein = core_to_bernstein(search.fit.chebyshev);
-    search.floor_error = CORE_SEGMENT_LEBESGUE * search.piece.values.sample_error + core_bernstein_rounding(search.fit.chebyshev);
+    search.floor_error = CORE_FIT_LEBESGUE * search.interval.values.sample_error + core_bernstein_rounding(search.fit.chebyshev);
     const elvis_real least = core_least(search.bernstein), most = core_most(search.bernstein);
-    const elvis_real slope_error = core_slope_error(search.piece, search.bernstein, search.to - search.from);
+    const elvis_real slope_error = core_slope_error(search.interval, search.bernstein, search.to - search.from);
     search.fit.error += slope_error > CORE_LEAST_SLOPE_ERROR * (most - least) + search.floor_error ? slope_error : elvis_real(0);
     // What is not rounding is an estimate.
     const elvis_real margin = elvis_real(2) * search.fit.error;
     const uint first = core_isovalue_from(least - margin);
     const bool is_free = first == core_isovalues_end(first, most + margin);
-    const bool is_full = search.piece.values.status != CORE_SEGMENT_WANTS;
+    const bool is_full = search.interval.values.status != CORE_FIT_WANTS;
     const bool is_crude = search.fit.error > elvis_real(0.25LF) * (most - least) + elvis_real(2) * search.floor_error;
     const bool is_rough = search.fit.error > CORE_ROUGH * (most - least) + elvis_real(2) * search.floor_error;
-    const bool can_halve = search.piece.level < CORE_MOST_LEVELS && CORE_PLAIN == 0;
+    const bool can_halve = search.interval.level < CORE_MOST_LEVELS && CORE_PLAIN == 0;
     const bool is_verified = is_free && !is_crude;
     const bool is_solved = !is_verified && (!is_rough || (is_full && !can_halve));
     const bool halves = !is_verified && !is_solved && is_full;
@@ -52,31 +52,31 @@ void core_search_judge(inout core_search search) {
 #if CORE_PLAIN
     search.fit.error = core_bernstein_rounding(search.fit.chebyshev);
 #endif
-    search.walk = core_walk_begin();
+    search.isolation = core_isolation_begin();
     search.phase = is_verified ? CORE_PHASE_PIECE_DONE : is_solved ? CORE_PHASE_SOLVE : search.phase;
     if (halves) {
-        core_search_halve(search);
+        core_projection_halve(search);
         core_want_sample(search);
     }
 }
 
 // The next candidate of the polynomial, to be polished.
-void core_search_solve(core_walk_ray walk_ray, inout core_search search) {
-    search.candidate = core_next_candidate(search.fit, search.bernstein, search.fit.error, search.walk);
+void core_projection_solve(core_traced_ray traced_ray, inout core_projection_search search) {
+    search.candidate = core_next_candidate(search.fit, search.bernstein, search.fit.error, search.isolation);
     const bool is_none = search.candidate.kind == CORE_CROSSING_NONE;
     // Where the polynomial is this near, the field may cross more than once; the slope tells.
     const elvis_real lower_value = core_bernstein_value(search.bernstein, search.candidate.lower);
     const elvis_real upper_value = core_bernstein_value(search.bernstein, search.candidate.upper);
     const bool is_doubtful = search.candidate.kind != CORE_CROSSING_VERIFIED && search.fit.error > elvis_real(2) * search.floor_error;
     const bool refines = !is_none && is_doubtful && CORE_PLAIN == 0;
-    const bool is_full = search.piece.values.status != CORE_SEGMENT_WANTS;
-    const bool halves = refines && is_full && search.piece.level < CORE_MOST_LEVELS;
+    const bool is_full = search.interval.values.status != CORE_FIT_WANTS;
+    const bool halves = refines && is_full && search.interval.level < CORE_MOST_LEVELS;
     search.isovalue = core_isovalues[search.candidate.index];
     search.rises = lower_value < upper_value;
     search.is_seen_below = search.is_seen_above = false;
-    // Beside a piece's end the root of the field may be outside of the bracket.
+    // Beside an interval's end the root of the field may be outside of the bracket.
     const bool is_verified = search.candidate.kind == CORE_CROSSING_VERIFIED;
-    const elvis_real margin = is_verified ? elvis_real(0) : elvis_real(2) * walk_ray.tolerance + elvis_real(1e-6LF) * (search.to - search.from);
+    const elvis_real margin = is_verified ? elvis_real(0) : elvis_real(2) * traced_ray.tolerance + elvis_real(1e-6LF) * (search.to - search.from);
     search.bracket_from = search.from + search.candidate.lower * (search.to - search.from) - margin;
     search.bracket_to = search.from + search.candidate.upper * (search.to - search.from) + margin;
     search.polish_turns = 0u;
@@ -86,20 +86,20 @@ void core_search_solve(core_walk_ray walk_ray, inout core_search search) {
     search.phase = is_none ? CORE_PHASE_PIECE_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
     if (refines && (halves || !is_full)) {
         if (halves) {
-            core_search_halve(search);
+            core_projection_halve(search);
         }
         search.phase = CORE_PHASE_SAMPLE;
         core_want_sample(search);
     }
 }
 
-// To the next piece of the part. `nearest_end`: nothing need be looked at behind.
-void core_search_behind_piece(elvis_real nearest_end, inout core_search search) {
-    const bool is_last = core_is_last_piece(search.piece);
+// To the next interval of the part. `nearest_end`: nothing need be looked at behind.
+void core_projection_behind_interval(elvis_real nearest_end, inout core_projection_search search) {
+    const bool is_last = core_is_last_interval(search.interval);
     if (!is_last) {
-        core_next_piece(search.piece);
+        core_next_interval(search.interval);
         search.from = search.to;
-        const elvis_real share = elvis_real(search.piece.index + 1u) / elvis_real(1u << search.piece.level);
+        const elvis_real share = elvis_real(search.interval.index + 1u) / elvis_real(1u << search.interval.level);
         search.to = search.part_from + share * (search.part_to - search.part_from);
         core_want_sample(search);
     }

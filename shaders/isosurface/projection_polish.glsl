@@ -6,8 +6,8 @@
 #define CORE_CANDIDATE_TURNS 16u
 
 // After a sample at the follower's parameter. `size`: of the volume, in the ray's parameter.
-void core_search_polish(core_ray ray, core_walk_ray walk_ray, elvis_real size, core_ray_sample found, inout core_search search,
-                        inout core_nearest nearest) {
+void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found, inout core_projection_search search,
+                        inout core_nearest_crossing nearest) {
     search.polish_turns += 1u;
     const elvis_real t = search.follower.at, off = found.value - search.isovalue;
     const bool is_above = off > found.error, is_below = off < -found.error;
@@ -35,11 +35,11 @@ void core_search_polish(core_ray ray, core_walk_ray walk_ray, elvis_real size, c
     const elvis_real radius = core_max_norm(found.q) + found.beyond + speed * (half_width + abs(step));
     const bool keeps_slope = found.is_known && speed * bend_here * radius < abs(found.slope);
     const bool is_confirmed = !is_candidate || keeps_slope || (search.is_seen_below && search.is_seen_above) || CORE_PLAIN == 1;
-    const elvis_real slack = walk_ray.tolerance + elvis_real(0.25LF) * half_width;
+    const elvis_real slack = traced_ray.tolerance + elvis_real(0.25LF) * half_width;
     const elvis_real outside = max(search.part_from - root_t, root_t - search.part_to);
     const bool is_inside = outside <= slack;
-    const bool is_surely_inside = root_t >= search.part.enter + search.part.enter_error + slack &&
-                                  root_t <= search.part.leave - search.part.leave_error - slack;
+    const bool is_surely_inside = root_t >= search.segment.enter + search.segment.enter_error + slack &&
+                                  root_t <= search.segment.leave - search.segment.leave_error - slack;
     const bool is_behind_start = root_t > ray.least_t + ray.widths_behind * half_width && root_t > ray.least_t;
     const bool is_hit = is_settled && is_confirmed && is_inside && is_behind_start;
     // The last step may be small by chance.
@@ -58,11 +58,11 @@ void core_search_polish(core_ray ray, core_walk_ray walk_ray, elvis_real size, c
     const elvis_vec3 point = found.xi + found.q + (root_t - t) * found.w;
     const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
     core_nearest_take(is_hit,
-                      core_nearest(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y, gradient.z,
+                      core_nearest_crossing(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y, gradient.z,
                                    inverse_square * bend_here / length(gradient), search.element, elvis_fetch_core_elements(search.element, 0u),
                                    is_surely_inside),
                       nearest);
-    const bool is_estimated = core_is_model_estimated(search.element) || search.part.is_estimated || CORE_PLAIN == 1;
+    const bool is_estimated = core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1;
     search.flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     search.phase = is_hit ? CORE_PHASE_SEEK : is_settled || is_last ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
     core_follow_to(search.follower, is_within ? next : elvis_real(0.5LF) * (search.bracket_from + search.bracket_to));

@@ -1,19 +1,19 @@
-// What projection (isosurface/isosurface_projection.comp) is at with a ray: the element, the part of the ray in it, the piece of that, and
+// What projection (isosurface/isosurface_projection.comp) is at with a ray: the element, the part of the ray in it, the interval of that, and
 // the candidate for a crossing.
 //
 // The kernel brings segments/segment.glsl, segments/ray_sample.glsl, segments/root_candidate.glsl and segments/dyadic_interval.glsl.
 
-// What is next: an element, the part of the ray in it, a sample of a piece, a candidate, a step towards its crossing.
+// What is next: an element, the part of the ray in it, a sample of an interval, a candidate, a step towards its crossing.
 #define CORE_PHASE_SEEK 0u
 #define CORE_PHASE_CLIP 1u
 #define CORE_PHASE_SAMPLE 2u
 #define CORE_PHASE_SOLVE 3u
 #define CORE_PHASE_POLISH 4u
-// A piece, a part or an element is done with.
+// An interval, a part or an element is done with.
 #define CORE_PHASE_PIECE_DONE 5u
 #define CORE_PHASE_PART_DONE 6u
 
-struct core_search {
+struct core_projection_search {
     uint phase, flags;
 
     uint element;
@@ -22,11 +22,11 @@ struct core_search {
     // Where it ends at the latest; from where on the part is looked for; parts so far.
     elvis_real span_end, sought_from;
     uint n_parts;
-    core_part part;
+    core_segment segment;
     // The part, as much longer as its ends may be wrong.
     elvis_real part_from, part_to;
 
-    core_piece piece;
+    core_dyadic_interval interval;
     elvis_real from, to;
     core_follower follower;
     // Its polynomial, and what error rounding alone leaves.
@@ -34,7 +34,7 @@ struct core_search {
     core_polynomial bernstein;
     elvis_real floor_error;
 
-    core_walk walk;
+    core_isolation isolation;
     core_candidate candidate;
     elvis_real isovalue;
     // Holds the crossing; whether the field rises in it.
@@ -48,21 +48,21 @@ struct core_search {
     uint n_evaluations, n_certified, n_verified, n_undecided, n_crossings, n_failures, n_pieces, n_degrees;
 };
 
-core_search core_search_begin() {
-    core_search search;
+core_projection_search core_projection_begin() {
+    core_projection_search search;
     search.phase = CORE_PHASE_SEEK;
     search.flags = search.element = search.n_parts = 0u;
     search.curvature = search.span_end = search.sought_from = elvis_real(0);
     search.bend = CORE_FAR;
-    search.part.element = 0u;
-    search.part.resume = search.part.last = elvis_real(0);
+    search.segment.element = 0u;
+    search.segment.resume = search.segment.last = elvis_real(0);
     search.part_from = search.part_to = search.from = search.to = elvis_real(0);
-    search.piece.values = search.piece.slopes = core_segment_begin();
-    search.piece.level = search.piece.index = 0u;
-    search.fit = core_segment_fit(search.piece.values);
+    search.interval.values = search.interval.slopes = core_fit_begin();
+    search.interval.level = search.interval.index = 0u;
+    search.fit = core_fit_of(search.interval.values);
     search.bernstein = search.fit.chebyshev;
     search.floor_error = elvis_real(0);
-    search.walk = core_walk_begin();
+    search.isolation = core_isolation_begin();
     search.candidate = core_candidate(CORE_CROSSING_NONE, 0u, elvis_real(0), elvis_real(0), elvis_real(0));
     search.isovalue = search.bracket_from = search.bracket_to = elvis_real(0);
     search.rises = search.is_seen_below = search.is_seen_above = false;
@@ -73,19 +73,19 @@ core_search core_search_begin() {
     return search;
 }
 
-// The next sample that the piece's polynomial needs.
-void core_want_sample(inout core_search search) {
-    core_follow_to(search.follower, search.from + core_segment_parameter(search.piece.values) * (search.to - search.from));
+// The next sample that the interval's polynomial needs.
+void core_want_sample(inout core_projection_search search) {
+    core_follow_to(search.follower, search.from + core_fit_parameter(search.interval.values) * (search.to - search.from));
 }
 
-// To the first half of the piece.
-void core_search_halve(inout core_search search) {
-    core_halve(search.piece);
+// To the first half of the interval.
+void core_projection_halve(inout core_projection_search search) {
+    core_halve(search.interval);
     search.to = elvis_real(0.5LF) * (search.from + search.to);
 }
 
 // One evaluation, for what the search is at.
-core_ray_sample core_search_sample(core_walk_ray ray, inout core_search search) {
+core_ray_sample core_projection_sample(core_traced_ray ray, inout core_projection_search search) {
     core_ray_sample found = core_sample_step(ray, search.element, search.curvature, search.follower);
     search.n_evaluations += 1u;
     const bool is_lost = !found.is_finite || found.status == CORE_SAMPLE_FAILED;

@@ -12,17 +12,17 @@
 #endif
 
 // Starts with an element, of which the ray meets the box in `span`.
-void core_search_element(core_ray ray, core_walk_ray walk_ray, uint element, vec2 span, inout core_search search) {
+void core_projection_element(core_ray ray, core_traced_ray traced_ray, uint element, vec2 span, inout core_projection_search search) {
     search.element = element;
     const core_linearization linearization = core_fetch_linearization(search.element);
     const vec3 target = vec3(core_reference.xyz - elvis_origin(search.element) + ray.origin);
     const vec3 start = core_linear_inverse(linearization, target);
     const vec3 motion = core_linear_inverse(linearization, target + vec3(ray.direction)) - start;
     const bool is_linearized = linearization.exponents != 0u;
-    search.curvature = CORE_PART_CURVATURE(search.element);
-    const core_level_model model = core_fetch_level_model(search.element);
+    search.curvature = CORE_SEGMENT_CURVATURE(search.element);
+    const core_linear_model model = core_fetch_linear_model(search.element);
     const vec2 inside = core_linear_span(start, motion, float(search.curvature), span);
-    const vec2 open = core_level_span(model, start, motion, float(search.curvature), inside);
+    const vec2 open = core_value_span(model, start, motion, float(search.curvature), inside);
     const bool is_missed = is_linearized && inside.x > inside.y;
     const bool is_excluded = is_linearized && !is_missed && open.x > open.y;
     search.n_certified += is_excluded && !model.is_estimated ? 1u : 0u;
@@ -33,48 +33,48 @@ void core_search_element(core_ray ray, core_walk_ray walk_ray, uint element, vec
     search.bend = elvis_real(2) * elvis_real(model.remainder) / (CORE_EXTENT * CORE_EXTENT);
     search.span_end = elvis_real(span.y);
     search.n_parts = 0u;
-    const elvis_real span_from = elvis_real(span.x), reach_end = min(search.span_end, span_from + walk_ray.reach);
+    const elvis_real span_from = elvis_real(span.x), reach_end = min(search.span_end, span_from + traced_ray.reach);
     const bool is_begun =
-        !is_missed && !is_excluded && core_part_begin(walk_ray, search.element, span_from, reach_end, false, search.part);
-    search.sought_from = search.part.begin;
+        !is_missed && !is_excluded && core_segment_begin(traced_ray, search.element, span_from, reach_end, false, search.segment);
+    search.sought_from = search.segment.begin;
     search.phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
 }
 
 // A turn towards the next part.
-void core_search_part(core_ray ray, core_walk_ray walk_ray, inout core_search search) {
-    const uint ending = core_part_turn(walk_ray, true, search.part);
+void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout core_projection_search search) {
+    const uint ending = core_segment_iterate(traced_ray, true, search.segment);
     search.n_evaluations += 1u;
-    const bool is_found = ending == CORE_PART_FOUND && search.part.enter < search.part.leave;
-    const bool is_lost = ending != CORE_PART_OPEN && search.part.has_failed;
+    const bool is_found = ending == CORE_SEGMENT_FOUND && search.segment.enter < search.segment.leave;
+    const bool is_lost = ending != CORE_SEGMENT_OPEN && search.segment.has_failed;
     search.n_failures += is_lost ? 1u : 0u;
-    search.undecided_t = is_lost ? min(search.undecided_t, search.part.begin) : search.undecided_t;
+    search.undecided_t = is_lost ? min(search.undecided_t, search.segment.begin) : search.undecided_t;
     // A part may have been missed. In single precision, where rounding takes many turns, the beginning of one has been, too.
-    const bool is_found_late = ending == CORE_PART_FOUND && CORE_DOUBTS_BEGINNINGS;
-    const bool is_doubtful = (ending == CORE_PART_NONE || is_found_late) && search.part.is_estimated && CORE_PLAIN == 0;
+    const bool is_found_late = ending == CORE_SEGMENT_FOUND && CORE_DOUBTS_BEGINNINGS;
+    const bool is_doubtful = (ending == CORE_SEGMENT_NONE || is_found_late) && search.segment.is_estimated && CORE_PLAIN == 0;
     search.undecided_t = is_doubtful ? min(search.undecided_t, search.sought_from) : search.undecided_t;
-    search.phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_PART_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_PART_DONE;
+    search.phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_SEGMENT_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_PART_DONE;
     // Ends are as wrong as that, and a crossing beside them is one all the same; but none is behind the eye.
-    search.part_from = max(search.part.enter - search.part.enter_error - walk_ray.tolerance, ray.least_t);
-    search.part_to = search.part.leave + search.part.leave_error + walk_ray.tolerance;
-    search.piece.level = search.piece.index = 0u;
+    search.part_from = max(search.segment.enter - search.segment.enter_error - traced_ray.tolerance, ray.least_t);
+    search.part_to = search.segment.leave + search.segment.leave_error + traced_ray.tolerance;
+    search.interval.level = search.interval.index = 0u;
     search.from = search.part_from;
     search.to = search.part_to;
-    search.piece.values = search.piece.slopes = core_segment_begin();
-    search.follower = core_follow_from(search.part.anchor, elvis_vec3(search.part.x, search.part.y, search.part.z),
-                                       elvis_vec3(search.part.slope_x, search.part.slope_y, search.part.slope_z));
+    search.interval.values = search.interval.slopes = core_fit_begin();
+    search.follower = core_follow_from(search.segment.anchor, elvis_vec3(search.segment.x, search.segment.y, search.segment.z),
+                                       elvis_vec3(search.segment.slope_x, search.segment.slope_y, search.segment.slope_z));
     core_follow_to(search.follower, search.from);
 }
 
 // Behind a part: on in the element, or to the next one. `nearest_end`: nothing need be looked at behind.
-void core_search_behind_part(core_walk_ray walk_ray, elvis_real nearest_end, inout core_search search) {
+void core_projection_behind_segment(core_traced_ray traced_ray, elvis_real nearest_end, inout core_projection_search search) {
     search.n_parts += 1u;
-    const elvis_real resume = search.part.resume + walk_ray.tolerance;
-    const bool goes_on = search.part.is_inside && resume < search.span_end && resume < nearest_end;
+    const elvis_real resume = search.segment.resume + traced_ray.tolerance;
+    const bool goes_on = search.segment.is_inside && resume < search.span_end && resume < nearest_end;
     search.undecided_t = goes_on && search.n_parts >= CORE_MOST_PARTS ? min(search.undecided_t, resume) : search.undecided_t;
     bool is_begun = false;
     if (goes_on && search.n_parts < CORE_MOST_PARTS) {
-        is_begun = core_part_begin(walk_ray, search.element, resume, search.span_end, false, search.part);
-        search.sought_from = search.part.begin;
+        is_begun = core_segment_begin(traced_ray, search.element, resume, search.span_end, false, search.segment);
+        search.sought_from = search.segment.begin;
     }
     search.phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
 }

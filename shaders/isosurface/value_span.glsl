@@ -12,7 +12,7 @@
 float core_linear_error(float curvature) { return curvature * float(CORE_EXTENT * CORE_EXTENT) + CORE_LINEAR_ERROR; }
 
 // Of the field's model at such a point.
-float core_level_error(core_level_model model, float beyond) {
+float core_model_error(core_linear_model model, float beyond) {
     const vec3 size = abs(model.slope);
     return model.remainder + beyond * (size.x + size.y + size.z);
 }
@@ -32,7 +32,7 @@ vec2 core_linear_span(vec3 start, vec3 direction, float curvature, vec2 span) {
 
 // The part of that in which the linear model of the whole element leaves room for an isovalue, if there is only one; all of it if
 // there are several.
-vec2 core_level_span(core_level_model model, vec3 start, vec3 direction, float curvature, vec2 span) {
+vec2 core_value_span(core_linear_model model, vec3 start, vec3 direction, float curvature, vec2 span) {
     const float value = model.value + dot(model.slope, start - vec3(CORE_CENTROID)), slope = dot(model.slope, direction);
-    return core_level_part(value, slope, core_level_error(model, core_linear_error(curvature)), span);
+    return core_value_interval(value, slope, core_model_error(model, core_linear_error(curvature)), span);
 }

@@ -1,11 +1,11 @@
 // Which of the listed pixels meet contours of the field, and boundaries of elements, on a cut plane.
 //
 // A pixel is a closed square. Each element of the class that may reach into it is asked by itself, with its own values, so that a
-// jump between elements is no contour. The square is one cell at first; a cell in which the answer is open is halved in both
-// directions, at most core_subdivisions times (lines/subpixel.glsl tells what is certain about a cell). Cells are visited depth
+// jump between elements is no contour. The square is one subpixel at first; a subpixel in which the answer is open is halved in both
+// directions, at most core_subdivisions times (lines/subpixel.glsl tells what is certain about a subpixel). Subpixels are visited depth
 // first, in the order (0,0) (1,0) (0,1) (1,1), which needs no stack.
 //
-// One evaluation of mapping and field a turn, whatever element and cell a lane is at.
+// One evaluation of mapping and field a turn, whatever element and subpixel a lane is at.
 
 layout(local_size_x = 32) in;
 
@@ -42,7 +42,7 @@ layout(push_constant) uniform core_parameters {
 #define CORE_NO_ELEMENT 0xffffffffu
 // Turns of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
 #define CORE_WORK_LIMIT 2000u
-// Times the mapping is linearized anew nearer to a cell before the cell is judged.
+// Times the mapping is linearized anew nearer to a subpixel before the subpixel is judged.
 #define CORE_MAX_MOVES 8u
 
 void main() {
@@ -126,7 +126,7 @@ void main() {
         elvis_vec3 position;
         elvis_mat3 jacobian;
         elvis_mapping_jacobian(safe_element, xi, position, jacobian);
-        // The cell is a square of the picture of this size, in pixels.
+        // The subpixel is a square of the picture of this size, in pixels.
         const elvis_real cell_size = elvis_real(1) / elvis_real(1u << level);
         const elvis_real half_size = elvis_real(0.5LF) * cell_size;
         const elvis_real column = elvis_real(pixel_column) - elvis_real(0.5LF) + elvis_real(across) * cell_size + half_size;
@@ -137,33 +137,33 @@ void main() {
         const elvis_real error = part.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
         const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
         const core_cut_point view = core_cut_pixel(core_cut_begin(column), row);
-        core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + part.corner0, origin + part.corner1,
+        core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + part.corner0, origin + part.corner1,
                                       origin + part.corner2, origin + part.corner3, curvature, core_plane_normal.xyz,
                                       view.direction, CORE_NO_FACE);
 #if ELVIS_HAS_INSIDE
-        core_judge_inside(cell, safe_element, xi);
+        core_judge_inside(subpixel, safe_element, xi);
 #endif
         elvis_real value;
-        const core_model model = core_shown_model(safe_element, xi, cell.region, value);
-        const core_level_test test = core_test_levels(model, cell.region);
+        const core_model model = core_shown_model(safe_element, xi, subpixel.region, value);
+        const core_isovalue_test test = core_test_isovalues(model, subpixel.region);
         n_evaluations += is_active ? 1u : 0u;
 
-        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle.
-        const elvis_real cell_radius = abs(cell.region.radius - cell.region.beyond - cell.step);
-        elvis_real near_x = cell.middle.x, near_y = cell.middle.y, near_z = cell.middle.z;
+        // Nearer to the subpixel everything is known better: the point of the element that is nearest to its middle.
+        const elvis_real subpixel_radius = abs(subpixel.region.radius - subpixel.region.beyond - subpixel.step);
+        elvis_real near_x = subpixel.middle.x, near_y = subpixel.middle.y, near_z = subpixel.middle.z;
         core_project(near_x, near_y, near_z);
         const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
-        const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
-        const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, curvature);
-        const bool is_outside = part.all_hit ? cell.is_outside || cell.is_grazed || is_clear || (cell.is_behind && hides_behind)
+        const bool is_far = move > elvis_real(0.25LF) * subpixel_radius && move > elvis_real(16) * CORE_ROUNDOFF;
+        const bool is_clear = !is_far && core_is_clear_of(subpixel, subpixel_radius, move, curvature);
+        const bool is_outside = part.all_hit ? subpixel.is_outside || subpixel.is_grazed || is_clear || (subpixel.is_behind && hides_behind)
                                              : !part.any_hit || core_is_square_behind_volume(column, row, half_size, volume_end);
-        const bool is_inside = part.all_hit && cell.is_inside;
+        const bool is_inside = part.all_hit && subpixel.is_inside;
         const bool moves_on = is_active && !is_outside && part.all_hit && is_far && moves < CORE_MAX_MOVES;
         moves = moves_on ? moves + 1u : 0u;
 
         const bool is_judged = is_active && !moves_on && !is_outside;
         const bool finds_contour = is_judged && wants_contour && is_inside && test.is_met;
-        const bool finds_mesh = is_judged && wants_mesh && part.all_hit && cell.is_crossed;
+        const bool finds_mesh = is_judged && wants_mesh && part.all_hit && subpixel.is_crossed;
         has_contour = has_contour || finds_contour;
         has_mesh_line = has_mesh_line || finds_mesh;
         wants_contour = wants_contour && !finds_contour;
@@ -178,7 +178,7 @@ void main() {
         is_estimated = is_estimated || rests_on_estimates;
         goes_on = wants_contour || wants_mesh;
 
-        // The next cell: below, or after this one and all that end with it.
+        // The next subpixel: below, or after this one and all that end with it.
         level += is_divided ? 1u : 0u;
         across = is_divided ? 2u * across : across;
         down = is_divided ? 2u * down : down;
@@ -194,14 +194,14 @@ void main() {
             across = is_last ? 0u : across ^ 1u;
             element = is_last ? CORE_NO_ELEMENT : element;
         }
-        // Where its middle is expected; on this element for the cell as a whole if the plane ends there.
+        // Where its middle is expected; on this element for the subpixel as a whole if the plane ends there.
         if (element != CORE_NO_ELEMENT) {
             const elvis_real next_size = elvis_real(1) / elvis_real(1u << level);
             const elvis_real next_column = elvis_real(pixel_column) - elvis_real(0.5LF) + (elvis_real(across) + elvis_real(0.5LF)) * next_size;
             const elvis_real next_row = elvis_real(pixel_row) - elvis_real(0.5LF) + (elvis_real(down) + elvis_real(0.5LF)) * next_size;
             const core_cut_point next = core_cut_pixel(core_cut_begin(next_column), next_row);
             const elvis_vec3 left = origin + next.position;
-            const elvis_vec3 step = elvis_vec3(dot(cell.row0, left), dot(cell.row1, left), dot(cell.row2, left));
+            const elvis_vec3 step = elvis_vec3(dot(subpixel.row0, left), dot(subpixel.row1, left), dot(subpixel.row2, left));
             const bool is_usable = next.is_hit && core_is_finite(step.x + step.y + step.z);
             elvis_real next_x = x + (is_usable ? clamp(step.x, elvis_real(-4), elvis_real(4)) : elvis_real(0));
             elvis_real next_y = y + (is_usable ? clamp(step.y, elvis_real(-4), elvis_real(4)) : elvis_real(0));

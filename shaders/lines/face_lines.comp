@@ -1,12 +1,12 @@
 // Which of the listed pixels of faces meet contours of the field, and edges of the faces; for the faces of one class.
 //
 // The face that the pixel shows is asked first, then all others of which patches reach into a box around the pixel's part of the
-// tangent plane. The pixel's square is one cell of each; a cell in which the answer is open is halved in both directions, at most
-// core_subdivisions times; none in a first round, which most pixels need no more than. Each cell lies on the tangent plane of the
-// face near it (lines/own_face.glsl), so that what bends vanishes with the cell's size.
+// tangent plane. The pixel's square is one subpixel of each; a subpixel in which the answer is open is halved in both directions, at most
+// core_subdivisions times; none in a first round, which most pixels need no more than. Each subpixel lies on the tangent plane of the
+// face near it (lines/own_face.glsl), so that what bends vanishes with the subpixel's size.
 //
-// A line is met if a cell says so on a face that faces the viewer as the one that the pixel shows. That none is met is certain if
-// no cell is left open, and that face fills the pixel or the surface is smooth around it. What else stays open is listed for the
+// A line is met if a subpixel says so on a face that faces the viewer as the one that the pixel shows. That none is met is certain if
+// no subpixel is left open, and that face fills the pixel or the surface is smooth around it. What else stays open is listed for the
 // next round, or for lines/face_lines_careful.comp.
 
 layout(local_size_x = 32) in;
@@ -31,7 +31,7 @@ layout(local_size_x = 32) in;
 #define CORE_NO_WORD 0xffffffffu
 // Turns of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
-// Times the mapping is linearized anew nearer to a cell before the cell is judged.
+// Times the mapping is linearized anew nearer to a subpixel before the subpixel is judged.
 #define CORE_MAX_MOVES 8u
 
 // Whether a patch may reach into a box, and the parameters of its point nearest to the middle of the box, to first order.
@@ -144,32 +144,32 @@ void main() {
         elvis_mat3 jacobian;
         elvis_mapping_jacobian(safe_element, xi, position, jacobian);
         jacobian = core_full_jacobian(jacobian);
-        const elvis_real cell_size = core_cell_size(level);
+        const elvis_real cell_size = core_subpixel_size(level);
         const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
         const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
-        const core_own_cell own =
-            core_own_cell_at(xi, position, jacobian, shift, max(own_face, 0), curvature,
-                             core_cell_middle(column, across, cell_size), core_cell_middle(row, down, cell_size),
+        const core_own_subpixel own =
+            core_own_subpixel_at(xi, position, jacobian, shift, max(own_face, 0), curvature,
+                             core_subpixel_middle(column, across, cell_size), core_subpixel_middle(row, down, cell_size),
                              elvis_real(0.5LF) * cell_size);
-        core_cell cell = own.cell;
+        core_subpixel subpixel = own.subpixel;
 #if ELVIS_HAS_INSIDE
-        core_judge_inside(cell, safe_element, xi);
+        core_judge_inside(subpixel, safe_element, xi);
 #endif
         n_evaluations += is_active ? 1u : 0u;
 
-        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle, if that is needed.
-        const elvis_real cell_radius = abs(cell.region.radius - cell.region.beyond - cell.step);
-        elvis_real near_x = cell.middle.x, near_y = cell.middle.y, near_z = cell.middle.z;
+        // Nearer to the subpixel everything is known better: the point of the element that is nearest to its middle, if that is needed.
+        const elvis_real subpixel_radius = abs(subpixel.region.radius - subpixel.region.beyond - subpixel.step);
+        elvis_real near_x = subpixel.middle.x, near_y = subpixel.middle.y, near_z = subpixel.middle.z;
         core_project(near_x, near_y, near_z);
         const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
-        const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
-        const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, curvature);
+        const bool is_far = move > elvis_real(0.25LF) * subpixel_radius && move > elvis_real(16) * CORE_ROUNDOFF;
+        const bool is_clear = !is_far && core_is_clear_of(subpixel, subpixel_radius, move, curvature);
         // Another sheet of the surface, farther behind than a smooth one departs from its plane: hidden by this one.
         const elvis_vec3 there =
             elvis_real(0.25LF) * (own.square.corner0 + own.square.corner1 + own.square.corner2 + own.square.corner3);
         const bool is_behind = around.is_smooth && !is_shown && !is_far &&
                                dot(tangent.normal, there - tangent.point) < elvis_real(-0.5LF) * elvis_real(across_square);
-        const bool is_out = own.square.all_hit && (cell.is_outside || is_clear || is_behind);
+        const bool is_out = own.square.all_hit && (subpixel.is_outside || is_clear || is_behind);
 #if ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL || ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
         const bool is_facing = true;
 #else
@@ -177,13 +177,13 @@ void main() {
 #endif
 
         const bool is_judged = is_active && !is_out;
-        const bool is_inside = own.square.all_hit && cell.is_inside;
-        const bool finds_mesh = is_judged && is_facing && wants_mesh && own.square.all_hit && cell.is_crossed;
+        const bool is_inside = own.square.all_hit && subpixel.is_inside;
+        const bool finds_mesh = is_judged && is_facing && wants_mesh && own.square.all_hit && subpixel.is_crossed;
         bool finds_contour = false, leaves_contour = false;
 #if CORE_WITH_CONTOURS
         elvis_real value;
-        const core_model model = core_shown_model(safe_element, xi, cell.region, value);
-        const core_level_test test = core_test_levels(model, cell.region);
+        const core_model model = core_shown_model(safe_element, xi, subpixel.region, value);
+        const core_isovalue_test test = core_test_isovalues(model, subpixel.region);
         finds_contour = is_judged && is_facing && wants_contour && is_inside && test.is_met;
         leaves_contour = is_judged && wants_contour && !finds_contour && !(own.square.all_hit && test.is_excluded);
         const bool has_estimate = is_judged && core_is_model_estimated(safe_element);
@@ -208,14 +208,14 @@ void main() {
         down = is_divided ? 2u * down : down;
         const bool is_done = is_active && !moves_on && !is_divided;
         if (is_done) {
-            const bool has_next = core_next_cell(level, across, down);
+            const bool has_next = core_next_subpixel(level, across, down);
             element = has_next ? element : CORE_NO_ELEMENT;
         }
         if (element != CORE_NO_ELEMENT) {
-            const elvis_real next_size = core_cell_size(level);
+            const elvis_real next_size = core_subpixel_size(level);
             elvis_real t;
-            const elvis_vec3 next = core_tangent_point(own.tangent, core_cell_middle(column, across, next_size),
-                                                       core_cell_middle(row, down, next_size), t);
+            const elvis_vec3 next = core_tangent_point(own.tangent, core_subpixel_middle(column, across, next_size),
+                                                       core_subpixel_middle(row, down, next_size), t);
             const elvis_vec3 step = core_to_xi(own.frame, own.origin + next);
             const bool is_finite = t < CORE_FAR && core_is_finite(step.x + step.y + step.z);
             elvis_real next_x = x + (is_finite ? clamp(step.x, elvis_real(-4), elvis_real(4)) : elvis_real(0));

@@ -209,7 +209,7 @@ void main() {
         const elvis_vec3 a = (half_size * half_one) * frame.a, b = (half_size * half_one) * frame.b;
         const elvis_vec3 most = abs(a) + abs(b);
         const elvis_real radius = max(max(most.x, most.y), most.z) + elvis_real(8) * CORE_ROUNDOFF;
-        const core_patch region = core_patch(-a - b, a - b, b - a, a + b, elvis_real(8) * CORE_ROUNDOFF, radius);
+        const core_region region = core_region(-a - b, a - b, b - a, a + b, elvis_real(8) * CORE_ROUNDOFF, radius);
         const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
         const elvis_real bend = curvature * radius * radius;
         const elvis_vec3 image_a = jacobian * a, image_b = jacobian * b;
@@ -255,7 +255,7 @@ void main() {
 #if CORE_WITH_CONTOURS
         elvis_real value;
         const core_model model = core_shown_model(element, xi, region, value);
-        const core_level_test test = core_test_levels(model, region);
+        const core_isovalue_test test = core_test_isovalues(model, region);
         finds_contour = is_square && asks_contour && is_seen && !touches_own && test.is_met;
         leaves_contour = is_square && asks_contour && !test.is_excluded && (is_shown || !is_contour_open);
         const bool has_estimate = is_square && core_is_model_estimated(element);

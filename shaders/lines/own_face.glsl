@@ -1,4 +1,4 @@
-// Cells of a surface that is a face of the element itself, or the element, if it has two dimensions.
+// Subpixels of a surface that is a face of the element itself, or the element, if it has two dimensions.
 //
 // At a point xi of the element, the mapping and the constraint c . xi + w = 0 of the face are linear to first order: the face is a
 // plane in the world, on which the corners' rays end. Where they truly end, at x(xi + d), has J d off the linear answer by the
@@ -7,7 +7,7 @@
 //
 //     1 + |c|_1 |J^-1 r| / |c . J^-1 r|
 //
-// for a ray with direction r, and so does rounding. So nothing is left out as the cell shrinks, however the face bends.
+// for a ray with direction r, and so does rounding. So nothing is left out as the subpixel shrinks, however the face bends.
 
 #ifndef CORE_OWN_FACE
 #define CORE_OWN_FACE
@@ -23,26 +23,26 @@ elvis_vec4 core_own_constraint(int own_face) {
 #endif
 }
 
-struct core_own_cell {
-    core_cell cell;
+struct core_own_subpixel {
+    core_subpixel subpixel;
     core_cut_square square;
     core_tangent tangent;
     core_frame frame;
-    // Middle of the cell, as core_cell.middle counts from xi; from the image of xi, relative to the reference point.
+    // Middle of the subpixel, as core_subpixel.middle counts from xi; from the image of xi, relative to the reference point.
     elvis_vec3 origin;
     // The ray enters the element through the face.
     bool enters;
 };
 
 // `image`: of xi, relative to elvis_origin; `shift`: from there to the reference point. The square has its middle at (column, row).
-core_own_cell core_own_cell_at(elvis_vec3 xi, elvis_vec3 image, elvis_mat3 jacobian, elvis_vec3 shift, int own_face,
+core_own_subpixel core_own_subpixel_at(elvis_vec3 xi, elvis_vec3 image, elvis_mat3 jacobian, elvis_vec3 shift, int own_face,
                                elvis_real curvature, elvis_real column, elvis_real row, elvis_real half_size) {
     const elvis_real shift_error = elvis_real(2) * CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
     const core_cut_column along = core_cut_begin(column);
     const elvis_real down = row - along.row0;
     const elvis_vec3 direction = (along.direction + down * along.direction_row).xyz;
 
-    core_own_cell own;
+    core_own_subpixel own;
     own.origin = shift - image;
     core_frame frame = core_frame_at(image, jacobian, shift_error);
     const elvis_vec4 constraint = core_own_constraint(own_face);
@@ -70,7 +70,7 @@ core_own_cell core_own_cell_at(elvis_vec3 xi, elvis_vec3 image, elvis_mat3 jacob
 #else
     const int left_out = own_face;
 #endif
-    own.cell = core_cell_at(xi, frame, own.origin + own.square.corner0, own.origin + own.square.corner1,
+    own.subpixel = core_subpixel_at(xi, frame, own.origin + own.square.corner0, own.origin + own.square.corner1,
                             own.origin + own.square.corner2, own.origin + own.square.corner3, oblique * curvature,
                             own.tangent.normal, direction, left_out);
     const bool is_sound = own.square.all_hit && least > elvis_real(0);

@@ -1,7 +1,7 @@
 // What the element that a pixel shows tells by itself of the lines that the pixel meets, on any surface but planes. Pixels that
 // need more are listed.
 //
-// The pixel's square is one cell (lines/subpixel.glsl). Where all of it lies in the element, the element's part of the surface fills
+// The pixel's square is one subpixel (lines/subpixel.glsl). Where all of it lies in the element, the element's part of the surface fills
 // the square: no other element is met, and whatever lies behind does not matter. On faces the linear model of the face itself
 // tells so (lines/own_face.glsl); elsewhere the surface must also be smooth around the pixel, because it may end. Something in
 // front of it could hide a part: where a neighbouring pixel sees such a thing, nothing is settled. A boundary that runs through the
@@ -84,9 +84,9 @@ void main() {
         const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
         const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
 #if CORE_ON_FACES
-        const core_own_cell own = core_own_cell_at(xi, position, jacobian, shift, max(core_face_of(place), 0), curvature,
+        const core_own_subpixel own = core_own_subpixel_at(xi, position, jacobian, shift, max(core_face_of(place), 0), curvature,
                                                    elvis_real(column), elvis_real(row), elvis_real(0.5LF));
-        core_cell cell = own.cell;
+        core_subpixel subpixel = own.subpixel;
         const core_tangent tangent = own.tangent;
         const core_surroundings around = core_look_around(uvec2(column, row), pixel, true, tangent);
         const bool is_usable = own.square.all_hit && !around.is_hidden;
@@ -107,7 +107,7 @@ void main() {
             core_departure_in(tangent, square, core_bending[pixel], around.turning, -dot(tangent.normal, direction) / stretch);
         const elvis_real error = square.error + bent.distance + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
         const elvis_vec3 origin = shift - position;
-        core_cell cell = core_cell_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
+        core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
                                       origin + square.corner2, origin + square.corner3, curvature, tangent.normal, direction,
                                       CORE_NO_FACE);
         const bool is_usable = square.all_hit && !around.is_hidden;
@@ -115,17 +115,17 @@ void main() {
         const uint entering = 0u;
 #endif
 #if ELVIS_HAS_INSIDE
-        core_judge_inside(cell, element, xi);
+        core_judge_inside(subpixel, element, xi);
 #endif
-        const bool is_inside = !is_outside && is_usable && cell.is_inside;
+        const bool is_inside = !is_outside && is_usable && subpixel.is_inside;
         const bool is_filled = is_inside && fills;
-        const bool has_mesh_line = !is_outside && core_with_mesh_lines != 0u && is_usable && cell.is_crossed;
+        const bool has_mesh_line = !is_outside && core_with_mesh_lines != 0u && is_usable && subpixel.is_crossed;
         const bool is_mesh_open = core_with_mesh_lines != 0u && !has_mesh_line && !is_filled;
         bool is_contour_open = false, has_contour = false, rests_on_estimates = is_estimated;
 #if CORE_WITH_CONTOURS
         elvis_real value;
-        const core_model model = core_shown_model(element, xi, cell.region, value);
-        const core_level_test test = core_test_levels(model, cell.region);
+        const core_model model = core_shown_model(element, xi, subpixel.region, value);
+        const core_isovalue_test test = core_test_isovalues(model, subpixel.region);
         has_contour = is_inside && test.is_met;
         is_contour_open = !has_contour && !(is_filled && test.is_excluded);
         const bool is_model_estimated = core_is_model_estimated(element);

@@ -1,18 +1,18 @@
-// What one element has to do with a pixel's cell: the part of a surface that a square of the picture shows.
+// What one element has to do with a pixel's subpixel: the part of a surface that a square of the picture shows.
 //
-// The cell's corners are points of the surface; between them it is flat, so that every point of the cell lies in their hull. The
-// mapping is linearized at a point xi of the element. A point of cell and element has the offset J^-1 (x - x(xi)) from xi but for
+// The subpixel's corners are points of the surface; between them it is flat, so that every point of the subpixel lies in their hull. The
+// mapping is linearized at a point xi of the element. A point of subpixel and element has the offset J^-1 (x - x(xi)) from xi but for
 // the error of a Newton step (element/prediction.glsl) and rounding, which is the patch of arithmetic/model.glsl. Faces are linear in
-// reference coordinates, so where the corners lie tells what the boundary of the element does in the cell:
+// reference coordinates, so where the corners lie tells what the boundary of the element does in the subpixel:
 //
-//   inside    all of the cell lies in the element
+//   inside    all of the subpixel lies in the element
 //   outside   none of it does
-//   crossed   one corner lies inside, another one outside: the boundary runs through between them, since a cell is in one piece
+//   crossed   one corner lies inside, another one outside: the boundary runs through between them, since a subpixel is in one piece
 //
 // and otherwise it is open. Faces in which the surface lies do not bound anything on it: they are left out.
 
-#ifndef CORE_CELL
-#define CORE_CELL
+#ifndef CORE_SUBPIXEL
+#define CORE_SUBPIXEL
 
 #include "element/element_frame.glsl"
 #include "element/inside.glsl"
@@ -21,8 +21,8 @@
 #include "element/prediction.glsl"
 #include "element/shape_region.glsl"
 
-struct core_cell {
-    core_patch region;
+struct core_subpixel {
+    core_region region;
     bool is_inside, is_outside, is_crossed;
 #if ELVIS_HAS_INSIDE
     // Bits of the corners that lie inside, and outside.
@@ -47,22 +47,22 @@ struct core_cell {
 
 #define CORE_NO_FACE -1
 
-// What a surface that touches an element along an edge only is known by: of the two or more faces that it crosses in the cell, the mean of
-// how far the cell's corners are beyond them, each over its change in the cell, is nowhere negative but for rounding. In the element it is
-// negative. One face is no edge: along the border of the volume there may be no other element to tell its line. Where the cell is
+// What a surface that touches an element along an edge only is known by: of the two or more faces that it crosses in the subpixel, the mean of
+// how far the subpixel's corners are beyond them, each over its change in the subpixel, is nowhere negative but for rounding. In the element it is
+// negative. One face is no edge: along the border of the volume there may be no other element to tell its line. Where the subpixel is
 // not wider than this many times the rounding, at extreme magnification, it stays open.
 #define CORE_GRAZE_SPAN elvis_real(64)
 
-// What the faces of the element say about the region of `cell` around xi. `xi_error`: rounding of the corners' coordinates.
+// What the faces of the element say about the region of `subpixel` around xi. `xi_error`: rounding of the corners' coordinates.
 // `own_face`: the face in which the surface lies by definition; CORE_NO_FACE if it is any surface, which then has this normal.
-void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, elvis_vec3 plane_normal, elvis_vec3 direction,
+void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, elvis_vec3 xi_error, elvis_vec3 plane_normal, elvis_vec3 direction,
                       int own_face) {
-    const core_patch region = cell.region;
+    const core_region region = subpixel.region;
     bool is_inside0 = true, is_inside1 = true, is_inside2 = true, is_inside3 = true;
     bool is_outside0 = false, is_outside1 = false, is_outside2 = false, is_outside3 = false;
-    cell.is_inside = true;
-    cell.is_outside = cell.is_behind = false;
-    cell.clearance = -CORE_UNKNOWN;
+    subpixel.is_inside = true;
+    subpixel.is_outside = subpixel.is_behind = false;
+    subpixel.clearance = -CORE_UNKNOWN;
     elvis_real beyond0 = elvis_real(0), beyond1 = elvis_real(0), beyond2 = elvis_real(0), beyond3 = elvis_real(0), blur = elvis_real(0);
     bool is_wide = own_face < 0;
     uint n_straddled = 0u;
@@ -74,15 +74,15 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         const elvis_real slack = core_model_norm1(constraint.xyz) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF);
         const elvis_real lowest = min(min(g0, g1), min(g2, g3)) - slack, highest = max(max(g0, g1), max(g2, g3)) + slack;
         // The face's normal in the world is J^-T times that in xi.
-        const elvis_vec3 normal = constraint.x * cell.row0 + constraint.y * cell.row1 + constraint.z * cell.row2;
+        const elvis_vec3 normal = constraint.x * subpixel.row0 + constraint.y * subpixel.row1 + constraint.z * subpixel.row2;
         const elvis_vec3 across = cross(normal, plane_normal);
         const bool is_parallel = dot(across, across) <= CORE_COPLANAR * CORE_COPLANAR * dot(normal, normal);
         const bool coincides = is_parallel && lowest <= elvis_real(0) && highest >= elvis_real(0) &&
                                highest - lowest <= elvis_real(2) * slack + elvis_real(4) * dot(abs(constraint.xyz), xi_error);
         const bool lies_in = own_face >= 0 ? face == own_face : coincides;
-        cell.is_behind = cell.is_behind || (lies_in && own_face < 0 && dot(normal, direction) < elvis_real(0));
-        cell.is_inside = cell.is_inside && (lies_in || highest <= elvis_real(0));
-        cell.is_outside = cell.is_outside || (!lies_in && lowest > elvis_real(0));
+        subpixel.is_behind = subpixel.is_behind || (lies_in && own_face < 0 && dot(normal, direction) < elvis_real(0));
+        subpixel.is_inside = subpixel.is_inside && (lies_in || highest <= elvis_real(0));
+        subpixel.is_outside = subpixel.is_outside || (!lies_in && lowest > elvis_real(0));
         const elvis_real rounding = dot(abs(constraint.xyz), xi_error);
         const elvis_real span = highest - lowest - elvis_real(2) * slack;
         const bool is_straddled = !lies_in && lowest <= elvis_real(0) && highest >= elvis_real(0);
@@ -97,7 +97,7 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         const elvis_real above = min(min(g0, g1), min(g2, g3)) - rounding, below = -max(max(g0, g1), max(g2, g3)) - rounding;
         // A surface that is the element's own face runs neither beyond nor before it.
         const elvis_real clearance = lies_in ? (own_face >= 0 ? max(above, below) : -CORE_UNKNOWN) : above;
-        cell.clearance = max(cell.clearance, clearance);
+        subpixel.clearance = max(subpixel.clearance, clearance);
         is_inside0 = is_inside0 && (lies_in || g0 < -slack);
         is_inside1 = is_inside1 && (lies_in || g1 < -slack);
         is_inside2 = is_inside2 && (lies_in || g2 < -slack);
@@ -108,69 +108,69 @@ void core_judge_faces(inout core_cell cell, elvis_vec3 xi, elvis_vec3 xi_error, 
         is_outside3 = is_outside3 || (!lies_in && g3 > slack);
     }
     const bool is_exact = region.beyond <= elvis_real(4) * max(max(xi_error.x, xi_error.y), xi_error.z);
-    cell.is_grazed = is_wide && is_exact && n_straddled >= 2u && min(min(beyond0, beyond1), min(beyond2, beyond3)) >= -blur;
-    cell.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
+    subpixel.is_grazed = is_wide && is_exact && n_straddled >= 2u && min(min(beyond0, beyond1), min(beyond2, beyond3)) >= -blur;
+    subpixel.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
                       (is_outside0 || is_outside1 || is_outside2 || is_outside3);
 #if ELVIS_HAS_INSIDE
-    cell.inside_corners = uint(is_inside0) | uint(is_inside1) << 1 | uint(is_inside2) << 2 | uint(is_inside3) << 3;
-    cell.outside_corners = uint(is_outside0) | uint(is_outside1) << 1 | uint(is_outside2) << 2 | uint(is_outside3) << 3;
+    subpixel.inside_corners = uint(is_inside0) | uint(is_inside1) << 1 | uint(is_inside2) << 2 | uint(is_inside3) << 3;
+    subpixel.outside_corners = uint(is_outside0) | uint(is_outside1) << 1 | uint(is_outside2) << 2 | uint(is_outside3) << 3;
 #endif
 }
 
 #if ELVIS_HAS_INSIDE
-// What the element's own boundary says, beside the faces (core_cell_at).
-void core_judge_inside(inout core_cell cell, uint element, elvis_vec3 xi) {
-    const core_patch region = cell.region;
+// What the element's own boundary says, beside the faces (core_subpixel_at).
+void core_judge_inside(inout core_subpixel subpixel, uint element, elvis_vec3 xi) {
+    const core_region region = subpixel.region;
     const core_inside g = core_inside_at(element, xi);
     const elvis_real slack = core_model_norm1(g.slope) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF) + g.rounding +
                              core_inside_bend(g, region.radius);
     const elvis_real g0 = g.value + dot(g.slope, region.corner0), g1 = g.value + dot(g.slope, region.corner1);
     const elvis_real g2 = g.value + dot(g.slope, region.corner2), g3 = g.value + dot(g.slope, region.corner3);
-    cell.inside_corners &= uint(g0 < -slack) | uint(g1 < -slack) << 1 | uint(g2 < -slack) << 2 | uint(g3 < -slack) << 3;
-    cell.outside_corners |= uint(g0 > slack) | uint(g1 > slack) << 1 | uint(g2 > slack) << 2 | uint(g3 > slack) << 3;
+    subpixel.inside_corners &= uint(g0 < -slack) | uint(g1 < -slack) << 1 | uint(g2 < -slack) << 2 | uint(g3 < -slack) << 3;
+    subpixel.outside_corners |= uint(g0 > slack) | uint(g1 > slack) << 1 | uint(g2 > slack) << 2 | uint(g3 > slack) << 3;
     const bool is_sound = core_is_finite(g0 + g1 + g2 + g3 + slack);
-    cell.is_inside = cell.is_inside && is_sound && max(max(g0, g1), max(g2, g3)) + slack <= elvis_real(0);
-    cell.is_outside = cell.is_outside || (is_sound && min(min(g0, g1), min(g2, g3)) - slack > elvis_real(0));
-    cell.is_crossed = is_sound && cell.inside_corners != 0u && cell.outside_corners != 0u;
+    subpixel.is_inside = subpixel.is_inside && is_sound && max(max(g0, g1), max(g2, g3)) + slack <= elvis_real(0);
+    subpixel.is_outside = subpixel.is_outside || (is_sound && min(min(g0, g1), min(g2, g3)) - slack > elvis_real(0));
+    subpixel.is_crossed = is_sound && subpixel.inside_corners != 0u && subpixel.outside_corners != 0u;
 }
 #endif
 
 // `corners`: relative to the image of xi. `own_face`: as in core_judge_faces.
-core_cell core_cell_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvis_vec3 corner1, elvis_vec3 corner2,
+core_subpixel core_subpixel_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvis_vec3 corner1, elvis_vec3 corner2,
                        elvis_vec3 corner3, elvis_real curvature, elvis_vec3 plane_normal, elvis_vec3 direction, int own_face) {
-    core_cell cell;
+    core_subpixel subpixel;
     const elvis_vec3 d0 = core_to_xi(frame, corner0), d1 = core_to_xi(frame, corner1);
     const elvis_vec3 d2 = core_to_xi(frame, corner2), d3 = core_to_xi(frame, corner3);
     const elvis_vec3 most = max(max(abs(d0), abs(d1)), max(abs(d2), abs(d3)));
     const elvis_real largest_step = max(max(most.x, most.y), most.z);
     const elvis_real rounding = max(max(frame.xi_error.x, frame.xi_error.y), frame.xi_error.z);
     const elvis_real beyond = core_prediction_error(curvature, largest_step) + rounding;
-    cell.region = core_patch(d0, d1, d2, d3, beyond, largest_step + beyond);
-    cell.middle = xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
-    const elvis_vec3 to_middle = abs(cell.middle - xi);
-    cell.step = max(max(to_middle.x, to_middle.y), to_middle.z);
-    cell.row0 = frame.row0;
-    cell.row1 = frame.row1;
-    cell.row2 = frame.row2;
-    core_judge_faces(cell, xi, frame.xi_error, plane_normal, direction, own_face);
+    subpixel.region = core_region(d0, d1, d2, d3, beyond, largest_step + beyond);
+    subpixel.middle = xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
+    const elvis_vec3 to_middle = abs(subpixel.middle - xi);
+    subpixel.step = max(max(to_middle.x, to_middle.y), to_middle.z);
+    subpixel.row0 = frame.row0;
+    subpixel.row1 = frame.row1;
+    subpixel.row2 = frame.row2;
+    core_judge_faces(subpixel, xi, frame.xi_error, plane_normal, direction, own_face);
     const bool is_sound = frame.is_sound && core_is_finite(largest_step);
-    cell.is_inside = cell.is_inside && is_sound;
-    cell.is_outside = cell.is_outside && is_sound;
-    cell.is_crossed = cell.is_crossed && is_sound;
-    cell.is_grazed = cell.is_grazed && is_sound;
-    return cell;
+    subpixel.is_inside = subpixel.is_inside && is_sound;
+    subpixel.is_outside = subpixel.is_outside && is_sound;
+    subpixel.is_crossed = subpixel.is_crossed && is_sound;
+    subpixel.is_grazed = subpixel.is_grazed && is_sound;
+    return subpixel;
 }
 
-// Whether the cell lies outside for another reason than the bound, which says nothing far away from a curved element: the point of
-// the element nearest to the prediction is the one that it was made from but for `move`, and the cell lies beyond a face by far
+// Whether the subpixel lies outside for another reason than the bound, which says nothing far away from a curved element: the point of
+// the element nearest to the prediction is the one that it was made from but for `move`, and the subpixel lies beyond a face by far
 // more. That element and surface could meet elsewhere all the same takes an element that folds; of those the curvature is not
 // known.
-bool core_is_clear_of(core_cell cell, elvis_real cell_radius, elvis_real move, elvis_real curvature) {
-    return curvature < elvis_real(1e6LF) && cell.clearance > elvis_real(0.5LF) * cell_radius + elvis_real(8) * move;
+bool core_is_clear_of(core_subpixel subpixel, elvis_real subpixel_radius, elvis_real move, elvis_real curvature) {
+    return curvature < elvis_real(1e6LF) && subpixel.clearance > elvis_real(0.5LF) * subpixel_radius + elvis_real(8) * move;
 }
 
-// Whether the linearized mapping alone (element/linearization.glsl) says that the cell lies outside. `start`: what it predicts for
-// the middle of the cell; `extent`: the maximum norm of the corners' offsets from it.
+// Whether the linearized mapping alone (element/linearization.glsl) says that the subpixel lies outside. `start`: what it predicts for
+// the middle of the subpixel; `extent`: the maximum norm of the corners' offsets from it.
 bool core_is_far_outside(elvis_vec3 start, elvis_real extent, elvis_real curvature) {
     // It keeps this many digits of coordinates in the element.
     const elvis_real start_error = elvis_real(1e-2LF);
@@ -180,23 +180,23 @@ bool core_is_far_outside(elvis_vec3 start, elvis_real extent, elvis_real curvatu
            CORE_CONSTRAINT_NORM * (core_prediction_error(curvature, step) + extent + start_error);
 }
 
-struct core_level_test {
-    // No isovalue in the cell; one for certain, if the cell is inside the element.
+struct core_isovalue_test {
+    // No isovalue in the subpixel; one for certain, if the subpixel is inside the element.
     bool is_excluded, is_met;
 };
 
-core_level_test core_test_levels(core_model f, core_patch cell) {
-    const elvis_real c0 = dot(f.slope, cell.corner0), c1 = dot(f.slope, cell.corner1);
-    const elvis_real c2 = dot(f.slope, cell.corner2), c3 = dot(f.slope, cell.corner3);
+core_isovalue_test core_test_isovalues(core_model f, core_region subpixel) {
+    const elvis_real c0 = dot(f.slope, subpixel.corner0), c1 = dot(f.slope, subpixel.corner1);
+    const elvis_real c2 = dot(f.slope, subpixel.corner2), c3 = dot(f.slope, subpixel.corner3);
     // The corners themselves are within `beyond` of where they were predicted.
     const elvis_real error = CORE_MODEL_UP * (f.remainder + core_model_norm1(f.slope) *
-                                                                (cell.beyond + elvis_real(4) * CORE_ROUNDOFF * cell.radius)) +
+                                                                (subpixel.beyond + elvis_real(4) * CORE_ROUNDOFF * subpixel.radius)) +
                              elvis_real(4) * CORE_ROUNDOFF * abs(f.value) + CORE_MODEL_TINY;
     const elvis_real least = f.value + min(min(c0, c1), min(c2, c3)), most = f.value + max(max(c0, c1), max(c2, c3));
     const uint first = core_isovalue_from(least - error);
     const uint first_sure = core_isovalue_from(least + error);
     const bool is_known = core_model_is_known(f);
-    core_level_test test;
+    core_isovalue_test test;
     test.is_excluded = is_known && (first == core_n_isovalues || core_isovalue_at(first) > most + error);
     test.is_met = is_known && first_sure < core_n_isovalues && core_isovalue_at(first_sure) <= most - error;
     return test;

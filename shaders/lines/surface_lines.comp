@@ -2,15 +2,15 @@
 // class.
 //
 // As lines/cut_lines.comp, on the tangent plane of the surface at the pixel's own point. What the surface departs from it is an
-// error of the cells' corners: half the bending times the square of the distance, along the oblique ray.
+// error of the subpixels' corners: half the bending times the square of the distance, along the oblique ray.
 //
 // Where the neighbouring pixels see points near that plane, the surface is smooth. Where one of them sees a point in front of it,
 // something may hide a part of the pixel; then nothing is certain. Elsewhere, at edges and silhouettes, other parts of the surface
 // may show in the pixel: a line that is met is met, but that none is met rests on a plane three times the pixel's size.
 //
 // What then stays open is listed for the next round: after a first one without halving, which most pixels need no more than, one
-// with it. On quadrics without ends the last ones (CORE_BY_SEGMENTS) look at silhouettes, too. There, a cell is all that its rays
-// can meet of the quadric (cut_surface/quadric_span.glsl), which shrinks with the cell and needs no plane of the whole pixel. If the
+// with it. On quadrics without ends the last ones (CORE_BY_QUADRIC_SPANS) look at silhouettes, too. There, a subpixel is all that its rays
+// can meet of the quadric (cut_surface/quadric_span.glsl), which shrinks with the subpixel and needs no plane of the whole pixel. If the
 // pixel shows the front of the quadric, then its back counts as hidden, and a line on the front is met.
 
 layout(local_size_x = 32) in;
@@ -83,10 +83,10 @@ void main() {
     tangent.normal = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
     const elvis_vec3 normal = tangent.normal;
     const core_surroundings around = core_look_around(place, pixel, is_pixel, tangent);
-#if CORE_BY_SEGMENTS
+#if CORE_BY_QUADRIC_SPANS
     const bool is_smooth = true, is_estimated = false;
     const bool is_front = core_is_quadric_front(column, row, tangent.point);
-    const core_segment whole = core_quadric_segment(column, row, elvis_real(0.5LF), is_front);
+    const core_quadric_span whole = core_quadric_span_at(column, row, elvis_real(0.5LF), is_front);
     core_cut_square square;
     square.corner0 = square.corner2 = whole.from;
     square.corner1 = square.corner3 = whole.to;
@@ -114,7 +114,7 @@ void main() {
     const uint known = core_marks[pixel].flags;
     bool wants_contour = (word & CORE_LIST_CONTOUR) != 0u && (known & CORE_FLAG_CONTOUR) == 0u;
     bool wants_mesh = (word & CORE_LIST_MESH_LINE) != 0u && (known & CORE_FLAG_MESH_LINE) == 0u;
-#if CORE_BY_SEGMENTS
+#if CORE_BY_QUADRIC_SPANS
     const bool is_usable = square.all_hit;
 #else
     // Where corners miss the plane, or nearly so, the surface is seen edge on.
@@ -123,7 +123,7 @@ void main() {
 #endif
     // Where the surface is not smooth, only lines that are met are looked for, and not twice.
     const bool is_searched = is_smooth || core_subdivisions <= CORE_FEW_SUBDIVISIONS;
-#if CORE_SHAPE_ROWS > 0 && !CORE_BY_SEGMENTS
+#if CORE_SHAPE_ROWS > 0 && !CORE_BY_QUADRIC_SPANS
     // Segments decide more.
     const bool is_left = core_subdivisions > 0u && core_is_quadric_front(column, row, tangent.point);
 #else
@@ -154,7 +154,7 @@ void main() {
             if (element != CORE_NO_ELEMENT) {
                 const core_linearization linearization = core_fetch_linearization(element);
                 const elvis_vec3 middle =
-                    CORE_BY_SEGMENTS != 0 ? elvis_real(0.5LF) * (square.corner0 + square.corner1) : tangent.point;
+                    CORE_BY_QUADRIC_SPANS != 0 ? elvis_real(0.5LF) * (square.corner0 + square.corner1) : tangent.point;
                 const elvis_vec3 target = core_reference.xyz - elvis_origin(element) + middle;
                 const bool is_linearized = linearization.exponents != 0u;
                 const elvis_vec3 start =
@@ -167,7 +167,7 @@ void main() {
                 const elvis_vec3 reach = max(max(to0, to1), max(to2, to3));
                 // Twice: what the surface departs from its tangent plane is less than the pixel's size where it is smooth.
                 const elvis_real extent = elvis_real(2) * max(max(reach.x, reach.y), reach.z);
-                const bool is_skipped = CORE_BY_SEGMENTS == 0 && is_linearized && is_smooth &&
+                const bool is_skipped = CORE_BY_QUADRIC_SPANS == 0 && is_linearized && is_smooth &&
                                         core_is_far_outside(start, extent, elvis_fetch_core_curvatures(element, 0u));
                 element = is_skipped ? CORE_NO_ELEMENT : element;
                 x = start.x;
@@ -188,15 +188,15 @@ void main() {
         elvis_mat3 jacobian;
         elvis_mapping_jacobian(safe_element, xi, position, jacobian);
         jacobian = core_full_jacobian(jacobian);
-        // Where the surface is not smooth, one cell that is larger than the pixel; and the pixel in the middle of it.
-        const elvis_real cell_size = core_cell_size(level);
-        const elvis_real cell_column = core_cell_middle(column, across, cell_size);
-        const elvis_real cell_row = core_cell_middle(row, down, cell_size);
+        // Where the surface is not smooth, one subpixel that is larger than the pixel; and the pixel in the middle of it.
+        const elvis_real cell_size = core_subpixel_size(level);
+        const elvis_real cell_column = core_subpixel_middle(column, across, cell_size);
+        const elvis_real cell_row = core_subpixel_middle(row, down, cell_size);
         const bool is_large = !is_smooth && level == 0u;
         const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
         const elvis_vec3 origin = shift - position;
-#if CORE_BY_SEGMENTS
-        const core_segment segment = core_quadric_segment(cell_column, cell_row, elvis_real(0.5LF) * cell_size, is_front);
+#if CORE_BY_QUADRIC_SPANS
+        const core_quadric_span segment = core_quadric_span_at(cell_column, cell_row, elvis_real(0.5LF) * cell_size, is_front);
         const core_front front = core_quadric_front(cell_column, cell_row, elvis_real(0.5LF) * cell_size, segment);
         const bool is_plane = front.is_known;
         core_cut_square part;
@@ -218,40 +218,40 @@ void main() {
 #endif
         const core_frame frame = core_frame_at(position, jacobian, error);
         const elvis_real curvature = elvis_fetch_core_curvatures(safe_element, 0u);
-        core_cell cell = core_cell_at(xi, frame, origin + part.corner0, origin + part.corner1, origin + part.corner2,
+        core_subpixel subpixel = core_subpixel_at(xi, frame, origin + part.corner0, origin + part.corner1, origin + part.corner2,
                                       origin + part.corner3, curvature, normal, direction, own_face);
 #if ELVIS_HAS_INSIDE
-        core_judge_inside(cell, safe_element, xi);
+        core_judge_inside(subpixel, safe_element, xi);
 #endif
         n_evaluations += is_active ? 1u : 0u;
 
-        // Nearer to the cell everything is known better: the point of the element that is nearest to its middle, if that is needed.
-        const elvis_real cell_radius = abs(cell.region.radius - cell.region.beyond - cell.step);
-        elvis_real near_x = cell.middle.x, near_y = cell.middle.y, near_z = cell.middle.z;
+        // Nearer to the subpixel everything is known better: the point of the element that is nearest to its middle, if that is needed.
+        const elvis_real subpixel_radius = abs(subpixel.region.radius - subpixel.region.beyond - subpixel.step);
+        elvis_real near_x = subpixel.middle.x, near_y = subpixel.middle.y, near_z = subpixel.middle.z;
         core_project(near_x, near_y, near_z);
         const elvis_real move = max(max(abs(near_x - x), abs(near_y - y)), abs(near_z - z));
-        const bool is_far = move > elvis_real(0.25LF) * cell_radius && move > elvis_real(16) * CORE_ROUNDOFF;
-        const bool is_clear = !is_far && core_is_clear_of(cell, cell_radius, move, curvature);
-        const bool is_out = is_absent || cell.is_outside || (is_plane && is_clear);
+        const bool is_far = move > elvis_real(0.25LF) * subpixel_radius && move > elvis_real(16) * CORE_ROUNDOFF;
+        const bool is_clear = !is_far && core_is_clear_of(subpixel, subpixel_radius, move, curvature);
+        const bool is_out = is_absent || subpixel.is_outside || (is_plane && is_clear);
 
         const bool is_judged = is_active && !is_out;
         bool finds_contour = false, leaves_contour = false;
 #if CORE_WITH_CONTOURS
         elvis_real value;
-        const core_model model = core_shown_model(safe_element, xi, cell.region, value);
-        const core_level_test test = core_test_levels(model, cell.region);
-        finds_contour = is_judged && wants_contour && !is_large && is_plane && cell.is_inside && test.is_met;
+        const core_model model = core_shown_model(safe_element, xi, subpixel.region, value);
+        const core_isovalue_test test = core_test_isovalues(model, subpixel.region);
+        finds_contour = is_judged && wants_contour && !is_large && is_plane && subpixel.is_inside && test.is_met;
         leaves_contour = is_judged && wants_contour && !finds_contour && !test.is_excluded;
         const bool has_estimate = is_judged && core_is_model_estimated(safe_element);
         rests_on_estimates = rests_on_estimates || has_estimate;
 #endif
-        const bool finds_mesh = is_judged && wants_mesh && !is_large && is_plane && cell.is_crossed;
+        const bool finds_mesh = is_judged && wants_mesh && !is_large && is_plane && subpixel.is_crossed;
         has_contour = has_contour || finds_contour;
         has_mesh_line = has_mesh_line || finds_mesh;
         wants_contour = wants_contour && !finds_contour;
         wants_mesh = wants_mesh && !finds_mesh;
-        const bool leaves_mesh = is_judged && wants_mesh && !cell.is_inside;
-        // The large cell is only asked whether it excludes all: what it leaves open stays so unless a line is found in the pixel.
+        const bool leaves_mesh = is_judged && wants_mesh && !subpixel.is_inside;
+        // The large subpixel is only asked whether it excludes all: what it leaves open stays so unless a line is found in the pixel.
         const bool is_left_open = leaves_contour || leaves_mesh;
         const bool moves_on = is_left_open && is_far && moves < CORE_MAX_MOVES;
         moves = moves_on ? moves + 1u : 0u;
@@ -260,7 +260,7 @@ void main() {
         is_contour_open = is_contour_open || (leaves_contour && stays_open);
         is_mesh_open = is_mesh_open || (leaves_mesh && stays_open);
         // A pixel that lies in one element as a whole meets no other.
-        const bool is_settled = is_judged && is_smooth && level == 0u && cell.is_inside && !leaves_contour;
+        const bool is_settled = is_judged && is_smooth && level == 0u && subpixel.is_inside && !leaves_contour;
         goes_on = (wants_contour || wants_mesh) && !is_settled;
 
         level += is_divided ? 1u : 0u;
@@ -268,19 +268,19 @@ void main() {
         down = is_divided ? 2u * down : down;
         const bool is_done = is_active && !moves_on && !is_divided;
         if (is_done) {
-            element = core_next_cell(level, across, down) ? element : CORE_NO_ELEMENT;
+            element = core_next_subpixel(level, across, down) ? element : CORE_NO_ELEMENT;
         }
         if (element != CORE_NO_ELEMENT) {
-            const elvis_real next_size = core_cell_size(level);
-#if CORE_BY_SEGMENTS
-            const core_segment ahead =
-                core_quadric_segment(core_cell_middle(column, across, next_size), core_cell_middle(row, down, next_size),
+            const elvis_real next_size = core_subpixel_size(level);
+#if CORE_BY_QUADRIC_SPANS
+            const core_quadric_span ahead =
+                core_quadric_span_at(core_subpixel_middle(column, across, next_size), core_subpixel_middle(row, down, next_size),
                                      elvis_real(0.5LF) * next_size, is_front);
             const elvis_vec3 next = elvis_real(0.5LF) * (ahead.from + ahead.to);
 #else
             elvis_real t;
             const elvis_vec3 next = core_tangent_point(
-                tangent, core_cell_middle(column, across, next_size), core_cell_middle(row, down, next_size), t);
+                tangent, core_subpixel_middle(column, across, next_size), core_subpixel_middle(row, down, next_size), t);
 #endif
             const elvis_vec3 step = core_to_xi(frame, origin + next);
             const bool is_finite = core_is_finite(step.x + step.y + step.z);

@@ -2,24 +2,24 @@
 // b_i, starts at b_0 and ends at b_n; it has at most as many roots within as the b_i change sign, and as many or fewer by an even
 // number (Farouki 2012, The Bernstein polynomial basis: a centennial retrospective).
 
-#ifndef CORE_SEGMENT_BERNSTEIN
-#define CORE_SEGMENT_BERNSTEIN
+#ifndef CORE_FIT_BERNSTEIN
+#define CORE_FIT_BERNSTEIN
 
 #include "arithmetic/precision.glsl"
 
-#define CORE_SEGMENT_SIZE (CORE_SEGMENT_DEGREE + 1)
+#define CORE_FIT_SIZE (CORE_FIT_DEGREE + 1)
 
 // Coefficients, in the Chebyshev or in the Bernstein basis.
 struct core_polynomial {
-    elvis_real c[CORE_SEGMENT_SIZE];
+    elvis_real c[CORE_FIT_SIZE];
 };
 
 core_polynomial core_to_bernstein(core_polynomial chebyshev) {
     core_polynomial p;
-    for (int j = 0; j < CORE_SEGMENT_SIZE; ++j) {
+    for (int j = 0; j < CORE_FIT_SIZE; ++j) {
         elvis_real sum = elvis_real(0);
-        for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
-            sum += core_segment_bernstein[j][k] * chebyshev.c[k];
+        for (int k = 0; k < CORE_FIT_SIZE; ++k) {
+            sum += core_fit_bernstein[j][k] * chebyshev.c[k];
         }
         p.c[j] = sum;
     }
@@ -31,15 +31,15 @@ core_polynomial core_to_bernstein(core_polynomial chebyshev) {
 // Casteljau, done twice, lose 3 of the largest coefficient each: they are convex combinations.
 elvis_real core_bernstein_rounding(core_polynomial chebyshev) {
     elvis_real sum = elvis_real(0);
-    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
-        sum += core_segment_growth[k] * abs(chebyshev.c[k]);
+    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
+        sum += core_fit_growth[k] * abs(chebyshev.c[k]);
     }
-    return elvis_real(7 * CORE_SEGMENT_DEGREE + 2) * CORE_ROUNDOFF * sum;
+    return elvis_real(7 * CORE_FIT_DEGREE + 2) * CORE_ROUNDOFF * sum;
 }
 
 elvis_real core_least(core_polynomial p) {
     elvis_real least = p.c[0];
-    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+    for (int i = 0; i < CORE_FIT_SIZE; ++i) {
         least = min(least, p.c[i]);
     }
     return least;
@@ -47,7 +47,7 @@ elvis_real core_least(core_polynomial p) {
 
 elvis_real core_most(core_polynomial p) {
     elvis_real most = p.c[0];
-    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+    for (int i = 0; i < CORE_FIT_SIZE; ++i) {
         most = max(most, p.c[i]);
     }
     return most;
@@ -56,7 +56,7 @@ elvis_real core_most(core_polynomial p) {
 // Certain where coefficients do not turn round: those of the derivative are n times their differences.
 bool core_is_monotone(core_polynomial p) {
     bool falls = false, rises = false;
-    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+    for (int i = 0; i < CORE_FIT_SIZE; ++i) {
         const elvis_real left = p.c[max(i - 1, 0)];
         falls = falls || p.c[i] < left;
         rises = rises || p.c[i] > left;
@@ -68,7 +68,7 @@ bool core_is_monotone(core_polynomial p) {
 uint core_variations(core_polynomial p, elvis_real value) {
     uint n = 0u;
     bool was_below = false, was_above = false;
-    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+    for (int i = 0; i < CORE_FIT_SIZE; ++i) {
         const bool is_below = p.c[i] < value, is_above = p.c[i] > value;
         n += (was_below && is_above) || (was_above && is_below) ? 1u : 0u;
         was_below = is_below || (was_below && !is_above);
@@ -79,9 +79,9 @@ uint core_variations(core_polynomial p, elvis_real value) {
 
 // De Casteljau's triangle has the coefficients on [0, t] along one side and those on [t, 1] along the other.
 core_polynomial core_before(core_polynomial p, elvis_real t) {
-    for (int stage = 1; stage < CORE_SEGMENT_SIZE; ++stage) {
+    for (int stage = 1; stage < CORE_FIT_SIZE; ++stage) {
         core_polynomial next;
-        for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
+        for (int i = 0; i < CORE_FIT_SIZE; ++i) {
             const elvis_real left = p.c[max(i - 1, 0)];
             next.c[i] = i >= stage ? left + t * (p.c[i] - left) : p.c[i];
         }
@@ -91,11 +91,11 @@ core_polynomial core_before(core_polynomial p, elvis_real t) {
 }
 
 core_polynomial core_after(core_polynomial p, elvis_real t) {
-    for (int stage = 1; stage < CORE_SEGMENT_SIZE; ++stage) {
+    for (int stage = 1; stage < CORE_FIT_SIZE; ++stage) {
         core_polynomial next;
-        for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
-            const elvis_real right = p.c[min(i + 1, CORE_SEGMENT_DEGREE)];
-            next.c[i] = i + stage < CORE_SEGMENT_SIZE ? p.c[i] + t * (right - p.c[i]) : p.c[i];
+        for (int i = 0; i < CORE_FIT_SIZE; ++i) {
+            const elvis_real right = p.c[min(i + 1, CORE_FIT_DEGREE)];
+            next.c[i] = i + stage < CORE_FIT_SIZE ? p.c[i] + t * (right - p.c[i]) : p.c[i];
         }
         p = next;
     }
@@ -103,7 +103,7 @@ core_polynomial core_after(core_polynomial p, elvis_real t) {
 }
 
 // On [part, part + 1] / 2^level, always from the whole segment: errors do not add up with the level.
-core_polynomial core_cell_of(core_polynomial p, uint level, uint part) {
+core_polynomial core_restricted(core_polynomial p, uint level, uint part) {
     const elvis_real end = elvis_real(part + 1u);
     return core_after(core_before(p, end / elvis_real(1u << level)), elvis_real(part) / end);
 }
@@ -112,8 +112,8 @@ core_polynomial core_cell_of(core_polynomial p, uint level, uint part) {
 elvis_real core_bernstein_value(core_polynomial p, elvis_real t) {
     const elvis_real s = elvis_real(1) - t;
     elvis_real power = elvis_real(1), sum = elvis_real(0);
-    for (int i = 0; i < CORE_SEGMENT_SIZE; ++i) {
-        sum = sum * s + core_segment_binomials[i] * power * p.c[i];
+    for (int i = 0; i < CORE_FIT_SIZE; ++i) {
+        sum = sum * s + core_fit_binomials[i] * power * p.c[i];
         power *= t;
     }
     return sum;

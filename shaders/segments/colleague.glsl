@@ -6,8 +6,8 @@
 // The transposed matrix is of upper Hessenberg form: balanced by powers of two, then reduced by the implicit double-shift QR algorithm
 // (EISPACK's balanc and hqr; Golub & Van Loan, section 7.5). Its elements are indexed by loops, which spills them: slow, and known to be.
 
-#ifndef CORE_SEGMENT_COLLEAGUE
-#define CORE_SEGMENT_COLLEAGUE
+#ifndef CORE_FIT_COLLEAGUE
+#define CORE_FIT_COLLEAGUE
 
 #include "segments/bernstein.glsl"
 
@@ -23,18 +23,18 @@ struct core_colleague_root {
     bool has_failed;
 };
 
-elvis_real core_colleague_matrix[CORE_SEGMENT_DEGREE * CORE_SEGMENT_DEGREE];
-#define CORE_H(row, column) core_colleague_matrix[(row) * CORE_SEGMENT_DEGREE + (column)]
+elvis_real core_colleague_matrix[CORE_FIT_DEGREE * CORE_FIT_DEGREE];
+#define CORE_H(row, column) core_colleague_matrix[(row) * CORE_FIT_DEGREE + (column)]
 
 // Of the series p - value; the number of rows, less where leading coefficients are rounding.
 int core_colleague_fill(core_polynomial chebyshev, elvis_real value) {
     const elvis_real half_ = elvis_real(0.5LF);
     chebyshev.c[0] -= value;
     elvis_real largest = elvis_real(0);
-    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
         largest = max(largest, abs(chebyshev.c[k]));
     }
-    int n = CORE_SEGMENT_DEGREE;
+    int n = CORE_FIT_DEGREE;
     while (n > 0 && abs(chebyshev.c[n]) <= CORE_ROUNDOFF * largest) {
         n -= 1;
     }
@@ -156,7 +156,7 @@ void core_colleague_sweep(int low, int high, elvis_real x, elvis_real y, elvis_r
 // A real eigenvalue x is a root at t = (1 + x) / 2; beyond the ends by what rounding moves it, it is one at the end.
 elvis_real core_colleague_earlier(elvis_real t, elvis_real x) {
     const elvis_real candidate = elvis_real(0.5LF) * (elvis_real(1) + x);
-    const elvis_real slack = elvis_real(16 * CORE_SEGMENT_DEGREE) * CORE_ROUNDOFF;
+    const elvis_real slack = elvis_real(16 * CORE_FIT_DEGREE) * CORE_ROUNDOFF;
     const bool is_within = candidate >= -slack && candidate <= elvis_real(1) + slack;
     return is_within ? min(t, clamp(candidate, elvis_real(0), elvis_real(1))) : t;
 }

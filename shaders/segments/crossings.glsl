@@ -1,5 +1,5 @@
 // Where a polynomial takes given values (isovalues, breakpoints), in order along the segment. Before it the kernel brings
-//     elvis_real core_level_value(uint i)     an ascending list.
+//     elvis_real core_listed_value(uint i)     an ascending list.
 //
 // The segment is divided dyadically, depth first, without a stack: a cell is [part, part + 1] / 2^level, and its coefficients are
 // always those of the whole segment, restricted. A cell with no listed value within its range, widened by the error E, is left: it
@@ -8,8 +8,8 @@
 // Rouillier & Zimmermann 2004). So is one whose range is no wider than 2 E: there the polynomial does not know better. All others are
 // halved.
 
-#ifndef CORE_SEGMENT_CROSSINGS
-#define CORE_SEGMENT_CROSSINGS
+#ifndef CORE_FIT_CROSSINGS
+#define CORE_FIT_CROSSINGS
 
 #include "segments/bernstein.glsl"
 
@@ -23,16 +23,16 @@
 
 // A double root takes as many levels as half the digits. What is left at the last is taken as settled.
 #if ELVIS_REAL_IS_DOUBLE
-#define CORE_WALK_LEVELS 30u
+#define CORE_ISOLATION_LEVELS 30u
 #else
-#define CORE_WALK_LEVELS 16u
+#define CORE_ISOLATION_LEVELS 16u
 #endif
 // Regula falsi with the Illinois rule gains a digit and a half in two steps once near; more steps are a multiple root's.
 #define CORE_POLISH_STEPS 48u
 
 // The cell at hand, and how many of its crossings have been found before.
-struct core_walk {
-    uint level, part, rank;
+struct core_isolation {
+    uint level, index, rank;
 };
 
 struct core_crossing {
@@ -44,17 +44,17 @@ struct core_crossing {
     elvis_real lower, upper;
 };
 
-core_walk core_walk_begin() { return core_walk(0u, 0u, 0u); }
+core_isolation core_isolation_begin() { return core_isolation(0u, 0u, 0u); }
 
-bool core_walk_is_over(core_walk walk) { return walk.level == 0u && walk.part != 0u; }
+bool core_isolation_is_over(core_isolation isolation) { return isolation.level == 0u && isolation.index != 0u; }
 
 // The next cell of the same size, or that of which it is the left end.
-void core_walk_on(inout core_walk walk) {
-    const uint next = walk.part + 1u;
+void core_isolation_next(inout core_isolation isolation) {
+    const uint next = isolation.index + 1u;
     const uint up = uint(findLSB(next));
-    walk.part = next >> up;
-    walk.level -= up;
-    walk.rank = 0u;
+    isolation.index = next >> up;
+    isolation.level -= up;
+    isolation.rank = 0u;
 }
 
 // Number of listed values below x (or not above it).
@@ -62,7 +62,7 @@ uint core_count_below(elvis_real x, bool with_x, uint n_values) {
     uint first = 0u, last = n_values;
     while (first < last) {
         const uint middle = (first + last) / 2u;
-        const elvis_real value = core_level_value(middle);
+        const elvis_real value = core_listed_value(middle);
         const bool is_below = value < x || (with_x && value == x);
         first = is_below ? middle + 1u : first;
         last = is_below ? last : middle;
@@ -73,7 +73,7 @@ uint core_count_below(elvis_real x, bool with_x, uint n_values) {
 // Root of p - value in [0, 1], which has different signs at the ends (or zero at the second).
 elvis_real core_polish(core_polynomial p, elvis_real value) {
     elvis_real a = elvis_real(0), b = elvis_real(1);
-    elvis_real fa = p.c[0] - value, fb = p.c[CORE_SEGMENT_DEGREE] - value;
+    elvis_real fa = p.c[0] - value, fb = p.c[CORE_FIT_DEGREE] - value;
     elvis_real x = fa == elvis_real(0) ? a : b, fx = fa == elvis_real(0) ? fa : fb;
     elvis_real step = elvis_real(1);
     for (uint turn = 0u; turn < CORE_POLISH_STEPS && fx != elvis_real(0) && step > elvis_real(4) * CORE_ROUNDOFF; ++turn) {
@@ -91,31 +91,31 @@ elvis_real core_polish(core_polynomial p, elvis_real value) {
     return x;
 }
 
-// The first crossing from `walk` on; `error` is E, at least core_bernstein_rounding.
-core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, uint n_values, inout core_walk walk) {
+// The first crossing from `isolation` on; `error` is E, at least core_bernstein_rounding.
+core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, uint n_values, inout core_isolation isolation) {
     core_crossing crossing;
     crossing.kind = CORE_CROSSING_NONE;
     crossing.index = 0u;
     crossing.t = crossing.lower = crossing.upper = elvis_real(0);
     uint level = 0u, part = 0u;
     bool is_polished = false;
-    while (crossing.kind == CORE_CROSSING_NONE && !core_walk_is_over(walk)) {
-        level = walk.level;
-        part = walk.part;
-        const core_polynomial cell = core_cell_of(bernstein, level, part);
-        const elvis_real first = cell.c[0], last = cell.c[CORE_SEGMENT_DEGREE];
-        const elvis_real least = core_least(cell), most = core_most(cell);
+    while (crossing.kind == CORE_CROSSING_NONE && !core_isolation_is_over(isolation)) {
+        level = isolation.level;
+        part = isolation.index;
+        const core_polynomial restricted = core_restricted(bernstein, level, part);
+        const elvis_real first = restricted.c[0], last = restricted.c[CORE_FIT_DEGREE];
+        const elvis_real least = core_least(restricted), most = core_most(restricted);
         const uint n_below = core_count_below(least - error, false, n_values);
         const uint n_reached = core_count_below(most + error, true, n_values) - n_below;
 
-        const bool has_value = walk.rank < n_reached, rises = first < last;
-        const uint index = rises ? n_below + walk.rank : n_below + n_reached - 1u - walk.rank;
-        const elvis_real value = core_level_value(has_value ? index : 0u);
+        const bool has_value = isolation.rank < n_reached, rises = first < last;
+        const uint index = rises ? n_below + isolation.rank : n_below + n_reached - 1u - isolation.rank;
+        const elvis_real value = core_listed_value(has_value ? index : 0u);
         const elvis_real from = first - value, to = last - value;
         const bool is_clear = abs(from) > error && abs(to) > error;
-        const bool is_small = most - least <= elvis_real(2) * error || level == CORE_WALK_LEVELS;
-        const bool is_isolated = n_reached == 1u && is_clear && core_variations(cell, value) == 1u;
-        const bool is_settled = is_small || is_isolated || core_is_monotone(cell);
+        const bool is_small = most - least <= elvis_real(2) * error || level == CORE_ISOLATION_LEVELS;
+        const bool is_isolated = n_reached == 1u && is_clear && core_variations(restricted, value) == 1u;
+        const bool is_settled = is_small || is_isolated || core_is_monotone(restricted);
 
         // A value met at the beginning of a cell belongs to the cell before.
         const elvis_real zero = elvis_real(0);
@@ -133,20 +133,20 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
         crossing.t = is_small ? elvis_real(0.5LF) : stops ? elvis_real(1) : elvis_real(0);
         is_polished = found && crosses;
 
-        const bool has_more = walk.rank + 1u < n_reached;
+        const bool has_more = isolation.rank + 1u < n_reached;
         if (has_value && !is_settled) {
-            walk.level += 1u;
-            walk.part *= 2u;
-            walk.rank = 0u;
+            isolation.level += 1u;
+            isolation.index *= 2u;
+            isolation.rank = 0u;
         } else if (has_value && has_more) {
-            walk.rank += 1u;
+            isolation.rank += 1u;
         } else {
-            core_walk_on(walk);
+            core_isolation_next(isolation);
         }
     }
     const elvis_real size = crossing.kind == CORE_CROSSING_NONE ? elvis_real(0) : elvis_real(1) / elvis_real(1u << level);
     if (is_polished) {
-        crossing.t = core_polish(core_cell_of(bernstein, level, part), core_level_value(crossing.index));
+        crossing.t = core_polish(core_restricted(bernstein, level, part), core_listed_value(crossing.index));
     }
     crossing.t = (elvis_real(part) + crossing.t) * size;
     crossing.lower = elvis_real(part) * size;

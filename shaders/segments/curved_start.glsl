@@ -1,5 +1,5 @@
 // Where a ray enters an element through one of its faces, in elements so curved that a point outside of them may be taken for the ray's
-// (core_part_enter): Newton's method for a point of the face and the parameter, from several points of the face. Which of them are found is
+// (core_segment_enter): Newton's method for a point of the face and the parameter, from several points of the face. Which of them are found is
 // no certainty, but each one that is found is an entry.
 //
 // The kernel brings segments/segment.glsl.
@@ -60,7 +60,7 @@ elvis_vec3 core_end_of_face(core_face_exit face_exit, elvis_real sense) {
 
 // `start`: which of the points, below CORE_FACE_STARTS. The last two lie before and behind where the ray leaves through the face, if a start
 // before has led there: where the face is bent, the ray may have entered through it just before, or come back through it.
-core_face_entry core_enter_face(core_walk_ray ray, uint element, elvis_real curvature, int face, uint start,
+core_face_entry core_enter_face(core_traced_ray ray, uint element, elvis_real curvature, int face, uint start,
                                 inout core_face_exit face_exit) {
     const elvis_vec4 constraint = core_face_constraint(face);
     const bool is_from_exit = start >= CORE_EXIT_START;
@@ -83,9 +83,9 @@ core_face_entry core_enter_face(core_walk_ray ray, uint element, elvis_real curv
         model.slope = core_to_xi(frame, ray.direction);
         // Newton's step is the same from any parameter; the nearest one rounds least.
         const elvis_real near =
-            dot(position - core_part_target(ray, element, elvis_real(0)), ray.direction) / dot(ray.direction, ray.direction);
+            dot(position - core_segment_target(ray, element, elvis_real(0)), ray.direction) / dot(ray.direction, ray.direction);
         model.anchor = near;
-        model.step = core_to_xi(frame, core_part_target(ray, element, near) - position);
+        model.step = core_to_xi(frame, core_segment_target(ray, element, near) - position);
         model.at = elvis_vec3(x, y, z) + model.step;
         model.noise = frame.xi_error;
         const elvis_real rate = dot(constraint.xyz, model.slope);

@@ -1,13 +1,13 @@
 // From element to element through shared faces (segments/walk_state.glsl):
 //
-//     chain = where the ray has got to;
-//     goes = core_chain_begin(chain, its end, its status there)
+//     walk = where the ray has got to;
+//     goes = core_walk_begin(walk, its end, its status there)
 //     while (goes) {
-//         core_reach reach = core_chain_reach(ray, chain, part): how far it is in the chain's next element
-//         the ray is in that element from chain.at to reach.leave, where what is settled already does not count
-//         core_chain_go_on(ray, chain, part, reach, from): the next element
-//         core_chain_help(ray, chain, part, flags)
-//         goes = core_chain_goes(chain)
+//         core_reach reach = core_walk_reach(ray, walk, part): how far it is in the walk's next element
+//         the ray is in that element from walk.at to reach.leave, where what is settled already does not count
+//         core_walk_go_on(ray, walk, part, reach, from): the next element
+//         core_walk_help(ray, walk, part, flags)
+//         goes = core_walk_goes(walk)
 //     }
 //
 // Few rays need help. The code for it is gone through for all of them where it stands, so kernels whose loops are long have another loop
@@ -16,14 +16,14 @@
 // The kernel brings segments/segment.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
 // volume, which links are of; core_extent, the diagonal of the volume's bounds.
 
-#ifndef CORE_CHAIN_WALK
-#define CORE_CHAIN_WALK
+#ifndef CORE_WALK_WALK
+#define CORE_WALK_WALK
 
 #include "segments/walk_state.glsl"
 
 // Parts on end that are too short to matter, before the element around the ray is looked for.
 #define CORE_MOST_GRAZES 4u
-// Over the volume's size: gaps between elements of a chain that are rounding's.
+// Over the volume's size: gaps between elements of a walk that are rounding's.
 #define CORE_WIDEST_GAP 1e-6
 
 // Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
@@ -34,7 +34,7 @@
 
 // Goes on from element to element towards the point of the ray at t, until one holds it: its position in the class; or
 // CORE_NO_ELEMENT, and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
-uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
+uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
     bool has_left = false;
     uint hops = 0u;
@@ -47,7 +47,7 @@ uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint ot
         elvis_mat3 jacobian;
         elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
         const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 step = core_to_xi(frame, core_part_target(ray, element, t) - position);
+        const elvis_vec3 step = core_to_xi(frame, core_segment_target(ray, element, t) - position);
         const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(step, elvis_vec3(-4), elvis_vec3(4));
         steps += 1u;
         const bool is_there = core_max_norm(step) <= elvis_real(4) * core_max_norm(frame.xi_error) || steps >= 8u;
@@ -85,18 +85,18 @@ uint core_find_around(core_walk_ray ray, uint element, elvis_real t, out uint ot
 
 // Where the ray leaves the element as Newton's method predicts it, without bounds: for rays that run along a curved face within
 // rounding, which is then left out. The result stands in the part, which is an estimate.
-void core_leave_roughly(core_walk_ray ray, elvis_real from, inout core_part part) {
+void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment segment) {
     elvis_real leave = from;
     int leave_face = CORE_NO_FACE;
     for (uint turn = 0u; turn < CORE_ROUGH_TURNS; ++turn) {
-        elvis_real x = part.x + (leave - part.anchor) * part.slope_x, y = part.y + (leave - part.anchor) * part.slope_y;
-        elvis_real z = part.z + (leave - part.anchor) * part.slope_z;
+        elvis_real x = segment.x + (leave - segment.anchor) * segment.slope_x, y = segment.y + (leave - segment.anchor) * segment.slope_y;
+        elvis_real z = segment.z + (leave - segment.anchor) * segment.slope_z;
         core_project(x, y, z);
         elvis_vec3 position;
         elvis_mat3 jacobian;
-        elvis_mapping_jacobian(part.element, elvis_vec3(x, y, z), position, jacobian);
+        elvis_mapping_jacobian(segment.element, elvis_vec3(x, y, z), position, jacobian);
         const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 at = elvis_vec3(x, y, z) + core_to_xi(frame, core_part_target(ray, part.element, leave) - position);
+        const elvis_vec3 at = elvis_vec3(x, y, z) + core_to_xi(frame, core_segment_target(ray, segment.element, leave) - position);
         const elvis_vec3 slope = core_to_xi(frame, ray.direction);
         elvis_real first = from + ray.reach;
         for (int face = 0; face < CORE_N_FACES; ++face) {
@@ -108,113 +108,113 @@ void core_leave_roughly(core_walk_ray ray, elvis_real from, inout core_part part
             leave_face = is_first ? face : leave_face;
             first = is_first ? root : first;
         }
-        part.x = at.x;
-        part.y = at.y;
-        part.z = at.z;
-        part.slope_x = slope.x;
-        part.slope_y = slope.y;
-        part.slope_z = slope.z;
-        part.anchor = leave;
+        segment.x = at.x;
+        segment.y = at.y;
+        segment.z = at.z;
+        segment.slope_x = slope.x;
+        segment.slope_y = slope.y;
+        segment.slope_z = slope.z;
+        segment.anchor = leave;
         leave = first;
     }
-    part.enter = from;
-    part.enter_error = elvis_real(0);
-    part.leave = leave;
-    part.leave_face = leave_face;
-    part.step = elvis_real(3e38LF);
-    part.is_estimated = true;
+    segment.enter = from;
+    segment.enter_error = elvis_real(0);
+    segment.leave = leave;
+    segment.leave_face = leave_face;
+    segment.step = elvis_real(3e38LF);
+    segment.is_estimated = true;
 }
 
 bool core_is_own(uint element) { return element >= core_first_element && element - core_first_element < core_n_elements; }
 
-bool core_chain_goes(core_chain chain) { return chain.status == CORE_RAY_GOES && core_is_own(chain.element); }
+bool core_walk_goes(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_own(walk.element); }
 
 // Whether the ray goes on here, at least to its end; `is_mine`: whether this class has to do with it at all. Behind `to` it has the
 // status `status_at_end`.
-bool core_chain_begin(inout core_chain chain, elvis_real to, uint status_at_end, out bool is_mine) {
-    const bool has_sought = chain.status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && chain.element == CORE_NO_ELEMENT;
-    is_mine = is_without || ((has_sought || chain.status == CORE_RAY_GOES) && core_is_own(chain.element));
+bool core_walk_begin(inout core_walk walk, elvis_real to, uint status_at_end, out bool is_mine) {
+    const bool has_sought = walk.status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && walk.element == CORE_NO_ELEMENT;
+    is_mine = is_without || ((has_sought || walk.status == CORE_RAY_GOES) && core_is_own(walk.element));
     const bool begins = is_mine && has_sought && !is_without;
-    chain.start = begins ? chain.at : chain.start;
-    chain.start_element = begins ? chain.element : chain.start_element;
-    chain.status = is_without ? CORE_RAY_ENDS : is_mine && chain.at >= to ? status_at_end : begins ? CORE_RAY_GOES : chain.status;
-    return is_mine && chain.status == CORE_RAY_GOES;
+    walk.start = begins ? walk.at : walk.start;
+    walk.start_element = begins ? walk.element : walk.start_element;
+    walk.status = is_without ? CORE_RAY_ENDS : is_mine && walk.at >= to ? status_at_end : begins ? CORE_RAY_GOES : walk.status;
+    return is_mine && walk.status == CORE_RAY_GOES;
 }
 
-// A ray in the chain's next element.
+// A ray in the walk's next element.
 struct core_reach {
     bool is_met;
-    // Where it leaves; chain.at if the element is not met.
+    // Where it leaves; walk.at if the element is not met.
     elvis_real leave;
     // CORE_FLAG_...
     uint flags;
 };
 
-core_reach core_chain_reach(core_walk_ray ray, inout core_chain chain, inout core_part part) {
-    uint ending = CORE_PART_FOUND;
-    if (!chain.has_part) {
-        const bool is_possible = core_part_begin(ray, chain.element - core_first_element, chain.at, chain.at + ray.reach, true, part);
-        ending = is_possible ? CORE_PART_OPEN : CORE_PART_NONE;
+core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
+    uint ending = CORE_SEGMENT_FOUND;
+    if (!walk.has_segment) {
+        const bool is_possible = core_segment_begin(ray, walk.element - core_first_element, walk.at, walk.at + ray.reach, true, segment);
+        ending = is_possible ? CORE_SEGMENT_OPEN : CORE_SEGMENT_NONE;
     }
 #if CORE_HAS_CURVED
-    if (!chain.has_part && part.curvature > CORE_FOLLOWED_CURVATURE) {
-        const bool is_entered = core_part_enter(ray, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed, part);
-        ending = is_entered ? CORE_PART_OPEN : ending;
+    if (!walk.has_segment && segment.curvature > CORE_FOLLOWED_CURVATURE) {
+        const bool is_entered = core_segment_enter(ray, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed, segment);
+        ending = is_entered ? CORE_SEGMENT_OPEN : ending;
     }
 #endif
-    while (ending == CORE_PART_OPEN) {
-        ending = core_part_turn(ray, true, part);
-        if (ending != CORE_PART_OPEN) {
+    while (ending == CORE_SEGMENT_OPEN) {
+        ending = core_segment_iterate(ray, true, segment);
+        if (ending != CORE_SEGMENT_OPEN) {
             break;
         }
     }
-    chain.needs_roughly = part.has_failed && !chain.has_part;
-    chain.has_part = false;
+    walk.needs_roughly = segment.has_failed && !walk.has_segment;
+    walk.has_segment = false;
     core_reach reach;
     // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
-    const elvis_real gap = part.enter - chain.at - part.enter_error;
-    reach.is_met = ending == CORE_PART_FOUND && !chain.needs_roughly && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
-    reach.flags = reach.is_met && part.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
-    reach.leave = reach.is_met ? max(part.leave, chain.at) : chain.at;
+    const elvis_real gap = segment.enter - walk.at - segment.enter_error;
+    reach.is_met = ending == CORE_SEGMENT_FOUND && !walk.needs_roughly && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
+    reach.flags = reach.is_met && segment.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+    reach.leave = reach.is_met ? max(segment.leave, walk.at) : walk.at;
     return reach;
 }
 
 // The next element, where the ray has left this one. `from`: up to where it was settled when it came in.
-void core_chain_go_on(core_walk_ray ray, inout core_chain chain, core_part part, core_reach reach, elvis_real from) {
-    bool stays = chain.needs_roughly;
-    chain.is_ahead = chain.is_ahead && stays;
-    chain.at = stays ? chain.at : reach.leave;
-    const uint next = elvis_fetch_core_links(chain.element - core_first_element, uint(max(part.leave_face, 0)));
+void core_walk_go_on(core_traced_ray ray, inout core_walk walk, core_segment segment, core_reach reach, elvis_real from) {
+    bool stays = walk.needs_roughly;
+    walk.is_ahead = walk.is_ahead && stays;
+    walk.at = stays ? walk.at : reach.leave;
+    const uint next = elvis_fetch_core_links(walk.element - core_first_element, uint(max(segment.leave_face, 0)));
     // Elements on both sides of a face that the ray grazes may hand it to and fro.
     const bool is_stuck = reach.leave - from <= elvis_real(4) * ray.tolerance;
     // The face did not tell, or rounding led past an edge.
-    chain.needs_element = !stays && (!reach.is_met || part.leave_face < 0 || (is_stuck && chain.n_lost >= CORE_MOST_GRAZES));
-    chain.n_lost = stays ? chain.n_lost : chain.needs_element || is_stuck ? chain.n_lost + 1u : 0u;
-    stays = stays || chain.needs_element;
-    chain.element = stays ? chain.element : next;
-    chain.status = !stays && next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+    walk.needs_element = !stays && (!reach.is_met || segment.leave_face < 0 || (is_stuck && walk.n_lost >= CORE_MOST_GRAZES));
+    walk.n_lost = stays ? walk.n_lost : walk.needs_element || is_stuck ? walk.n_lost + 1u : 0u;
+    stays = stays || walk.needs_element;
+    walk.element = stays ? walk.element : next;
+    walk.status = !stays && next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
 }
 
-bool core_chain_needs_help(core_chain chain) { return chain.needs_roughly || chain.needs_element; }
+bool core_walk_needs_help(core_walk walk) { return walk.needs_roughly || walk.needs_element; }
 
-void core_chain_help(core_walk_ray ray, inout core_chain chain, inout core_part part, inout uint flags) {
-    if (chain.needs_roughly) {
-        core_leave_roughly(ray, chain.at, part);
+void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segment segment, inout uint flags) {
+    if (walk.needs_roughly) {
+        core_leave_roughly(ray, walk.at, segment);
         flags |= CORE_FLAG_UNDECIDED;
-        chain.has_part = true;
+        walk.has_segment = true;
     }
-    if (chain.needs_element) {
-        const elvis_real probe = chain.at + elvis_real(4) * exp2(float(min(chain.n_lost - 1u, 30u))) * ray.tolerance;
+    if (walk.needs_element) {
+        const elvis_real probe = walk.at + elvis_real(4) * exp2(float(min(walk.n_lost - 1u, 30u))) * ray.tolerance;
         uint other;
         bool is_lost;
-        const uint found = core_find_around(ray, chain.element - core_first_element, probe, other, is_lost);
+        const uint found = core_find_around(ray, walk.element - core_first_element, probe, other, is_lost);
         flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
-        chain.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
-        chain.at = probe;
-        chain.is_ahead = true;
-        chain.status = chain.element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+        walk.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+        walk.at = probe;
+        walk.is_ahead = true;
+        walk.status = walk.element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
     }
-    chain.needs_roughly = chain.needs_element = false;
+    walk.needs_roughly = walk.needs_element = false;
 }
 
 #endif

@@ -14,8 +14,8 @@
 // In single precision stay at degree 8 or below and halve the segment instead: the Bernstein coefficients of T_n reach 46, 184, 733,
 // 2927 at n = 6, 8, 10, 12.
 
-#ifndef CORE_SEGMENT_POLYNOMIAL
-#define CORE_SEGMENT_POLYNOMIAL
+#ifndef CORE_FIT_POLYNOMIAL
+#define CORE_FIT_POLYNOMIAL
 
 #include "segments/bernstein.glsl"
 #include "segments/fit.glsl"

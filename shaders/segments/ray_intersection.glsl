@@ -65,7 +65,7 @@ elvis_real core_face_excess(elvis_real s, elvis_real r, bool is_triangle) {
 
 // Crossings of the line in the order of t. All those within `slack` of each other and of one kind are one: a ray through an edge
 // meets both faces, and several starts lead to one root.
-struct core_crossings {
+struct core_face_crossings {
     uint count;
     uint flags;
     elvis_real slack;
@@ -75,7 +75,7 @@ struct core_crossings {
     bool is_on_edge[CORE_RAY_MAX_CROSSINGS];
 };
 
-void core_add_crossing(inout core_crossings list, elvis_real t, bool enters, bool is_on_edge, elvis_real error) {
+void core_add_face_crossing(inout core_face_crossings list, elvis_real t, bool enters, bool is_on_edge, elvis_real error) {
     list.slack = max(list.slack, error);
     bool is_known = false;
     uint position = 0u;
@@ -103,7 +103,7 @@ void core_add_crossing(inout core_crossings list, elvis_real t, bool enters, boo
     }
 }
 
-core_ray_segments core_pair_crossings(core_crossings list) {
+core_ray_segments core_pair_crossings(core_face_crossings list) {
     core_ray_segments segments;
     segments.count = 0u;
     segments.flags = list.flags;
@@ -138,7 +138,7 @@ core_ray_segments core_intersect_ray(uint element, elvis_vec3 origin, elvis_vec3
     const elvis_vec3 axis = abs(direction.x) < elvis_real(0.6LF) ? elvis_vec3(1, 0, 0) : elvis_vec3(0, 1, 0);
     const elvis_vec3 e1 = normalize(cross(direction, axis));
     const elvis_vec3 e2 = cross(direction, e1);
-    core_crossings list;
+    core_face_crossings list;
     list.count = 0u;
     list.flags = 0u;
     list.slack = elvis_real(0);
@@ -185,7 +185,7 @@ core_ray_segments core_intersect_ray(uint element, elvis_vec3 origin, elvis_vec3
             const elvis_real outward = face.orientation * sign(determinant(jacobian)) * dot(normal, direction);
             const elvis_real t = dot(direction, offset + ds * along_a + dr * along_b) / dot(direction, direction);
             const bool is_on_edge = excess >= elvis_real(-8) * error;
-            core_add_crossing(list, t, outward < elvis_real(0), is_on_edge, elvis_real(4) * (error * size + noise));
+            core_add_face_crossing(list, t, outward < elvis_real(0), is_on_edge, elvis_real(4) * (error * size + noise));
         }
         // Did not end although the ray passes close by: within 1e-4 of the face's size.
         const bool is_near = max(abs(f1), abs(f2)) <= elvis_real(1.0e-4LF) * size && excess < elvis_real(0.05LF);

@@ -5,8 +5,8 @@
 //
 // The kernel brings core_elements, core_links and, with CORE_HAS_CURVED, core_cones.
 
-#ifndef CORE_CHAIN_MOTION
-#define CORE_CHAIN_MOTION
+#ifndef CORE_WALK_MOTION
+#define CORE_WALK_MOTION
 
 #include "segments/face_cone.glsl"
 #include "element/linearization.glsl"
@@ -31,7 +31,7 @@
 // The same against the normals of a face.
 #define CORE_CONE_STEEPNESS 0.05
 
-struct core_chain_motion {
+struct core_ray_motion {
     elvis_vec3 slope;
     // Its largest entry, and what that may be off.
     elvis_real size, error;
@@ -40,11 +40,11 @@ struct core_chain_motion {
     vec3 along;
 };
 
-core_chain_motion core_motion_along(core_linearization linearization, elvis_real curvature, elvis_vec3 direction) {
+core_ray_motion core_motion_along(core_linearization linearization, elvis_real curvature, elvis_vec3 direction) {
     const elvis_real share = elvis_real(2) * curvature * CORE_SHAPE_RADIUS;
     const float scale = max(max(core_scale(linearization.exponents, 0), core_scale(linearization.exponents, 1)),
                             core_scale(linearization.exponents, 2));
-    core_chain_motion motion;
+    core_ray_motion motion;
     motion.slope = elvis_vec3(core_linear_motion(linearization, vec3(direction)));
     motion.size = core_max_norm(motion.slope);
     motion.error = motion.size * share / (elvis_real(1) - min(share, CORE_MOTION_BEND)) +
@@ -63,14 +63,14 @@ bool core_surely_crosses(uint element, int face, vec3 along, float side) {
 #endif
 }
 
-bool core_surely_leaves(core_chain_motion motion, uint element, int face) {
+bool core_surely_leaves(core_ray_motion motion, uint element, int face) {
     const elvis_vec4 constraint = core_face_constraint(face);
     const elvis_real norm = dot(abs(constraint.xyz), elvis_vec3(1));
     return motion.is_known ? dot(constraint.xyz, motion.slope) - norm * motion.error > CORE_MOTION_STEEPNESS * norm * motion.size
                            : core_surely_crosses(element, face, motion.along, 1.0);
 }
 
-bool core_surely_enters(core_chain_motion motion, uint element, int face) {
+bool core_surely_enters(core_ray_motion motion, uint element, int face) {
     const elvis_vec4 constraint = core_face_constraint(face);
     const elvis_real norm = dot(abs(constraint.xyz), elvis_vec3(1));
     return motion.is_known ? dot(constraint.xyz, motion.slope) + norm * motion.error < elvis_real(0)

@@ -101,7 +101,7 @@ void core_sample_field(uint element, elvis_vec3 point, elvis_real step, elvis_re
     result.q = point - result.xi;
     const elvis_real outside = core_max_norm(result.q);
     const elvis_vec3 far = result.q + span * result.w;
-    core_patch region;
+    core_region region;
     region.corner0 = region.corner1 = result.q;
     region.corner2 = region.corner3 = far;
     region.beyond = result.beyond;
@@ -135,7 +135,7 @@ bool core_sample_is_enough(core_ray_sample result, elvis_real span, elvis_real e
 }
 
 // One evaluation.
-core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
+core_ray_sample core_sample_step(core_traced_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
     core_ray_sample result;
     elvis_real x = follower.x, y = follower.y, z = follower.z;
     core_project(x, y, z);
@@ -195,17 +195,17 @@ core_ray_sample core_sample_step(core_walk_ray ray, uint element, elvis_real cur
 
 // The field at the ray's point at `at`, as it is predicted from the evaluation of the mapping that found where the ray leaves: another one
 // is not needed if that was near enough, which the status says.
-core_ray_sample core_sample_predicted(core_part part, elvis_real at, elvis_real span, elvis_real enough) {
+core_ray_sample core_sample_predicted(core_segment segment, elvis_real at, elvis_real span, elvis_real enough) {
     core_ray_sample result;
-    const elvis_real since = at - part.anchor;
-    result.w = elvis_vec3(part.slope_x, part.slope_y, part.slope_z);
-    const elvis_real speed = core_max_norm(result.w), step = part.step + abs(since) * speed;
-    const elvis_real off = core_prediction_error(part.curvature, step);
-    result.rounding = part.noise;
-    result.beyond = off + part.noise;
-    core_sample_field(part.element, elvis_vec3(part.x, part.y, part.z) + since * result.w, step, step + abs(span) * speed, part.curvature, span,
+    const elvis_real since = at - segment.anchor;
+    result.w = elvis_vec3(segment.slope_x, segment.slope_y, segment.slope_z);
+    const elvis_real speed = core_max_norm(result.w), step = segment.step + abs(since) * speed;
+    const elvis_real off = core_prediction_error(segment.curvature, step);
+    result.rounding = segment.noise;
+    result.beyond = off + segment.noise;
+    core_sample_field(segment.element, elvis_vec3(segment.x, segment.y, segment.z) + since * result.w, step, step + abs(span) * speed, segment.curvature, span,
                       result);
-    const bool is_enough = core_sample_is_enough(result, span, enough), has_converged = result.is_known && off <= elvis_real(3) * part.noise;
+    const bool is_enough = core_sample_is_enough(result, span, enough), has_converged = result.is_known && off <= elvis_real(3) * segment.noise;
     result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(span) * result.slope_error;
     result.status = (is_enough || has_converged) && result.is_finite && step < elvis_real(1) ? CORE_SAMPLE_FOUND : CORE_SAMPLE_RUNNING;
     return result;

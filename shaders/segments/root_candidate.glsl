@@ -9,9 +9,9 @@ struct core_candidate {
 
 #if CORE_USES_COLLEAGUE
 // The first root that is an eigenvalue. If there is none: where the polynomial comes within E of an isovalue, no better than a touch.
-core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_walk walk) {
+core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_isolation isolation) {
     core_candidate candidate = core_candidate(CORE_CROSSING_NONE, 0u, elvis_real(2), elvis_real(0), elvis_real(1));
-    const bool is_over = core_walk_is_over(walk);
+    const bool is_over = core_isolation_is_over(isolation);
     const uint first = core_isovalue_from(core_least(bernstein) - error), end = core_isovalues_end(first, core_most(bernstein) + error);
     const uint n = is_over ? 0u : end - first;
     bool has_failed = false;
@@ -32,12 +32,12 @@ core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvi
     candidate.lower = max(candidate.t - elvis_real(1e-3LF), elvis_real(0));
     candidate.upper = min(candidate.t + elvis_real(1e-3LF), elvis_real(1));
     // There is no second one.
-    core_walk_on(walk);
+    core_isolation_next(isolation);
     return candidate;
 }
 #else
-core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_walk walk) {
-    const core_crossing crossing = core_next_crossing(bernstein, error, core_n_isovalues, walk);
+core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_isolation isolation) {
+    const core_crossing crossing = core_next_crossing(bernstein, error, core_n_isovalues, isolation);
     return core_candidate(crossing.kind, crossing.index, crossing.t, crossing.lower, crossing.upper);
 }
 #endif

@@ -1,10 +1,10 @@
-// The parts of a ray in one element, one after the other, one evaluation of the mapping a turn.
+// The segments of a ray in one element, one after the other, one evaluation of the mapping an iteration.
 //
-// Each turn looks at an interval of the ray, [begin, end], up to which everything is decided: the ray is outside before `begin`, or,
+// Each iteration looks at an interval of the ray, [begin, end], up to which everything is decided: the ray is outside before `begin`, or,
 // once it has entered, inside. The mapping is evaluated at the point predicted for a parameter in the interval; that splits it
-// into what is outside, what is inside and what is open (segments/ray_model.glsl). The open piece around a single crossing is the
+// into what is outside, what is inside and what is open (segments/ray_model.glsl). The open interval around a single crossing is the
 // next interval, with the crossing as predicted as its parameter: Newton's method, whose bounds shrink quadratically. Where an
-// interval does not shrink by half its first half is next. So a part is found however often the ray crosses a face, and faces
+// interval does not shrink by half its first half is next. So a segment is found however often the ray crosses a face, and faces
 // are never extrapolated beyond where the bound holds.
 //
 // The first split comes from the linearized mapping without any evaluation (element/linearization.glsl); it dismisses most elements
@@ -24,15 +24,15 @@
 #ifndef CORE_ASSUMED_CURVATURE
 #define CORE_ASSUMED_CURVATURE elvis_real(4)
 #define CORE_CERTAIN_TURNS 64u
-#define CORE_PART_TURNS 128u
+#define CORE_SEGMENT_TURNS 128u
 #endif
 // In the record of core_links, behind the faces.
 #ifndef CORE_LINKS_CURVATURE
 #define CORE_LINKS_CURVATURE 7u
 #endif
 // A kernel without core_links has it from elsewhere.
-#ifndef CORE_PART_CURVATURE
-#define CORE_PART_CURVATURE(element) elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)))
+#ifndef CORE_SEGMENT_CURVATURE
+#define CORE_SEGMENT_CURVATURE(element) elvis_real(uintBitsToFloat(elvis_fetch_core_links(element, CORE_LINKS_CURVATURE)))
 #endif
 
 // Newton's method for where a ray enters: starts, and steps from each.
@@ -50,11 +50,11 @@
 #define CORE_HAS_CURVED 1
 #endif
 
-#define CORE_PART_OPEN 0u
-#define CORE_PART_FOUND 1u
-#define CORE_PART_NONE 2u
+#define CORE_SEGMENT_OPEN 0u
+#define CORE_SEGMENT_FOUND 1u
+#define CORE_SEGMENT_NONE 2u
 
-struct core_walk_ray {
+struct core_traced_ray {
     // Relative to the hierarchies' origin; any length.
     elvis_vec3 origin, direction;
     // Bound of the rounding of its points' coordinates.
@@ -65,12 +65,12 @@ struct core_walk_ray {
     elvis_real reach;
 };
 
-struct core_part {
+struct core_segment {
     uint element;
     bool is_inside, is_estimated, has_failed;
     // Inside as the neighbour says, which nothing has confirmed yet.
     bool is_assumed;
-    // From a point in the element (core_part_enter): predictions only count as far as they surely follow it.
+    // From a point in the element (core_segment_enter): predictions only count as far as they surely follow it.
     bool is_followed;
     // The interval, the end of what is open, and the parameter to evaluate at.
     elvis_real begin, end, last, next;
@@ -86,24 +86,24 @@ struct core_part {
     // Length of the step that led to it, and rounding of its coordinates.
     elvis_real step, noise;
     elvis_real curvature;
-    uint turns;
+    uint iterations;
 };
 
-elvis_vec3 core_part_target(core_walk_ray ray, uint element, elvis_real t) {
+elvis_vec3 core_segment_target(core_traced_ray ray, uint element, elvis_real t) {
     // elvis_origin is zero where the snippet's coordinates are the world's.
     return (CORE_CENTRE - elvis_origin(element)) + (ray.origin + t * ray.direction);
 }
 
 // Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
 // at `begin`, if it is in it after that at all: it is taken to be inside until a bound denies that.
-bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_part part) {
+bool core_segment_begin(core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_segment segment) {
     const core_linearization linearization = core_fetch_linearization(element);
     const bool is_linearized = linearization.exponents != 0u;
-    const elvis_vec3 first = core_part_target(ray, element, begin);
+    const elvis_vec3 first = core_segment_target(ray, element, begin);
     const elvis_vec3 second = first + ray.reach * ray.direction;
     const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(first)));
     const elvis_vec3 there = elvis_vec3(core_linear_inverse(linearization, vec3(second)));
-    const elvis_real curvature = CORE_PART_CURVATURE(element);
+    const elvis_real curvature = CORE_SEGMENT_CURVATURE(element);
     core_ray_model model;
     model.at = here;
     model.slope = (there - here) / ray.reach;
@@ -120,33 +120,33 @@ bool core_part_begin(core_walk_ray ray, uint element, elvis_real begin, elvis_re
     const bool is_sure =
         ELVIS_HAS_INSIDE == 0 && is_linearized && core_is_near(curvature, CORE_SHAPE_RADIUS) && clip.sure_from <= clip.sure_to;
 
-    part.element = element;
-    part.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
-    part.has_failed = false;
-    part.curvature = part.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
-    part.is_followed = false;
-    part.is_assumed = ELVIS_HAS_INSIDE == 0 && is_entered && !is_sure && clip.possible_from <= begin;
-    part.is_inside = part.is_assumed || (is_sure && (is_entered || clip.sure_from <= begin));
-    part.last = clip.possible_to;
-    part.begin = part.is_inside && is_sure ? clip.sure_to : clip.possible_from;
-    part.end = is_sure && !part.is_inside ? clip.sure_from : clip.possible_to;
-    part.next = elvis_real(0.5LF) * (part.begin + part.end);
-    part.known_from = is_sure ? clip.sure_from : elvis_real(3e38LF);
-    part.known_to = is_sure ? clip.sure_to : elvis_real(-3e38LF);
-    part.enter = begin;
-    part.enter_face = part.leave_face = CORE_NO_FACE;
-    part.enter_error = part.leave = part.leave_error = part.resume = elvis_real(0);
+    segment.element = element;
+    segment.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
+    segment.has_failed = false;
+    segment.curvature = segment.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
+    segment.is_followed = false;
+    segment.is_assumed = ELVIS_HAS_INSIDE == 0 && is_entered && !is_sure && clip.possible_from <= begin;
+    segment.is_inside = segment.is_assumed || (is_sure && (is_entered || clip.sure_from <= begin));
+    segment.last = clip.possible_to;
+    segment.begin = segment.is_inside && is_sure ? clip.sure_to : clip.possible_from;
+    segment.end = is_sure && !segment.is_inside ? clip.sure_from : clip.possible_to;
+    segment.next = elvis_real(0.5LF) * (segment.begin + segment.end);
+    segment.known_from = is_sure ? clip.sure_from : elvis_real(3e38LF);
+    segment.known_to = is_sure ? clip.sure_to : elvis_real(-3e38LF);
+    segment.enter = begin;
+    segment.enter_face = segment.leave_face = CORE_NO_FACE;
+    segment.enter_error = segment.leave = segment.leave_error = segment.resume = elvis_real(0);
     const elvis_vec3 middle = CORE_CENTROID;
-    part.x = is_linearized ? here.x : middle.x;
-    part.y = is_linearized ? here.y : middle.y;
-    part.z = is_linearized ? here.z : middle.z;
-    part.slope_x = is_linearized ? model.slope.x : elvis_real(0);
-    part.slope_y = is_linearized ? model.slope.y : elvis_real(0);
-    part.slope_z = is_linearized ? model.slope.z : elvis_real(0);
-    part.anchor = begin;
-    part.step = elvis_real(3e38LF);
-    part.noise = elvis_real(0);
-    part.turns = 0u;
+    segment.x = is_linearized ? here.x : middle.x;
+    segment.y = is_linearized ? here.y : middle.y;
+    segment.z = is_linearized ? here.z : middle.z;
+    segment.slope_x = is_linearized ? model.slope.x : elvis_real(0);
+    segment.slope_y = is_linearized ? model.slope.y : elvis_real(0);
+    segment.slope_z = is_linearized ? model.slope.z : elvis_real(0);
+    segment.anchor = begin;
+    segment.step = elvis_real(3e38LF);
+    segment.noise = elvis_real(0);
+    segment.iterations = 0u;
     return is_possible;
 }
 
@@ -157,17 +157,17 @@ elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / c
 // In elements so curved that a point outside of them may be taken for the ray's, the ray is followed from where it enters: there its
 // point lies in the element, and is found by Newton's method from one start after the other. False if it is not. `slack`: by how much of
 // the parameter it may be off.
-bool core_part_enter(core_walk_ray ray, elvis_real slack, inout core_part part) {
+bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segment segment) {
     uint start = 0u, steps = 0u;
     bool is_found = false;
-    elvis_real x = part.x, y = part.y, z = part.z;
+    elvis_real x = segment.x, y = segment.y, z = segment.z;
     core_project(x, y, z);
     while (!is_found && start < CORE_ENTRY_STARTS) {
         elvis_vec3 position;
         elvis_mat3 jacobian;
-        elvis_mapping_jacobian(part.element, elvis_vec3(x, y, z), position, jacobian);
+        elvis_mapping_jacobian(segment.element, elvis_vec3(x, y, z), position, jacobian);
         const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 step = core_to_xi(frame, core_part_target(ray, part.element, part.anchor) - position);
+        const elvis_vec3 step = core_to_xi(frame, core_segment_target(ray, segment.element, segment.anchor) - position);
         const elvis_vec3 slope = core_to_xi(frame, ray.direction);
         const elvis_real noise = core_max_norm(frame.xi_error);
         elvis_real next_x = x + step.x, next_y = y + step.y, next_z = z + step.z;
@@ -175,16 +175,16 @@ bool core_part_enter(core_walk_ray ray, elvis_real slack, inout core_part part) 
         const elvis_real size = core_max_norm(step);
         const bool is_there = frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
         const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope) +
-                                                             elvis_real(2) * part.curvature * size * size);
+                                                             elvis_real(2) * segment.curvature * size * size);
         steps += 1u;
-        part.turns += 1u;
+        segment.iterations += 1u;
         is_found = is_there && is_in;
-        part.x = is_found ? next_x : part.x;
-        part.y = is_found ? next_y : part.y;
-        part.z = is_found ? next_z : part.z;
-        part.slope_x = is_found ? slope.x : part.slope_x;
-        part.slope_y = is_found ? slope.y : part.slope_y;
-        part.slope_z = is_found ? slope.z : part.slope_z;
+        segment.x = is_found ? next_x : segment.x;
+        segment.y = is_found ? next_y : segment.y;
+        segment.z = is_found ? next_z : segment.z;
+        segment.slope_x = is_found ? slope.x : segment.slope_x;
+        segment.slope_y = is_found ? slope.y : segment.slope_y;
+        segment.slope_z = is_found ? slope.z : segment.slope_z;
         // From the centroid, then from near the corners.
         const bool is_failed = !frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTRY_STEPS;
         const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
@@ -198,25 +198,25 @@ bool core_part_enter(core_walk_ray ray, elvis_real slack, inout core_part part) 
         y = next_y;
         z = next_z;
     }
-    const elvis_real rate = max(max(abs(part.slope_x), abs(part.slope_y)), abs(part.slope_z));
-    part.is_followed = is_found;
-    part.is_inside = part.is_inside || is_found;
-    part.is_assumed = is_found;
-    part.begin = is_found ? part.anchor : part.begin;
-    part.last = max(part.last, part.begin);
-    part.end = is_found ? min(part.last, part.anchor + core_follow_span(part.curvature) / rate) : part.end;
-    part.next = is_found ? elvis_real(0.5LF) * (part.begin + part.end) : part.next;
+    const elvis_real rate = max(max(abs(segment.slope_x), abs(segment.slope_y)), abs(segment.slope_z));
+    segment.is_followed = is_found;
+    segment.is_inside = segment.is_inside || is_found;
+    segment.is_assumed = is_found;
+    segment.begin = is_found ? segment.anchor : segment.begin;
+    segment.last = max(segment.last, segment.begin);
+    segment.end = is_found ? min(segment.last, segment.anchor + core_follow_span(segment.curvature) / rate) : segment.end;
+    segment.next = is_found ? elvis_real(0.5LF) * (segment.begin + segment.end) : segment.next;
     return is_found;
 }
 
 // Before the entry: where the interval is open, and whether the ray enters in it.
-void core_seek_entry(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_part part) {
-    const elvis_real begin = part.begin, end = part.end;
+void core_seek_entry(core_traced_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_segment segment) {
+    const elvis_real begin = segment.begin, end = segment.end;
     const bool is_nothing = clip.possible_from > clip.possible_to;
-    part.last = end == part.last ? (is_nothing ? begin : clip.possible_to) : part.last;
-    const bool is_joined = clip.sure_to >= end && part.known_from <= end;
-    part.known_to = is_sure && !is_joined ? clip.sure_to : part.known_to;
-    part.known_from = is_sure ? clip.sure_from : part.known_from;
+    segment.last = end == segment.last ? (is_nothing ? begin : clip.possible_to) : segment.last;
+    const bool is_joined = clip.sure_to >= end && segment.known_from <= end;
+    segment.known_to = is_sure && !is_joined ? clip.sure_to : segment.known_to;
+    segment.known_from = is_sure ? clip.sure_from : segment.known_from;
     const bool is_found = !is_nothing && is_sure && (is_exact || clip.sure_from - clip.possible_from <= ray.tolerance);
 
     const elvis_real open_end = is_sure ? clip.sure_from : clip.possible_to;
@@ -225,36 +225,36 @@ void core_seek_entry(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool i
     // Too short to matter, and not decided: left out.
     const bool is_left_out = !is_nothing && !is_found && open_end - clip.possible_from <= ray.tolerance;
     const bool is_over = is_nothing || is_left_out;
-    part.enter = is_found ? clamp(clip.from, clip.possible_from, clip.sure_from) : part.enter;
-    part.enter_error = is_found ? error : part.enter_error;
-    part.enter_face = is_found ? clip.from_face : part.enter_face;
-    part.is_inside = is_found;
-    part.begin = is_found ? part.known_to : is_nothing ? end : is_left_out ? open_end : clip.possible_from;
-    const bool is_bounded = part.known_to == clip.sure_to && clip.possible_to < end;
+    segment.enter = is_found ? clamp(clip.from, clip.possible_from, clip.sure_from) : segment.enter;
+    segment.enter_error = is_found ? error : segment.enter_error;
+    segment.enter_face = is_found ? clip.from_face : segment.enter_face;
+    segment.is_inside = is_found;
+    segment.begin = is_found ? segment.known_to : is_nothing ? end : is_left_out ? open_end : clip.possible_from;
+    const bool is_bounded = segment.known_to == clip.sure_to && clip.possible_to < end;
     // Twice as far as what was decided.
-    const elvis_real farther = min(part.last, end + elvis_real(2) * (end - begin));
-    part.end = is_found ? (is_bounded ? clip.possible_to : part.last) : is_over ? farther : is_shrunk ? open_end : middle;
+    const elvis_real farther = min(segment.last, end + elvis_real(2) * (end - begin));
+    segment.end = is_found ? (is_bounded ? clip.possible_to : segment.last) : is_over ? farther : is_shrunk ? open_end : middle;
 #if ELVIS_HAS_INSIDE
     // What is left may be rounding's alone, along which faces do not bound: where the ray leaves is looked for from further inside.
-    const elvis_real further = max(part.known_to - elvis_real(4) * (part.end - part.known_to), clip.sure_from);
-    part.begin = is_found && is_bounded ? min(part.begin, further) : part.begin;
+    const elvis_real further = max(segment.known_to - elvis_real(4) * (segment.end - segment.known_to), clip.sure_from);
+    segment.begin = is_found && is_bounded ? min(segment.begin, further) : segment.begin;
 #endif
-    part.next = is_found || is_over || !is_sure || !is_shrunk ? elvis_real(0.5LF) * (part.begin + part.end)
-                                                              : clamp(clip.from, part.begin, part.end);
+    segment.next = is_found || is_over || !is_sure || !is_shrunk ? elvis_real(0.5LF) * (segment.begin + segment.end)
+                                                              : clamp(clip.from, segment.begin, segment.end);
 }
 
 // Inside: where the ray leaves. True if that is found.
-bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_part part) {
-    const elvis_real begin = part.begin, end = part.end;
+bool core_seek_exit(core_traced_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_segment segment) {
+    const elvis_real begin = segment.begin, end = segment.end;
     const bool is_contradicted = clip.possible_from > min(clip.possible_to, begin + ray.tolerance);
     const bool is_continued = is_sure && clip.sure_from <= begin + ray.tolerance;
-    part.last = end == part.last && !is_contradicted ? clip.possible_to : part.last;
+    segment.last = end == segment.last && !is_contradicted ? clip.possible_to : segment.last;
     const bool is_all_inside = is_continued && clip.sure_to >= end;
-    const bool is_last = is_all_inside && end >= part.last;
+    const bool is_last = is_all_inside && end >= segment.last;
     // Rounding may say that the ray is out already where it was surely inside.
     const bool is_at_begin = is_exact && clip.to <= begin + error && clip.to >= begin - error && clip.from <= clip.to;
     // Where nothing but the interval ends, the ray may go on.
-    const bool is_cut_off = clip.to_face == CORE_NO_FACE && end < part.last;
+    const bool is_cut_off = clip.to_face == CORE_NO_FACE && end < segment.last;
     const bool is_narrow = clip.possible_to - clip.sure_to <= ray.tolerance && !is_cut_off;
     const bool is_found = is_at_begin || (is_continued && !is_all_inside && (is_exact || is_narrow));
     const elvis_real open_begin = is_continued ? clip.sure_to : begin;
@@ -262,29 +262,29 @@ bool core_seek_exit(core_walk_ray ray, core_ray_clip clip, bool is_sure, bool is
     // Too short to matter, and not decided: as predicted.
     const bool is_short = !is_all_inside && !is_found && open_end - open_begin <= ray.tolerance;
     const elvis_real middle = elvis_real(0.5LF) * (open_begin + open_end);
-    const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < part.last;
+    const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < segment.last;
     const bool is_shrunk = open_end - open_begin <= elvis_real(0.5LF) * (end - begin);
     const bool is_over = is_contradicted || is_last || is_found || (is_short && !is_passed);
-    part.leave = is_contradicted && !is_at_begin ? begin : is_at_begin ? clip.to : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
-    part.leave_error = is_found ? error : ray.tolerance;
-    part.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
-    part.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
-    part.begin = is_all_inside ? end : is_passed ? open_end : open_begin;
+    segment.leave = is_contradicted && !is_at_begin ? begin : is_at_begin ? clip.to : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
+    segment.leave_error = is_found ? error : ray.tolerance;
+    segment.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
+    segment.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
+    segment.begin = is_all_inside ? end : is_passed ? open_end : open_begin;
     // Twice as far as what was decided.
-    part.end = is_all_inside ? min(part.last, end + elvis_real(2) * (end - begin))
-               : is_passed   ? min(part.last, open_end + elvis_real(2) * ray.tolerance)
+    segment.end = is_all_inside ? min(segment.last, end + elvis_real(2) * (end - begin))
+               : is_passed   ? min(segment.last, open_end + elvis_real(2) * ray.tolerance)
                : is_shrunk   ? open_end
                              : middle;
-    part.next = is_continued && is_shrunk && !is_all_inside && !is_passed ? clamp(clip.to, part.begin, part.end)
-                                                             : elvis_real(0.5LF) * (part.begin + part.end);
+    segment.next = is_continued && is_shrunk && !is_all_inside && !is_passed ? clamp(clip.to, segment.begin, segment.end)
+                                                             : elvis_real(0.5LF) * (segment.begin + segment.end);
     return is_over;
 }
 
-// One turn. CORE_PART_FOUND: from part.enter to part.leave. `is_active`: false for lanes that have nothing to do.
-uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
-    const uint element = is_active ? part.element : 0u;
-    const elvis_real since = part.next - part.anchor;
-    elvis_real x = part.x + since * part.slope_x, y = part.y + since * part.slope_y, z = part.z + since * part.slope_z;
+// One turn. CORE_SEGMENT_FOUND: from part.enter to part.leave. `is_active`: false for lanes that have nothing to do.
+uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segment segment) {
+    const uint element = is_active ? segment.element : 0u;
+    const elvis_real since = segment.next - segment.anchor;
+    elvis_real x = segment.x + since * segment.slope_x, y = segment.y + since * segment.slope_y, z = segment.z + since * segment.slope_z;
     const elvis_vec3 predicted = elvis_vec3(x, y, z);
     core_project(x, y, z);
     const bool was_outside = x != predicted.x || y != predicted.y || z != predicted.z;
@@ -294,38 +294,38 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     const core_frame frame = core_frame_at(position, jacobian, ray.error);
 
     core_ray_model model;
-    model.step = core_to_xi(frame, core_part_target(ray, element, part.next) - position);
+    model.step = core_to_xi(frame, core_segment_target(ray, element, segment.next) - position);
     model.at = elvis_vec3(x, y, z) + model.step;
     model.slope = core_to_xi(frame, ray.direction);
-    model.anchor = part.next;
+    model.anchor = segment.next;
     model.noise = frame.xi_error;
     const bool is_sound = frame.is_sound && core_is_finite(model.step.x + model.step.y + model.step.z);
 
-    part.turns += 1u;
-    const bool is_certain = part.turns <= CORE_CERTAIN_TURNS * CORE_TURNS_SHARE;
-    part.is_estimated = part.is_estimated || !is_certain;
-    const elvis_real curvature = is_certain ? part.curvature
-                                 : part.curvature *
-                                       (part.turns < CORE_CERTAIN_TURNS * CORE_TURNS_SHARE + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
-    const elvis_real step = max(core_model_step(model, part.begin), core_model_step(model, part.end));
+    segment.iterations += 1u;
+    const bool is_certain = segment.iterations <= CORE_CERTAIN_TURNS * CORE_TURNS_SHARE;
+    segment.is_estimated = segment.is_estimated || !is_certain;
+    const elvis_real curvature = is_certain ? segment.curvature
+                                 : segment.curvature *
+                                       (segment.iterations < CORE_CERTAIN_TURNS * CORE_TURNS_SHARE + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
+    const elvis_real step = max(core_model_step(model, segment.begin), core_model_step(model, segment.end));
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
     const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);
-    const elvis_real along = max(max(slope.x, slope.y), slope.z) * (part.end - part.begin);
+    const elvis_real along = max(max(slope.x, slope.y), slope.z) * (segment.end - segment.begin);
     const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
 #if ELVIS_HAS_INSIDE
     core_take_inside(model, element, elvis_vec3(x, y, z), step + bound);
 #endif
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
-    core_ray_clip clip = core_clip_ray(model, was_outside && !part.is_inside && part.turns > 1u ? min(bound, agreed) : bound,
-                                       core_slope_change(model, curvature, distance), part.is_inside, part.is_followed || !part.is_assumed, part.begin,
-                                       part.end);
+    core_ray_clip clip = core_clip_ray(model, was_outside && !segment.is_inside && segment.iterations > 1u ? min(bound, agreed) : bound,
+                                       core_slope_change(model, curvature, distance), segment.is_inside, segment.is_followed || !segment.is_assumed, segment.begin,
+                                       segment.end);
     const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
     // Where nothing is known, anything is possible.
-    clip.possible_from = is_sound ? clip.possible_from : part.begin;
-    clip.possible_to = is_sound ? clip.possible_to : part.end;
+    clip.possible_from = is_sound ? clip.possible_from : segment.begin;
+    clip.possible_to = is_sound ? clip.possible_to : segment.end;
 
-    const bool was_inside = part.is_inside;
+    const bool was_inside = segment.is_inside;
     const int face = was_inside ? clip.to_face : clip.from_face;
     const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
     bool is_exact = is_sound && face >= 0 && core_is_near(curvature, core_model_step(model, was_inside ? clip.to : clip.from)) &&
@@ -337,38 +337,38 @@ uint core_part_turn(core_walk_ray ray, bool is_active, inout core_part part) {
     // No more is wanted of its place than rounding leaves.
     ray.tolerance = own_holds ? max(ray.tolerance, min(core_own_blur(model), CORE_MOST_BLUR * ray.tolerance)) : ray.tolerance;
 #endif
-    const bool is_denied = part.is_assumed && clip.possible_from > min(clip.possible_to, part.begin + ray.tolerance);
-    const bool is_confirmed = is_sure && clip.sure_from <= part.begin + ray.tolerance;
+    const bool is_denied = segment.is_assumed && clip.possible_from > min(clip.possible_to, segment.begin + ray.tolerance);
+    const bool is_confirmed = is_sure && clip.sure_from <= segment.begin + ray.tolerance;
     const bool is_kept_in = was_inside && !is_denied;
-    part.is_assumed = part.is_assumed && is_kept_in && !is_confirmed;
+    segment.is_assumed = segment.is_assumed && is_kept_in && !is_confirmed;
     bool has_left = false;
     if (is_kept_in) {
-        has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, part);
+        has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, segment);
     }
     if (!is_kept_in) {
-        core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, part);
+        core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, segment);
     }
-    part.is_followed = part.is_followed && !is_denied;
-    const bool is_anchor = is_sound && (!part.is_followed || core_is_near(curvature, core_max_norm(model.step)));
-    part.x = is_anchor ? model.at.x : part.x;
-    part.y = is_anchor ? model.at.y : part.y;
-    part.z = is_anchor ? model.at.z : part.z;
-    part.slope_x = is_anchor ? model.slope.x : part.slope_x;
-    part.slope_y = is_anchor ? model.slope.y : part.slope_y;
-    part.slope_z = is_anchor ? model.slope.z : part.slope_z;
-    part.anchor = is_anchor ? model.anchor : part.anchor;
-    part.step = is_anchor ? core_model_step(model, model.anchor) : part.step;
-    part.noise = is_anchor ? core_max_norm(model.noise) : part.noise;
-    const elvis_real rate = max(max(abs(part.slope_x), abs(part.slope_y)), abs(part.slope_z));
-    const elvis_real follow_end = max(part.anchor + core_follow_span(part.curvature) / rate, part.begin + ray.tolerance);
-    const bool is_too_far = part.is_followed && follow_end < part.end;
-    part.end = is_too_far ? follow_end : part.end;
-    part.next = is_too_far ? clamp(part.next, part.begin, part.end) : part.next;
+    segment.is_followed = segment.is_followed && !is_denied;
+    const bool is_anchor = is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.step)));
+    segment.x = is_anchor ? model.at.x : segment.x;
+    segment.y = is_anchor ? model.at.y : segment.y;
+    segment.z = is_anchor ? model.at.z : segment.z;
+    segment.slope_x = is_anchor ? model.slope.x : segment.slope_x;
+    segment.slope_y = is_anchor ? model.slope.y : segment.slope_y;
+    segment.slope_z = is_anchor ? model.slope.z : segment.slope_z;
+    segment.anchor = is_anchor ? model.anchor : segment.anchor;
+    segment.step = is_anchor ? core_model_step(model, model.anchor) : segment.step;
+    segment.noise = is_anchor ? core_max_norm(model.noise) : segment.noise;
+    const elvis_real rate = max(max(abs(segment.slope_x), abs(segment.slope_y)), abs(segment.slope_z));
+    const elvis_real follow_end = max(segment.anchor + core_follow_span(segment.curvature) / rate, segment.begin + ray.tolerance);
+    const bool is_too_far = segment.is_followed && follow_end < segment.end;
+    segment.end = is_too_far ? follow_end : segment.end;
+    segment.next = is_too_far ? clamp(segment.next, segment.begin, segment.end) : segment.next;
 
-    const bool is_given_up = part.turns >= CORE_PART_TURNS * CORE_TURNS_SHARE;
+    const bool is_given_up = segment.iterations >= CORE_SEGMENT_TURNS * CORE_TURNS_SHARE;
     const bool is_found = is_kept_in && (has_left || is_given_up);
-    part.has_failed = is_given_up && !has_left;
-    const bool is_last = !is_kept_in && !part.is_inside && (part.begin >= part.last || is_given_up);
-    part.resume = is_given_up && !has_left ? part.last : part.resume;
-    return is_found ? CORE_PART_FOUND : is_last ? CORE_PART_NONE : CORE_PART_OPEN;
+    segment.has_failed = is_given_up && !has_left;
+    const bool is_last = !is_kept_in && !segment.is_inside && (segment.begin >= segment.last || is_given_up);
+    segment.resume = is_given_up && !has_left ? segment.last : segment.resume;
+    return is_found ? CORE_SEGMENT_FOUND : is_last ? CORE_SEGMENT_NONE : CORE_SEGMENT_OPEN;
 }

@@ -1,14 +1,14 @@
 // Where a ray has got to (segments/walk_state.glsl), with what is to be told of its segments.
 
-#ifndef CORE_SEGMENT_STATE
-#define CORE_SEGMENT_STATE
+#ifndef CORE_RAY_SEGMENT_STATE
+#define CORE_RAY_SEGMENT_STATE
 
 #include "segments/walk_state.glsl"
 
 struct core_segment_state {
-    elvis_real done, chain, start;
+    elvis_real done, walk, start;
     // Bounds of the errors of the first two.
-    elvis_real done_error, chain_error;
+    elvis_real done_error, walk_error;
     // Of the segments' lengths, as parameters.
     elvis_real sum;
     uint start_element, element;

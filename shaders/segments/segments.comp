@@ -1,4 +1,4 @@
-// Segments of rays: their parts inside of elements, front to back, without overlaps (segments/neighbour_walk.glsl). Where chains of elements
+// Segments of rays: their parts inside of elements, front to back, without overlaps (segments/neighbour_walk.glsl). Where walks of elements
 // overlap, the one entered first owns the ray to its exit, and of the others counts what is left beyond it.
 //
 // One invocation a ray, for the elements of one class. That one element is left where the next one is entered shows as two
@@ -10,15 +10,15 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "segments/segment_state.glsl"
 
 layout(set = 0, binding = 1, std430) buffer core_states_block { core_segment_state core_states[]; };
-struct core_segment {
+struct core_segment_record {
     elvis_real enter, leave, error;
     // CORE_ESTIMATED_SEGMENT where its ends are.
     uint element;
 };
 #define CORE_ESTIMATED_SEGMENT 0x80000000u
 // core_capacity of them a ray.
-layout(set = 0, binding = 2, std430) buffer core_segments_block { core_segment core_segments[]; };
-// Rays that this dispatch has moved, segments, evaluations, overlaps, failures, estimated segments, breaks of chains, rays whose list is
+layout(set = 0, binding = 2, std430) buffer core_segments_block { core_segment_record core_segments[]; };
+// Rays that this dispatch has moved, segments, evaluations, overlaps, failures, estimated segments, breaks of walks, rays whose list is
 // full.
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_parameters {
@@ -37,7 +37,7 @@ layout(push_constant) uniform core_parameters {
 #include "arithmetic/driver_limit.glsl"
 #define CORE_ASSUMED_CURVATURE elvis_real(64)
 #define CORE_CERTAIN_TURNS 512u
-#define CORE_PART_TURNS 640u
+#define CORE_SEGMENT_TURNS 640u
 #include "segments/segment.glsl"
 #include "segments/traced_ray.glsl"
 #include "segments/neighbour_walk.glsl"
@@ -45,7 +45,7 @@ layout(push_constant) uniform core_parameters {
 // Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 256u
 #define CORE_WORK_LIMIT 2500u
-// Over the tolerance of ends: how far apart parts of a chain may be where a ray runs through edges.
+// Over the tolerance of ends: how far apart parts of a walk may be where a ray runs through edges.
 #define CORE_WIDEST_BREAK 64
 
 void main() {
@@ -53,92 +53,92 @@ void main() {
     const bool is_ray = column < core_size.x && row < core_size.y;
     const uint index = is_ray ? row * core_size.x + column : 0u;
     core_segment_state state = core_states[index];
-    const core_walk_ray ray = core_walk_ray_of(core_chain_ray(column, row, index), elvis_real(core_extent));
-    const elvis_real to = core_chain_ray_end(index);
-    core_chain chain = core_chain(state.done, state.chain, state.start, state.start_element, state.element,
+    const core_traced_ray ray = core_traced_ray_of(core_source_ray(column, row, index), elvis_real(core_extent));
+    const elvis_real to = core_source_ray_end(index);
+    core_walk walk = core_walk(state.done, state.walk, state.start, state.start_element, state.element,
                                   is_ray ? state.status : CORE_RAY_ENDS, 0u, false, false, false, false);
     bool is_mine;
-    bool goes = core_chain_begin(chain, to, CORE_RAY_ENDS, is_mine);
-    elvis_real done_error = state.done_error, chain_error = state.chain_error, sum = state.sum;
+    bool goes = core_walk_begin(walk, to, CORE_RAY_ENDS, is_mine);
+    elvis_real done_error = state.done_error, walk_error = state.walk_error, sum = state.sum;
     bool is_done_estimated = state.is_estimated != 0u;
-    bool is_first = is_mine && chain.at == chain.start;
+    bool is_first = is_mine && walk.at == walk.start;
     uint n_segments = state.n_segments, flags = 0u;
     uint n_elements = 0u, n_made = 0u, n_evaluations = 0u, n_overlaps = 0u, n_failures = 0u, n_estimated = 0u, n_breaks = 0u;
-    core_part part;
-    part.element = 0u;
-    part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
-    part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
-    part.turns = 0u;
+    core_segment segment;
+    segment.element = 0u;
+    segment.next = segment.anchor = segment.x = segment.y = segment.z = elvis_real(0);
+    segment.slope_x = segment.slope_y = segment.slope_z = elvis_real(0);
+    segment.iterations = 0u;
     const uint most = core_capacity > 0u ? core_capacity : 0xffffffffu;
     // What few rays need stands outside of the loop over elements (segments/neighbour_walk.glsl).
     while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
         while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && n_segments < most) {
             n_elements += 1u;
-            const core_reach reach = core_chain_reach(ray, chain, part);
+            const core_reach reach = core_walk_reach(ray, walk, segment);
             flags |= reach.flags;
-            n_evaluations += part.turns;
-            n_failures += chain.needs_roughly ? 1u : 0u;
-            const elvis_real leave_error = reach.is_met ? part.leave_error : chain_error;
+            n_evaluations += segment.iterations;
+            n_failures += walk.needs_roughly ? 1u : 0u;
+            const elvis_real leave_error = reach.is_met ? segment.leave_error : walk_error;
             const elvis_real errors = done_error + leave_error;
-            // A chain that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
-            const elvis_real rounding = elvis_real(2) * (done_error + chain_error), gap = chain.at - chain.done;
+            // A walk that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
+            const elvis_real rounding = elvis_real(2) * (done_error + walk_error), gap = walk.at - walk.done;
             const bool is_joined = gap <= max(rounding, (is_first ? elvis_real(1) : elvis_real(CORE_WIDEST_BREAK)) * ray.tolerance);
             const bool is_behind = gap < elvis_real(0);
-            n_overlaps += reach.is_met && gap < -rounding && reach.leave - chain.at > errors ? 1u : 0u;
-            const elvis_real from = is_joined ? chain.done : chain.at, until = min(reach.leave, to);
+            n_overlaps += reach.is_met && gap < -rounding && reach.leave - walk.at > errors ? 1u : 0u;
+            const elvis_real from = is_joined ? walk.done : walk.at, until = min(reach.leave, to);
             // What was settled before but for rounding does not count.
             const bool is_segment = reach.is_met && until - from > (is_behind ? errors : elvis_real(0));
             // Where the ray has left the element before is somewhere on the way to here.
-            const bool is_uncertain = chain.is_ahead && (chain.n_lost > 1u || part.leave <= chain.at + ray.tolerance);
+            const bool is_uncertain = walk.is_ahead && (walk.n_lost > 1u || segment.leave <= walk.at + ray.tolerance);
             if (is_uncertain && n_segments > 0u && core_capacity > 0u) {
                 core_segments[index * core_capacity + n_segments - 1u].element |= CORE_ESTIMATED_SEGMENT;
             }
-            const bool is_own_estimated = part.is_estimated || is_uncertain;
+            const bool is_own_estimated = segment.is_estimated || is_uncertain;
             const bool is_estimated = is_own_estimated || (is_joined && is_done_estimated);
             if (is_segment && core_capacity > 0u) {
-                const uint word = chain.element | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
+                const uint word = walk.element | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u);
                 core_segments[index * core_capacity + n_segments] =
-                    core_segment(from, until, max(is_joined ? done_error : chain_error, leave_error), word);
+                    core_segment_record(from, until, max(is_joined ? done_error : walk_error, leave_error), word);
             }
             sum += is_segment ? until - from : elvis_real(0);
             n_segments += is_segment ? 1u : 0u;
             n_made += is_segment ? 1u : 0u;
             n_estimated += is_segment && is_estimated ? 1u : 0u;
-            chain.done = is_segment ? until : chain.done;
-            is_done_estimated = is_segment ? is_own_estimated : is_done_estimated || is_uncertain || (reach.is_met && part.is_estimated);
+            walk.done = is_segment ? until : walk.done;
+            is_done_estimated = is_segment ? is_own_estimated : is_done_estimated || is_uncertain || (reach.is_met && segment.is_estimated);
             done_error = is_segment ? leave_error : done_error;
-            chain_error = leave_error;
-            is_first = is_first && chain.needs_roughly;
+            walk_error = leave_error;
+            is_first = is_first && walk.needs_roughly;
             const bool is_over = reach.is_met && reach.leave >= to;
             if (!is_over) {
-                core_chain_go_on(ray, chain, part, reach, from);
+                core_walk_go_on(ray, walk, segment, reach, from);
             }
-            n_breaks += chain.needs_element ? 1u : 0u;
-            chain.status = is_over ? CORE_RAY_ENDS : chain.status;
-            goes = core_chain_goes(chain);
-            if (!goes || subgroupAny(core_chain_needs_help(chain))) {
+            n_breaks += walk.needs_element ? 1u : 0u;
+            walk.status = is_over ? CORE_RAY_ENDS : walk.status;
+            goes = core_walk_goes(walk);
+            if (!goes || subgroupAny(core_walk_needs_help(walk))) {
                 break;
             }
         }
-        core_chain_help(ray, chain, part, flags);
-        goes = core_chain_goes(chain);
+        core_walk_help(ray, walk, segment, flags);
+        goes = core_walk_goes(walk);
         if (!goes) {
             break;
         }
     }
-    const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = chain.status == CORE_RAY_SEEKS;
+    const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = walk.status == CORE_RAY_SEEKS;
     const bool is_full = n_segments >= most;
     flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
     if (is_mine) {
-        state.done = chain.done;
-        state.chain = seeks ? CORE_FAR : chain.at;
-        state.start = chain.start;
-        state.start_element = chain.start_element;
+        state.done = walk.done;
+        state.walk = seeks ? CORE_FAR : walk.at;
+        state.start = walk.start;
+        state.start_element = walk.start_element;
         state.done_error = done_error;
-        state.chain_error = chain_error;
+        state.walk_error = walk_error;
         state.sum = sum;
-        state.element = seeks ? CORE_NO_ELEMENT : chain.element;
-        state.status = is_cut_short ? CORE_RAY_ENDS : chain.status;
+        state.element = seeks ? CORE_NO_ELEMENT : walk.element;
+        state.status = is_cut_short ? CORE_RAY_ENDS : walk.status;
         state.flags |= flags;
         state.n_segments = n_segments;
         state.is_estimated = is_done_estimated ? 1u : 0u;

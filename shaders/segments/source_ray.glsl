@@ -21,7 +21,7 @@ layout(set = 0, binding = CORE_RAYS_BINDING, std430) readonly buffer core_rays_b
 #endif
 
 // `index`: row * core_size.x + column.
-core_ray core_chain_ray(uint column, uint row, uint index) {
+core_ray core_source_ray(uint column, uint row, uint index) {
 #if CORE_RAYS_ARE_GIVEN
     const elvis_vec4 first = core_rays[2u * index];
     core_ray ray;
@@ -41,7 +41,7 @@ core_ray core_chain_ray(uint column, uint row, uint index) {
 }
 
 // Where the ray ends.
-elvis_real core_chain_ray_end(uint index) {
+elvis_real core_source_ray_end(uint index) {
 #if CORE_RAYS_ARE_GIVEN
     return core_rays[2u * index + 1u].w;
 #else

@@ -11,11 +11,11 @@
 
 // In [begin, end], where the ray meets the element's box. `from`: starts before it do not count; `is_taken`: the start there is one through
 // a face of this element.
-bool core_may_start(core_walk_ray ray, uint element, elvis_real begin, elvis_real end, elvis_real from, bool is_taken) {
+bool core_may_start(core_traced_ray ray, uint element, elvis_real begin, elvis_real end, elvis_real from, bool is_taken) {
     const core_linearization linearization = core_fetch_linearization(element);
-    const elvis_real curvature = CORE_PART_CURVATURE(element);
-    const core_chain_motion motion = core_motion_along(linearization, curvature, ray.direction);
-    const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(core_part_target(ray, element, begin))));
+    const elvis_real curvature = CORE_SEGMENT_CURVATURE(element);
+    const core_ray_motion motion = core_motion_along(linearization, curvature, ray.direction);
+    const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(core_segment_target(ray, element, begin))));
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
     // Where all constraints may hold; where the ray may meet the faces without neighbour.
     elvis_real possible_from = max(begin, from - elvis_real(2) * ray.tolerance) - begin, possible_to = end - begin;

@@ -10,8 +10,8 @@
 #define CORE_ROUNDING_SHARE elvis_real(0.125LF)
 
 // `extent`: the diagonal of the volume's bounds.
-core_walk_ray core_walk_ray_of(core_ray pixel_ray, elvis_real extent) {
-    core_walk_ray ray;
+core_traced_ray core_traced_ray_of(core_ray pixel_ray, elvis_real extent) {
+    core_traced_ray ray;
     ray.origin = pixel_ray.origin;
     ray.direction = pixel_ray.direction;
     ray.speed = length(pixel_ray.direction);

@@ -1,11 +1,11 @@
-// Rays go through a volume in chains: into it through a face without known neighbour (or where the eye is), then through shared faces
-// from element to element, until they leave through a face without neighbour. Then the next chain is looked for, in the order of where
-// they begin. Parts that another chain has settled before do not count again.
+// Rays go through a volume in walks: into it through a face without known neighbour (or where the eye is), then through shared faces
+// from element to element, until they leave through a face without neighbour. Then the next walk is looked for, in the order of where
+// they begin. Parts that another walk has settled before do not count again.
 //
 // So a ray's way is a state that goes from dispatch to dispatch, and from one element class to another.
 
-#ifndef CORE_CHAIN_STATE
-#define CORE_CHAIN_STATE
+#ifndef CORE_WALK_STATE
+#define CORE_WALK_STATE
 
 #define CORE_RAY_SEEKS 0u
 #define CORE_RAY_GOES 1u
@@ -18,19 +18,19 @@
 #define CORE_NO_ELEMENT 0xffffffffu
 #define CORE_NO_LINK 0xffffffffu
 
-struct core_chain {
-    // Up to here everything is settled; where the chain has got to; where it began, and the element in which it began.
+struct core_walk {
+    // Up to here everything is settled; where the walk has got to; where it began, and the element in which it began.
     elvis_real done, at, start;
     uint start_element;
-    // Of all elements of the volume: the chain's next one; of a ray that seeks, that of the nearest start found so far.
+    // Of all elements of the volume: the walk's next one; of a ray that seeks, that of the nearest start found so far.
     uint element;
     uint status;
     // How often on end the element was not met where it was to be.
     uint n_lost;
-    // What few rays need (core_chain_help): where it leaves an element without bounds, and the element around it.
+    // What few rays need (core_walk_help): where it leaves an element without bounds, and the element around it.
     bool needs_roughly, needs_element;
     // Where it leaves is known already, roughly.
-    bool has_part;
+    bool has_segment;
     // It has been moved ahead, to where the element around it was found.
     bool is_ahead;
 };

@@ -40,13 +40,13 @@ layout(std430, set = 0, binding = 2) buffer core_has_starts_block { uint core_ha
 #elif defined(CORE_TESTS_STARTS)
 #include "segments/walk_leaf_test.glsl"
 #else
-bool core_leaf_is_met(uint item, core_beam beam, vec2 span) { return true; }
+bool core_leaf_is_met(uint item, core_frustum frustum, vec2 span) { return true; }
 #endif
 
 void main() {
     const uint tile = core_first_tile + gl_GlobalInvocationID.x;
     const bool is_wanted = tile < core_end_tile;
-    const core_beam beam = core_tile_beam(elvis_real((tile % core_tiles_per_row) * CORE_TILE_WIDTH),
+    const core_frustum frustum = core_tile_frustum(elvis_real((tile % core_tiles_per_row) * CORE_TILE_WIDTH),
                                           elvis_real((tile / core_tiles_per_row) * CORE_TILE_HEIGHT), CORE_TILE_WIDTH,
                                           CORE_TILE_HEIGHT);
     uint stack[CORE_STACK_SIZE];
@@ -59,11 +59,11 @@ void main() {
         stack_size -= 1u;
         const uint index = stack[stack_size];
         const core_node node = core_fetch_node(index);
-        const vec2 span = core_beam_span(node, beam);
+        const vec2 span = core_frustum_span(node, frustum);
         const float entry = span.x;
         bool is_met = entry < 3.2e38;
         if (is_met && node.is_leaf) {
-            is_met = core_leaf_is_met(node.child, beam, span);
+            is_met = core_leaf_is_met(node.child, frustum, span);
         }
         // A node that could leave too many entries behind stays an entry itself, for the pixels to descend from.
         const bool is_entry = node.is_leaf || n_entries + stack_size + 2u > CORE_TILE_CAPACITY;
@@ -82,7 +82,7 @@ void main() {
         if (is_met && !is_entry) {
             // The nearer one first, so that far ones stay unopened where there are too many.
             const core_node one = core_fetch_node(node.child), other = core_fetch_node(node.child + 1u);
-            const bool is_first_nearer = dot(beam.axis, one.lower + one.upper) < dot(beam.axis, other.lower + other.upper);
+            const bool is_first_nearer = dot(frustum.axis, one.lower + one.upper) < dot(frustum.axis, other.lower + other.upper);
             stack[stack_size] = node.child + (is_first_nearer ? 1u : 0u);
             stack[stack_size + 1u] = node.child + (is_first_nearer ? 0u : 1u);
             stack_size += 2u;

@@ -16,7 +16,7 @@ void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     core_volume_state state;
     state.done = -CORE_FAR;
-    state.chain = state.step = CORE_FAR;
+    state.walk = state.step = CORE_FAR;
     state.start = -CORE_FAR;
     state.red = state.green = state.blue = state.error = elvis_real(0);
     state.left = elvis_real(1);

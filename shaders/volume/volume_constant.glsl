@@ -7,37 +7,37 @@
 
 // Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `part`: as the search for where the
 // ray leaves has left it.
-elvis_vec2 core_level_range(core_part part, elvis_real from, elvis_real until) {
-    const core_level_model model = core_fetch_level_model(part.element);
-    const elvis_vec3 anchor = elvis_vec3(part.x, part.y, part.z) - CORE_CENTROID;
-    const elvis_vec3 slope = elvis_vec3(part.slope_x, part.slope_y, part.slope_z), model_slope = elvis_vec3(model.slope);
-    const elvis_real reach = max(abs(from - part.anchor), abs(until - part.anchor)) * core_max_norm(slope);
+elvis_vec2 core_range_along(core_segment segment, elvis_real from, elvis_real until) {
+    const core_linear_model model = core_fetch_linear_model(segment.element);
+    const elvis_vec3 anchor = elvis_vec3(segment.x, segment.y, segment.z) - CORE_CENTROID;
+    const elvis_vec3 slope = elvis_vec3(segment.slope_x, segment.slope_y, segment.slope_z), model_slope = elvis_vec3(model.slope);
+    const elvis_real reach = max(abs(from - segment.anchor), abs(until - segment.anchor)) * core_max_norm(slope);
     // Points of the shape are predicted with this error at most.
-    const elvis_real beyond = part.curvature * reach * reach + elvis_real(1e-4LF);
+    const elvis_real beyond = segment.curvature * reach * reach + elvis_real(1e-4LF);
     const elvis_real at_anchor = elvis_real(model.value) + dot(model_slope, anchor), rate = dot(model_slope, slope);
-    const elvis_real a = at_anchor + (from - part.anchor) * rate, b = at_anchor + (until - part.anchor) * rate;
+    const elvis_real a = at_anchor + (from - segment.anchor) * rate, b = at_anchor + (until - segment.anchor) * rate;
     const elvis_vec3 sizes = abs(model_slope);
     const elvis_real error = elvis_real(model.remainder) + beyond * (sizes.x + sizes.y + sizes.z) +
                              elvis_real(16.0 * CORE_FLOAT_ROUNDOFF) * (abs(a) + abs(b));
-    const bool is_known = model.remainder < CORE_LEVEL_UNKNOWN && core_is_finite(error);
+    const bool is_known = model.remainder < CORE_VALUE_UNKNOWN && core_is_finite(error);
     return is_known ? elvis_vec2(min(a, b) - error, max(a, b) + error) : elvis_vec2(1, -1);
 }
 
 // Whether one piece of the transfer function holds all of the range, and nothing changes in it, as in empty space; that is then held.
-bool core_is_level(elvis_vec2 range, inout core_held_piece held) {
+bool core_is_constant(elvis_vec2 range, inout core_held_piece held) {
     const bool is_known = range.x <= range.y;
     core_held_piece other = held;
     core_hold_value(other, is_known ? range.x : held.lower);
     const elvis_real change = abs(other.red_slope) + abs(other.green_slope) + abs(other.blue_slope);
-    const bool is_level = is_known && range.y < other.upper && other.density_slope == elvis_real(0) &&
+    const bool is_constant = is_known && range.y < other.upper && other.density_slope == elvis_real(0) &&
                           (other.density == elvis_real(0) || change == elvis_real(0));
-    if (is_level) {
+    if (is_constant) {
         held = other;
     }
-    return is_level;
+    return is_constant;
 }
 
-void core_add_level(inout core_light light, core_transfer_piece piece, elvis_real length) {
+void core_add_constant(inout core_light light, core_transfer_piece piece, elvis_real length) {
     const elvis_real through = elvis_exp(-piece.density * length);
     core_add_light(light, (elvis_real(1) - through) * piece.color, through);
 }

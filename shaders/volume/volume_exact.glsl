@@ -31,7 +31,7 @@
 #define CORE_GAUSS_TO_LAST elvis_vec3(0.26798833376246945173LF, 0.48042111196938334790LF, 0.13888888888888888889LF)
 
 // exp(-depth), of a depth that is not negative: a part in 1e7 is enough, and lighter than elvis_exp.
-elvis_real core_let_through(elvis_real depth) {
+elvis_real core_transmittance(elvis_real depth) {
 #if ELVIS_REAL_IS_DOUBLE
     return elvis_exp(-depth);
 #else
@@ -44,17 +44,17 @@ elvis_real core_let_through(elvis_real depth) {
 
 // The polynomial with these powers of the parameter.
 elvis_real core_power_value(core_polynomial powers, elvis_real t) {
-    elvis_real sum = powers.c[CORE_SEGMENT_DEGREE];
-    for (int i = 1; i < CORE_SEGMENT_SIZE; ++i) {
-        sum = sum * t + powers.c[CORE_SEGMENT_DEGREE - i];
+    elvis_real sum = powers.c[CORE_FIT_DEGREE];
+    for (int i = 1; i < CORE_FIT_SIZE; ++i) {
+        sum = sum * t + powers.c[CORE_FIT_DEGREE - i];
     }
     return sum;
 }
 
 elvis_real core_power_slope(core_polynomial powers, elvis_real t) {
     elvis_real sum = elvis_real(0);
-    for (int i = 0; i < CORE_SEGMENT_DEGREE; ++i) {
-        sum = sum * t + elvis_real(CORE_SEGMENT_DEGREE - i) * powers.c[CORE_SEGMENT_DEGREE - i];
+    for (int i = 0; i < CORE_FIT_DEGREE; ++i) {
+        sum = sum * t + elvis_real(CORE_FIT_DEGREE - i) * powers.c[CORE_FIT_DEGREE - i];
     }
     return sum;
 }
@@ -62,14 +62,14 @@ elvis_real core_power_slope(core_polynomial powers, elvis_real t) {
 // Half of what its slope changes by, at most, over [0, 1].
 elvis_real core_power_bend(core_polynomial powers) {
     elvis_real sum = elvis_real(0);
-    for (int i = 2; i < CORE_SEGMENT_SIZE; ++i) {
+    for (int i = 2; i < CORE_FIT_SIZE; ++i) {
         sum += elvis_real((i * (i - 1)) / 2) * abs(powers.c[i]);
     }
     return sum;
 }
 
 // A part of a step in one piece of the transfer function.
-struct core_faded_part {
+struct core_attenuation {
     // exp(-D), D the depth of all of it; the integral of (p - from) dO, and what that is off.
     elvis_real through, weighted, missed;
 };
@@ -79,17 +79,17 @@ struct core_faded_part {
 // The error is estimated from Simpson's rule, which needs but the ends besides. With h the part's length Simpson's error is about
 // h^5 / 2880 times the fourth derivative, Gauss' h^7 / 2016000 times the sixth: for exp(h) that is 0.08 of the 3/2th power of the other,
 // of which a few hundred times as much are taken.
-core_faded_part core_fade_part(core_polynomial powers, core_held_piece held, elvis_real from, elvis_real width, elvis_real first,
+core_attenuation core_attenuate(core_polynomial powers, core_held_piece held, elvis_real from, elvis_real width, elvis_real first,
                                elvis_real last, elvis_real length) {
     const elvis_vec3 at = from + width * CORE_GAUSS_AT;
     const elvis_vec3 q = elvis_vec3(core_power_value(powers, at.x), core_power_value(powers, at.y), core_power_value(powers, at.z)) -
                          held.from;
     const elvis_vec3 density = held.density + held.density_slope * q;
-    const elvis_vec3 through = elvis_vec3(core_let_through(max(length * dot(CORE_GAUSS_TO_FIRST, density), elvis_real(0))),
-                                          core_let_through(max(length * dot(CORE_GAUSS_TO_MIDDLE, density), elvis_real(0))),
-                                          core_let_through(max(length * dot(CORE_GAUSS_TO_LAST, density), elvis_real(0))));
-    core_faded_part part;
-    part.through = core_let_through(max(length * dot(CORE_GAUSS_WEIGHTS, density), elvis_real(0)));
+    const elvis_vec3 through = elvis_vec3(core_transmittance(max(length * dot(CORE_GAUSS_TO_FIRST, density), elvis_real(0))),
+                                          core_transmittance(max(length * dot(CORE_GAUSS_TO_MIDDLE, density), elvis_real(0))),
+                                          core_transmittance(max(length * dot(CORE_GAUSS_TO_LAST, density), elvis_real(0))));
+    core_attenuation part;
+    part.through = core_transmittance(max(length * dot(CORE_GAUSS_WEIGHTS, density), elvis_real(0)));
     const elvis_vec3 inside = q * density * through;
     const elvis_real begin = first * (held.density + held.density_slope * first);
     const elvis_real end = last * (held.density + held.density_slope * last) * part.through;
@@ -126,7 +126,7 @@ elvis_real core_meet(core_polynomial powers, elvis_real value, elvis_real from, 
 
 #if CORE_HAS_STEPS
 // How far from where it meets the value, at t, the polynomial is not off by more than `error` on both sides yet.
-elvis_real core_doubtful_width(core_polynomial powers, elvis_real t, elvis_real value, elvis_real error) {
+elvis_real core_uncertain_width(core_polynomial powers, elvis_real t, elvis_real value, elvis_real error) {
     elvis_real width = elvis_real(4) * CORE_ROUNDOFF;
     bool is_doubtful = true;
     while (is_doubtful) {
@@ -164,18 +164,18 @@ void core_add_polynomial(inout core_light light, core_polynomial p, core_polynom
     const elvis_real bend = core_power_bend(powers);
     elvis_real from = elvis_real(0), to = elvis_real(1), limit = elvis_real(1);
     // Values at both ends of what is left of the cell; the cell's bounds.
-    elvis_real first = p.c[0], last = p.c[CORE_SEGMENT_DEGREE], least = core_least(p), greatest = core_most(p);
+    elvis_real first = p.c[0], last = p.c[CORE_FIT_DEGREE], least = core_least(p), greatest = core_most(p);
     bool is_monotone = core_is_monotone(p), is_new = false, has_crossed = false;
     uint n_turns = 0u;
     while (from < elvis_real(1) && light.error <= most && n_turns < CORE_MOST_TURNS) {
         n_turns += 1u;
         work += CORE_WORK_A_TURN;
         if (is_new) {
-            const core_polynomial cell = core_after(core_before(p, to), from / to);
-            last = cell.c[CORE_SEGMENT_DEGREE];
-            least = core_least(cell);
-            greatest = core_most(cell);
-            is_monotone = core_is_monotone(cell);
+            const core_polynomial restricted = core_after(core_before(p, to), from / to);
+            last = restricted.c[CORE_FIT_DEGREE];
+            least = core_least(restricted);
+            greatest = core_most(restricted);
+            is_monotone = core_is_monotone(restricted);
         }
         const bool rises = last > first;
         const bool is_whole = least - error >= held.lower && greatest + error < held.upper;
@@ -191,8 +191,8 @@ void core_add_polynomial(inout core_light light, core_polynomial p, core_polynom
         const bool is_limited = until - from > limit;
         until = is_limited ? from + limit : until;
         const elvis_real width = until - from, end = core_power_value(powers, until), part_length = width * length;
-        const core_faded_part part =
-            core_fade_part(powers, held, from, width, first - held.from, end - held.from, part_length);
+        const core_attenuation part =
+            core_attenuate(powers, held, from, width, first - held.from, end - held.from, part_length);
         const elvis_real color_slope = max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
         const elvis_real left = light.left, miss = left * color_slope * part.missed;
         const elvis_real of_field = left * part_length * held.steepness * error;
@@ -223,7 +223,7 @@ void core_add_polynomial(inout core_light light, core_polynomial p, core_polynom
             light.error += left * part_length * core_jump_at(held, touches_last == rises);
         }
         if (crosses) {
-            light.error += left * length * core_doubtful_width(powers, until, next, error) * core_jump_at(held, rises);
+            light.error += left * length * core_uncertain_width(powers, until, next, error) * core_jump_at(held, rises);
         }
 #endif
         if (crosses) {

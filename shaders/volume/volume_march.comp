@@ -83,7 +83,7 @@ void main() {
     core_volume_state state = core_states[pixel];
     const core_cut_column along = core_cut_begin(elvis_real(column));
     const core_ray pixel_ray = core_pixel_ray(along, elvis_real(row));
-    const core_walk_ray ray = core_walk_ray_of(pixel_ray, elvis_real(core_extent));
+    const core_traced_ray ray = core_traced_ray_of(pixel_ray, elvis_real(core_extent));
     elvis_real end = CORE_FAR, stop = CORE_FAR;
     if (core_has_depths != 0u) {
         end = core_depths[pixel] / ray.speed - along.reference_distance;
@@ -95,21 +95,21 @@ void main() {
     const uint status_at_end = stop < end ? CORE_RAY_WAITS : CORE_RAY_ENDS;
 
     uint flags = 0u;
-    core_chain chain = core_chain(state.done, state.chain, state.start, state.start_element, state.element,
+    core_walk walk = core_walk(state.done, state.walk, state.start, state.start_element, state.element,
                                   is_pixel ? state.status : CORE_RAY_ENDS, 0u, false, false, false, false);
     bool is_mine;
-    bool goes = core_chain_begin(chain, to, status_at_end, is_mine);
+    bool goes = core_walk_begin(walk, to, status_at_end, is_mine);
     elvis_real step = state.step;
     core_light light = core_light(state.red, state.green, state.blue, state.left, state.error);
     const elvis_real tolerance = elvis_real(core_tolerance);
 
     uint n_elements = 0u, n_evaluations = 0u, n_mappings = 0u, n_segments = 0u, n_empty = 0u, n_steps = 0u, n_breakpoints = 0u;
     uint n_failures = 0u, work = 0u;
-    core_part part;
-    part.element = 0u;
-    part.next = part.anchor = part.x = part.y = part.z = elvis_real(0);
-    part.slope_x = part.slope_y = part.slope_z = elvis_real(0);
-    part.turns = 0u;
+    core_segment segment;
+    segment.element = 0u;
+    segment.next = segment.anchor = segment.x = segment.y = segment.z = elvis_real(0);
+    segment.slope_x = segment.slope_y = segment.slope_z = elvis_real(0);
+    segment.iterations = 0u;
     core_held_piece held = core_hold_piece(0u);
     // What few rays need stands behind the loop over elements, which ends for all lanes when one needs it: inside it would be gone through
     // in every element.
@@ -117,32 +117,32 @@ void main() {
         while (goes && n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT) {
             n_elements += 1u;
             const uint work_before = work;
-            const uint local = chain.element - core_first_element;
-            const core_reach reach = core_chain_reach(ray, chain, part);
+            const uint local = walk.element - core_first_element;
+            const core_reach reach = core_walk_reach(ray, walk, segment);
             const bool is_met = reach.is_met;
             const elvis_real leave = reach.leave;
             flags |= reach.flags;
-            n_mappings += part.turns;
-            work += part.turns;
+            n_mappings += segment.iterations;
+            work += segment.iterations;
             // What is too short to matter is the next one's.
-            const bool is_joined = chain.at - chain.done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
-            flags |= is_met && !is_joined && chain.done > chain.start ? CORE_FLAG_UNDECIDED : 0u;
-            const elvis_real from = is_joined ? chain.done : chain.at, until = min(leave, to);
+            const bool is_joined = walk.at - walk.done <= max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
+            flags |= is_met && !is_joined && walk.done > walk.start ? CORE_FLAG_UNDECIDED : 0u;
+            const elvis_real from = is_joined ? walk.done : walk.at, until = min(leave, to);
 
             // What lies between.
             const bool has_segment = is_met && from < until;
-            const bool is_level = core_is_level(core_level_range(part, from, until), held) && has_segment && core_skips_by_range != 0u;
-            if (is_level) {
-                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
+            const bool is_constant = core_is_constant(core_range_along(segment, from, until), held) && has_segment && core_skips_by_range != 0u;
+            if (is_constant) {
+                core_add_constant(light, core_piece_of(held), (until - from) * ray.speed);
             }
             n_segments += has_segment ? 1u : 0u;
-            n_empty += is_level ? 1u : 0u;
-            core_integral integral = core_integral_begin(from, has_segment && !is_level ? until : from, ray.speed, step);
-            const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - chain.start), until - from);
+            n_empty += is_constant ? 1u : 0u;
+            core_integral integral = core_integral_begin(from, has_segment && !is_constant ? until : from, ray.speed, step);
+            const elvis_real ahead = max(elvis_real(core_extent) / ray.speed - (from - walk.start), until - from);
             const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
                                       (elvis_real(core_steepest) * (until - from) * ray.speed * max(light.left, elvis_real(1e-6LF)));
-            core_follower follower = core_follow_from(part.anchor, elvis_vec3(part.x, part.y, part.z),
-                                                      elvis_vec3(part.slope_x, part.slope_y, part.slope_z));
+            core_follower follower = core_follow_from(segment.anchor, elvis_vec3(segment.x, segment.y, segment.z),
+                                                      elvis_vec3(segment.slope_x, segment.slope_y, segment.slope_z));
             core_follow_to(follower, core_integral_at(integral));
             follower.span = core_integral_span(integral);
             follower.enough = enough;
@@ -150,12 +150,12 @@ void main() {
 #if CORE_BEGINS_AT_END
             // Where the ray leaves the mapping has been evaluated.
             if (integral.wants != CORE_WANTS_NOTHING) {
-                const core_ray_sample result = core_sample_predicted(part, core_integral_at(integral), follower.span, enough);
+                const core_ray_sample result = core_sample_predicted(segment, core_integral_at(integral), follower.span, enough);
                 n_evaluations += 1u;
                 const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
                 const bool is_all = abs(follower.span) >= until - from && result.is_known && core_skips_by_range != 0u;
                 is_dismissed =
-                    is_all && core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+                    is_all && core_is_constant(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
                 if (!is_dismissed && result.status == CORE_SAMPLE_FOUND) {
                     core_integral_add(integral, light, result.value, result.slope, result.error, result.bend, ray.speed, tolerance, ahead,
                                       held, work);
@@ -170,7 +170,7 @@ void main() {
                 bool is_running = core_integral_wants_sample(integral);
                 while (is_running) {
                     work += CORE_WORK_A_SAMPLE;
-                    const core_ray_sample result = core_sample_step(ray, local, part.curvature, follower);
+                    const core_ray_sample result = core_sample_step(ray, local, segment.curvature, follower);
                     n_evaluations += 1u;
                     const bool is_nan = !result.is_finite, has_failed = !is_nan && result.status == CORE_SAMPLE_FAILED;
                     is_broken = is_nan || has_failed;
@@ -182,7 +182,7 @@ void main() {
                     const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
                     if (is_all) {
                         const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;
-                        is_dismissed = core_is_level(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
+                        is_dismissed = core_is_constant(elvis_vec2(min(result.value, other) - beyond, max(result.value, other) + beyond), held);
                     }
 #endif
                     const bool is_found = !is_broken && !is_dismissed && result.status == CORE_SAMPLE_FOUND;
@@ -214,7 +214,7 @@ void main() {
                 }
             }
             if (is_dismissed) {
-                core_add_level(light, core_piece_of(held), (until - from) * ray.speed);
+                core_add_constant(light, core_piece_of(held), (until - from) * ray.speed);
             }
             n_empty += is_dismissed ? 1u : 0u;
             n_steps += integral.n_steps;
@@ -228,42 +228,42 @@ void main() {
             // Where to go on: in the same element, if there was no time for all of it.
             const bool is_left_open = integral.wants != CORE_WANTS_NOTHING && !is_broken && !is_dismissed;
             step = is_left_open ? core_integral_step(integral) : CORE_FAR;
-            chain.done = chain.needs_roughly ? chain.done : max(chain.done, is_left_open ? core_integral_done(integral) : until);
+            walk.done = walk.needs_roughly ? walk.done : max(walk.done, is_left_open ? core_integral_done(integral) : until);
             const bool is_opaque = light.left <= elvis_real(CORE_OPAQUE) * tolerance, is_stopped = is_met && leave >= to;
             const bool is_over = is_opaque || is_stopped || is_left_open;
             if (!is_over) {
-                core_chain_go_on(ray, chain, part, reach, from);
+                core_walk_go_on(ray, walk, segment, reach, from);
             }
-            chain.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? status_at_end : chain.status;
-            goes = core_chain_goes(chain);
+            walk.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? status_at_end : walk.status;
+            goes = core_walk_goes(walk);
             // Lanes wait for each other.
             work = work_before + subgroupMax(work - work_before);
-            if (!goes || subgroupAny(core_chain_needs_help(chain))) {
+            if (!goes || subgroupAny(core_walk_needs_help(walk))) {
                 break;
             }
         }
-        core_chain_help(ray, chain, part, flags);
-        goes = core_chain_goes(chain);
+        core_walk_help(ray, walk, segment, flags);
+        goes = core_walk_goes(walk);
         if (!goes) {
             break;
         }
     }
     const bool is_cut_short = core_has_driver_given_up(core_zero);
-    const bool seeks = chain.status == CORE_RAY_SEEKS;
+    const bool seeks = walk.status == CORE_RAY_SEEKS;
     flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
     if (is_mine) {
-        state.done = chain.done;
+        state.done = walk.done;
         state.step = step;
-        state.chain = seeks ? CORE_FAR : chain.at;
-        state.start = chain.start;
-        state.start_element = chain.start_element;
+        state.walk = seeks ? CORE_FAR : walk.at;
+        state.start = walk.start;
+        state.start_element = walk.start_element;
         state.red = light.red;
         state.green = light.green;
         state.blue = light.blue;
         state.left = light.left;
         state.error = light.error;
-        state.element = seeks ? CORE_NO_ELEMENT : chain.element;
-        state.status = is_cut_short ? CORE_RAY_ENDS : chain.status;
+        state.element = seeks ? CORE_NO_ELEMENT : walk.element;
+        state.status = is_cut_short ? CORE_RAY_ENDS : walk.status;
         state.flags |= flags;
         core_states[pixel] = state;
     }

@@ -50,10 +50,10 @@ layout(set = 0, binding = 1, std430) writeonly buffer core_results_block { elvis
 elvis_vec3 three(uint at) { return elvis_vec3(core_given[at], core_given[at + 1u], core_given[at + 2u]); }
 void main() {
     const uint i = gl_GlobalInvocationID.x, at = 17u * i;
-    const core_patch cell = core_patch(three(at + 3u), three(at + 6u), three(at + 9u), three(at + 12u), core_given[at + 15u],
+    const core_region region = core_region(three(at + 3u), three(at + 6u), three(at + 9u), three(at + 12u), core_given[at + 15u],
                                        core_given[at + 16u]);
     elvis_real value;
-    const core_model model = core_shown_model(i % 3u, three(at), cell, value);
+    const core_model model = core_shown_model(i % 3u, three(at), region, value);
     core_results[7u * i] = value;
     core_results[7u * i + 1u] = model.value;
     core_results[7u * i + 2u] = model.slope.x;
@@ -273,7 +273,7 @@ Containment check_models(const RuntimeVolume& volume, DeviceVolume& data, const 
     Containment found;
     for (std::size_t i = 0; i < n_points; ++i) {
         const Real* model = &results[7 * i + 1];
-        const double* cell = &given[(point_numbers + patch_numbers) * i];
+        const double* region = &given[(point_numbers + patch_numbers) * i];
         found.is_estimated = found.is_estimated || results[7 * i + 6] != 0;
         if (!(model[4] <= Real(1e30))) {
             continue;
@@ -291,10 +291,10 @@ Containment check_models(const RuntimeVolume& volume, DeviceVolume& data, const 
             double linear = static_cast<double>(model[0]);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 for (std::size_t corner = 0; corner < 4; ++corner) {
-                    d[axis] += weights[corner] / sum * cell[3 + 3 * corner + axis];
+                    d[axis] += weights[corner] / sum * region[3 + 3 * corner + axis];
                 }
-                d[axis] += random.between(-1, 1) * cell[15];
-                xi[axis] = cell[axis] + d[axis];
+                d[axis] += random.between(-1, 1) * region[15];
+                xi[axis] = region[axis] + d[axis];
                 linear += static_cast<double>(model[1 + axis]) * d[axis];
             }
             VolumePoint point(volume, curved_volume().first_element(element_class) + i % 3, xi, 0);

@@ -30,7 +30,7 @@ std::vector<Real> run(const std::string& text, const SamplePlan& plan, const std
     request.name = request.kernel = "segment test";
     request.kernel_text = R"(
 const elvis_real level_values[3] = {elvis_real(-0.25LF), elvis_real(0), elvis_real(0.5LF)};
-elvis_real core_level_value(uint i) { return level_values[i]; }
+elvis_real core_listed_value(uint i) { return level_values[i]; }
 #include "segments/polynomial.glsl"
 #include "segments/colleague.glsl"
 layout(local_size_x = 64) in;
@@ -50,15 +50,15 @@ layout(set = 0, binding = 1, std430) writeonly buffer results_block { elvis_real
 
 constexpr const char* bernstein_kernel = R"(
 void main() {
-    const uint i = gl_GlobalInvocationID.x, size = CORE_SEGMENT_SIZE, at = i * (size + 3u), to = i * (2u * size + 6u);
+    const uint i = gl_GlobalInvocationID.x, size = CORE_FIT_SIZE, at = i * (size + 3u), to = i * (2u * size + 6u);
     core_polynomial chebyshev;
-    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
         chebyshev.c[k] = given[at + uint(k)];
     }
     const elvis_real t = given[at + size];
     const core_polynomial p = core_to_bernstein(chebyshev);
-    const core_polynomial cell = core_cell_of(p, uint(given[at + size + 1u]), uint(given[at + size + 2u]));
-    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+    const core_polynomial cell = core_restricted(p, uint(given[at + size + 1u]), uint(given[at + size + 2u]));
+    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
         results[to + uint(k)] = p.c[k];
         results[to + size + uint(k)] = cell.c[k];
     }
@@ -73,16 +73,16 @@ void main() {
 
 constexpr const char* crossings_kernel = R"(
 void main() {
-    const uint i = gl_GlobalInvocationID.x, size = CORE_SEGMENT_SIZE, to = i * 49u;
+    const uint i = gl_GlobalInvocationID.x, size = CORE_FIT_SIZE, to = i * 49u;
     core_polynomial chebyshev;
-    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
         chebyshev.c[k] = given[i * size + uint(k)];
     }
     const core_polynomial p = core_to_bernstein(chebyshev);
     const elvis_real error = core_bernstein_rounding(chebyshev);
-    core_walk walk = core_walk_begin();
+    core_isolation isolation = core_isolation_begin();
     for (uint k = 0u; k < 12u; ++k) {
-        const core_crossing crossing = core_next_crossing(p, error, 3u, walk);
+        const core_crossing crossing = core_next_crossing(p, error, 3u, isolation);
         results[to + 4u * k] = elvis_real(crossing.kind);
         results[to + 4u * k + 1u] = elvis_real(crossing.index);
         results[to + 4u * k + 2u] = crossing.t;
@@ -95,20 +95,20 @@ void main() {
 
 constexpr const char* fit_kernel = R"(
 void main() {
-    const uint i = gl_GlobalInvocationID.x, size = CORE_SEGMENT_SIZE, to = i * (size + 4u);
-    core_segment segment = core_segment_begin();
-    while (segment.status == CORE_SEGMENT_WANTS) {
-        const elvis_real t = core_segment_parameter(segment);
+    const uint i = gl_GlobalInvocationID.x, size = CORE_FIT_SIZE, to = i * (size + 4u);
+    core_fit_samples sampled = core_fit_begin();
+    while (sampled.status == CORE_FIT_WANTS) {
+        const elvis_real t = core_fit_parameter(sampled);
         const elvis_real value = elvis_exp(given[4u * i] * t) * elvis_sin(given[4u * i + 1u] * t + given[4u * i + 2u]);
-        core_segment_add(segment, t == given[4u * i + 3u] ? value / (t - given[4u * i + 3u]) : value, CORE_ROUNDOFF, elvis_real(1e-3LF));
+        core_fit_add(sampled, t == given[4u * i + 3u] ? value / (t - given[4u * i + 3u]) : value, CORE_ROUNDOFF, elvis_real(1e-3LF));
     }
-    const core_fit fit = core_segment_fit(segment);
-    for (int k = 0; k < CORE_SEGMENT_SIZE; ++k) {
+    const core_fit fit = core_fit_of(sampled);
+    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
         results[to + uint(k)] = fit.chebyshev.c[k];
     }
     results[to + size] = fit.error;
-    results[to + size + 1u] = elvis_real(segment.status);
-    results[to + size + 2u] = elvis_real(segment.n_samples);
+    results[to + size + 1u] = elvis_real(sampled.status);
+    results[to + size + 2u] = elvis_real(sampled.n_samples);
     results[to + size + 3u] = elvis_real(fit.degree);
 }
 )";
@@ -210,12 +210,12 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
         CHECK(results[4 * n_results + 2] == 0);
         for (std::uint32_t i = 1; i < n_trials; ++i) {
             const Polynomial<TestType> p = to_bernstein(polynomials[i]);
-            Walk walk;
+            Walk isolation;
             bool differs = false;
             double largest = 0;
             for (std::size_t k = 0; k < n_crossings; ++k) {
                 const TestType* const result = &results[i * n_results + 4 * k];
-                const auto crossing = next_crossing<TestType>(p, bernstein_rounding(polynomials[i]), values, walk);
+                const auto crossing = next_crossing<TestType>(p, bernstein_rounding(polynomials[i]), values, isolation);
                 n_found += crossing.kind != CrossingKind::none ? 1 : 0;
                 differs = differs || result[0] != static_cast<TestType>(crossing.kind) ||
                           result[1] != static_cast<TestType>(crossing.index) || result[3] != crossing.upper - crossing.lower;

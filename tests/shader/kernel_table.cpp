@@ -18,7 +18,7 @@ const Choice no(const char* name) { return {name, {"0"}}; }
 const std::vector<std::string> elements{"core_nodes", "core_elements"};
 const std::vector<std::string> faces{"core_nodes", "core_faces", "core_patches"};
 const std::vector<std::string> fitted_faces{"core_nodes", "core_faces", "core_patches", "core_face_points"};
-const std::vector<std::string> cells{"core_elements", "core_nodes", "core_cells"};
+const std::vector<std::string> octants{"core_elements", "core_nodes", "core_octants"};
 const std::vector<std::string> chains{"core_nodes", "core_links", "core_elements"};
 const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_cones", "core_elements"};
 
@@ -130,10 +130,11 @@ void add_line_kernels(std::vector<KernelUse>& uses) {
                         .choices = on_surface,
                         .is_for_solids = true,
                         .shows_own_boundary = true};
-        lines.choices.insert(lines.choices.end(), {{"CORE_FEW_SUBDIVISIONS", {"2u"}},
-                                                   is_quadric ? no_or_yes("CORE_BY_SEGMENTS") : no("CORE_BY_SEGMENTS"),
-                                                   no("CORE_HAS_ENDS"),
-                                                   {"CORE_SHAPE_ROWS", {is_quadric ? "8" : "0"}}});
+        lines.choices.insert(lines.choices.end(),
+                             {{"CORE_FEW_SUBDIVISIONS", {"2u"}},
+                              is_quadric ? no_or_yes("CORE_BY_QUADRIC_SPANS") : no("CORE_BY_QUADRIC_SPANS"),
+                              no("CORE_HAS_ENDS"),
+                              {"CORE_SHAPE_ROWS", {is_quadric ? "8" : "0"}}});
         uses.push_back(lines);
     }
 }
@@ -154,8 +155,8 @@ void add_isosurface_kernels(std::vector<KernelUse>& uses) {
         made.is_for_solids = made.shows_own_boundary = true;
         return made;
     };
-    uses.push_back(use("tiles/ray_tiles", cells, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), yes("CORE_LISTS_TILES")}));
-    uses.push_back(use("isosurface/isosurface", cells, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS")}));
+    uses.push_back(use("tiles/ray_tiles", octants, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), yes("CORE_LISTS_TILES")}));
+    uses.push_back(use("isosurface/isosurface", octants, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS")}));
     for (const bool is_nested : {true, false}) {
         KernelUse projection = use("isosurface/isosurface_projection", {"core_elements", "core_nodes", "core_models"},
                                    {no_or_yes("CORE_USES_COLLEAGUE"), is_nested ? no("CORE_PLAIN") : yes("CORE_PLAIN")});

@@ -28,47 +28,47 @@ struct Operation {
 
 // The value of a function that has none counts as contained.
 const Operation operations[] = {
-    {"f + g", "core_model_add(f, g, cell)", "core_interval_add(f, g)", [](long double f, long double g) { return f + g; }, 0},
-    {"f - g", "core_model_subtract(f, g, cell)", "core_interval_subtract(f, g)",
+    {"f + g", "core_model_add(f, g, region)", "core_interval_add(f, g)", [](long double f, long double g) { return f + g; }, 0},
+    {"f - g", "core_model_subtract(f, g, region)", "core_interval_subtract(f, g)",
      [](long double f, long double g) { return f - g; }, 0},
-    {"3 f", "core_model_scale(elvis_real(3), f, cell)", "core_interval_multiply(core_interval_number(elvis_real(3)), f)",
+    {"3 f", "core_model_scale(elvis_real(3), f, region)", "core_interval_multiply(core_interval_number(elvis_real(3)), f)",
      [](long double f, long double) { return 3 * f; }, 0},
-    {"f g", "core_model_multiply(f, g, cell)", "core_interval_multiply(f, g)",
+    {"f g", "core_model_multiply(f, g, region)", "core_interval_multiply(f, g)",
      [](long double f, long double g) { return f * g; }, 0},
-    {"f / g", "core_model_divide(f, g, cell)", "core_interval_divide(f, g)", [](long double f, long double g) { return f / g; },
-     2},
-    {"f^2", "core_model_square(f, cell)", "core_interval_square(f)", [](long double f, long double) { return f * f; }, 0},
-    {"f^5", "core_model_whole_power(f, 5u, cell)", "core_interval_whole_power(f, 5u)",
+    {"f / g", "core_model_divide(f, g, region)", "core_interval_divide(f, g)",
+     [](long double f, long double g) { return f / g; }, 2},
+    {"f^2", "core_model_square(f, region)", "core_interval_square(f)", [](long double f, long double) { return f * f; }, 0},
+    {"f^5", "core_model_whole_power(f, 5u, region)", "core_interval_whole_power(f, 5u)",
      [](long double f, long double) { return f * f * f * f * f; }, 0},
-    {"f^6", "core_model_whole_power(f, 6u, cell)", "core_interval_whole_power(f, 6u)",
+    {"f^6", "core_model_whole_power(f, 6u, region)", "core_interval_whole_power(f, 6u)",
      [](long double f, long double) { return f * f * f * f * f * f; }, 0},
-    {"sqrt(f)", "core_model_sqrt(f, cell)", "core_interval_sqrt(f)", [](long double f, long double) { return std::sqrt(f); },
+    {"sqrt(f)", "core_model_sqrt(f, region)", "core_interval_sqrt(f)", [](long double f, long double) { return std::sqrt(f); },
      1},
-    {"length(f, g, 1)", "core_model_length(f, g, core_model_constant(elvis_real(1)), cell)", "",
+    {"length(f, g, 1)", "core_model_length(f, g, core_model_constant(elvis_real(1)), region)", "",
      [](long double f, long double g) { return std::sqrt(f * f + g * g + 1); }, 0},
-    {"length(f, g, 0)", "core_model_length(f, g, core_model_constant(elvis_real(0)), cell)", "",
+    {"length(f, g, 0)", "core_model_length(f, g, core_model_constant(elvis_real(0)), region)", "",
      [](long double f, long double g) { return std::sqrt(f * f + g * g); }, 0},
-    {"abs(f)", "core_model_abs(f, cell)", "core_interval_abs(f)", [](long double f, long double) { return std::abs(f); }, 0},
-    {"min(f, g)", "core_model_min(f, g, cell)", "core_interval_min(f, g)",
+    {"abs(f)", "core_model_abs(f, region)", "core_interval_abs(f)", [](long double f, long double) { return std::abs(f); }, 0},
+    {"min(f, g)", "core_model_min(f, g, region)", "core_interval_min(f, g)",
      [](long double f, long double g) { return std::min(f, g); }, 0},
-    {"max(f, g)", "core_model_max(f, g, cell)", "core_interval_max(f, g)",
+    {"max(f, g)", "core_model_max(f, g, region)", "core_interval_max(f, g)",
      [](long double f, long double g) { return std::max(f, g); }, 0},
-    {"exp(f)", "core_model_exp(f, cell)", "core_interval_exp(f)", [](long double f, long double) { return std::exp(f); }, 0},
-    {"log(f)", "core_model_log(f, cell)", "core_interval_log(f)", [](long double f, long double) { return std::log(f); }, 2},
-    {"sin(f)", "core_model_sin(f, cell)", "core_interval_sin(f)", [](long double f, long double) { return std::sin(f); }, 0},
-    {"cos(f)", "core_model_cos(f, cell)", "core_interval_cos(f)", [](long double f, long double) { return std::cos(f); }, 0},
-    {"tan(f)", "core_model_tan(f, cell)", "core_interval_tan(f)", [](long double f, long double) { return std::tan(f); }, 0},
-    {"asin(f)", "core_model_asin(f, cell)", "core_interval_asin(f)", [](long double f, long double) { return std::asin(f); },
+    {"exp(f)", "core_model_exp(f, region)", "core_interval_exp(f)", [](long double f, long double) { return std::exp(f); }, 0},
+    {"log(f)", "core_model_log(f, region)", "core_interval_log(f)", [](long double f, long double) { return std::log(f); }, 2},
+    {"sin(f)", "core_model_sin(f, region)", "core_interval_sin(f)", [](long double f, long double) { return std::sin(f); }, 0},
+    {"cos(f)", "core_model_cos(f, region)", "core_interval_cos(f)", [](long double f, long double) { return std::cos(f); }, 0},
+    {"tan(f)", "core_model_tan(f, region)", "core_interval_tan(f)", [](long double f, long double) { return std::tan(f); }, 0},
+    {"asin(f)", "core_model_asin(f, region)", "core_interval_asin(f)", [](long double f, long double) { return std::asin(f); },
      0},
-    {"acos(f)", "core_model_acos(f, cell)", "core_interval_acos(f)", [](long double f, long double) { return std::acos(f); },
+    {"acos(f)", "core_model_acos(f, region)", "core_interval_acos(f)", [](long double f, long double) { return std::acos(f); },
      0},
-    {"atan(f)", "core_model_atan(f, cell)", "core_interval_atan(f)", [](long double f, long double) { return std::atan(f); },
+    {"atan(f)", "core_model_atan(f, region)", "core_interval_atan(f)", [](long double f, long double) { return std::atan(f); },
      0},
-    {"atan2(f, g)", "core_model_atan(f, g, cell)", "core_interval_atan(f, g)",
+    {"atan2(f, g)", "core_model_atan(f, g, region)", "core_interval_atan(f, g)",
      [](long double f, long double g) { return std::atan2(f, g); }, 0},
-    {"f^0.3", "core_model_power(f, elvis_real(0.3LF), cell)", "core_interval_power(f, core_interval_near(elvis_real(0.3LF)))",
+    {"f^0.3", "core_model_power(f, elvis_real(0.3LF), region)", "core_interval_power(f, core_interval_near(elvis_real(0.3LF)))",
      [](long double f, long double) { return std::pow(f, 0.3L); }, 2},
-    {"f^g", "core_model_power(f, g, cell)", "core_interval_power(f, g)",
+    {"f^g", "core_model_power(f, g, region)", "core_interval_power(f, g)",
      [](long double f, long double g) { return std::pow(f, g); }, 2},
 };
 
@@ -83,10 +83,10 @@ elvis_vec3 three(uint first) { return elvis_vec3(given[first], given[first + 1u]
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     const uint at = 28u * i;
-    const core_patch cell = core_patch(three(at), three(at + 3u), three(at + 6u), three(at + 9u), given[at + 12u], given[at + 13u]);
+    const core_region region = core_region(three(at), three(at + 3u), three(at + 6u), three(at + 9u), given[at + 12u], given[at + 13u]);
     const elvis_vec3 bend_f = abs(three(at + 18u)), bend_g = abs(three(at + 25u));
-    const core_model f = core_model_leaf(given[at + 14u], three(at + 15u), elvis_vec3(bend_f.x + bend_f.y + bend_f.z, 0, 0), cell);
-    const core_model g = core_model_leaf(given[at + 21u], three(at + 22u), elvis_vec3(bend_g.x + bend_g.y + bend_g.z, 0, 0), cell);
+    const core_model f = core_model_leaf(given[at + 14u], three(at + 15u), elvis_vec3(bend_f.x + bend_f.y + bend_f.z, 0, 0), region);
+    const core_model g = core_model_leaf(given[at + 21u], three(at + 22u), elvis_vec3(bend_g.x + bend_g.y + bend_g.z, 0, 0), region);
     const core_model h = OPERATION;
     result[5u * i] = h.value;
     result[5u * i + 1u] = h.slope.x;
@@ -172,7 +172,7 @@ template <class Real> void check_model(const Device& device, const Operation& op
     std::size_t n_known = 0, n_outside = 0;
     double ratio = 0;
     for (std::size_t i = 0; i < n_cases; ++i) {
-        const Real* cell = &given[28 * i];
+        const Real* region = &given[28 * i];
         const Real* model = &result[5 * i];
         if (!(model[4] <= Real(1e30))) {
             CHECK(model[4] >= Real(1e38));
@@ -191,14 +191,14 @@ template <class Real> void check_model(const Device& device, const Operation& op
             std::array<long double, 3> d{};
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 for (std::size_t corner = 0; corner < 4; ++corner) {
-                    d[axis] += static_cast<long double>(weights[corner] / sum) * cell[3 * corner + axis];
+                    d[axis] += static_cast<long double>(weights[corner] / sum) * region[3 * corner + axis];
                 }
                 d[axis] += (sample % 3 == 0   ? 2 * unit(random) - 1
                             : sample % 3 == 1 ? 1
                                               : -1) *
-                           static_cast<long double>(cell[12]);
+                           static_cast<long double>(region[12]);
             }
-            const long double exact = operation.function(operand(cell + 14, d), operand(cell + 21, d));
+            const long double exact = operation.function(operand(region + 14, d), operand(region + 21, d));
             const long double linear = model[0] + model[1] * d[0] + model[2] * d[1] + model[3] * d[2];
             if (!std::isnan(exact)) {
                 largest = std::max(largest, std::abs(exact - linear));
