@@ -10,7 +10,7 @@
 // depth, so that the search ends at the first patch behind the crossing found. The next pixel of a column starts where this one's
 // crossing moves to. Tiles whose lists hold inner nodes of the hierarchy are drawn by a second version (CORE_DESCENDS).
 //
-// One evaluation of a face a turn, whatever patch a lane is at, so that lanes do not wait for each other.
+// One evaluation of a face an iteration, whatever patch a lane is at, so that lanes do not wait for each other.
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
@@ -31,7 +31,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "tiles/listed_tile.glsl"
 
 #define CORE_STEPS 8u
-// Turns and patches of one pixel: a tile's pixels together stay below where drivers end loops.
+// Iterations and patches of one pixel: a tile's pixels together stay below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
 
 void main() {
@@ -85,7 +85,7 @@ void main() {
                 const bool is_tried = !is_behind && !is_inner && !is_again;
                 is_from_track = is_tracking;
                 is_tracking = false;
-                // Without a guard, which would cost more than it saves: few turns come without a patch.
+                // Without a guard, which would cost more than it saves: few iterations come without a patch.
                 const uint tried = is_tried ? word : 0u;
                 const core_patch_meeting meeting = core_meet_patch(tried, ray.box_origin, vec3(ray.direction), ray.far,
                         float(ray.least_t),

@@ -11,7 +11,7 @@
 // The kernel brings core_entry(i), the nodes to descend from, cut_surface/show.glsl, and the buffer core_elements
 // (element/linearization.glsl).
 //
-// One loop serves all candidates of a pixel, one Newton step a turn: lanes that dismiss a candidate after one step go on to their
+// One loop serves all candidates of a pixel, one Newton step an iteration: lanes that dismiss a candidate after one step go on to their
 // next one while others still iterate.
 
 #include "element/newton.glsl"
@@ -24,7 +24,7 @@
 #define CORE_SURFACE_NORMAL core_plane_normal.xyz
 #endif
 
-// Turns of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is
+// Iterations of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is
 // far above what any sensible search takes and leaves room for a tile's other pixels.
 #define CORE_WORK_LIMIT 2000u
 

@@ -15,7 +15,7 @@
 
 #include "cut_surface/surface_descent.glsl"
 
-// Turns of one pixel: see cut_surface/locate.glsl.
+// Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 3000u
 // Halvings of one patch. Beyond, parts are below what single precision tells apart.
 #define CORE_BEZIER_LEVELS 10u

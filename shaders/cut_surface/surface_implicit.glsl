@@ -12,7 +12,7 @@
 
 #include "cut_surface/surface_hit.glsl"
 
-// Turns of one pixel: see cut_surface/locate.glsl.
+// Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 2000u
 #define CORE_IMPLICIT_LEVELS 30u
 #define CORE_IMPLICIT_STEPS 60u

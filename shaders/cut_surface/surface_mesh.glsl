@@ -9,7 +9,7 @@
 
 #include "cut_surface/surface_descent.glsl"
 
-// Turns of one pixel: see cut_surface/locate.glsl.
+// Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 3000u
 
 // The sign, exact, of a b - c d; times its rounded value.

@@ -4,7 +4,7 @@
 // derivatives along each collapsed direction come from the difference to the gradient at a point CORE_STEP further inside. With the
 // steps d_k in xi and the differences g_k of the gradients, the second derivatives are the matrix M with M d_k = g_k.
 //
-// A few points in a dispatch, from the first on: drivers end loops that take many turns, those of an evaluation among them.
+// A few points in a dispatch, from the first on: drivers end loops that take many iterations, those of an evaluation among them.
 
 #include "element/expand.glsl"
 #include "arithmetic/finite.glsl"

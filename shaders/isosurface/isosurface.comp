@@ -16,7 +16,7 @@
 // until the interval is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
 // pixel is undecided if that cannot be told: isosurface/interval_bounds.glsl, piece_root.glsl and cell_search.glsl.
 //
-// One evaluation of mapping and field a turn, whatever element and interval a lane is at, so that lanes do not wait for each other.
+// One evaluation of mapping and field an iteration, whatever element and interval a lane is at, so that lanes do not wait for each other.
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
@@ -60,7 +60,7 @@ layout(push_constant) uniform core_parameters {
 #include "isosurface/interval_root.glsl"
 #include "isosurface/octant_search.glsl"
 
-// Turns of one pixel: all pixels of an invocation stay below where drivers end loops.
+// Iterations of one pixel: all pixels of an invocation stay below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
 
 // The root, as a crossing of the ray.

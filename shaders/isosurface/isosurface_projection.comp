@@ -54,8 +54,8 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 #include "field/shown_model.glsl"
 // Of elements that are curved more than usual a part that is missed would be a crossing missed.
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
-#define CORE_CERTAIN_TURNS 96u
-#define CORE_SEGMENT_TURNS 160u
+#define CORE_CERTAIN_ITERATIONS 96u
+#define CORE_SEGMENT_ITERATIONS 160u
 #include "segments/segment.glsl"
 #include "segments/ray_sample.glsl"
 #include "isosurface/linear_model.glsl"
@@ -63,7 +63,7 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 #include "segments/polynomial.glsl"
 #include "segments/colleague.glsl"
 
-// Turns of a pixel, with all loops inside below where drivers end them.
+// Iterations of a pixel, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
 
 // Times that a part of a ray may be halved. A field that is smooth needs few; that its derivatives jump is seen at the last.

@@ -2,8 +2,8 @@
 //
 // The kernel brings isosurface/projection_search.glsl, isosurface/nearest_crossing.glsl and isosurface/isosurface_blur.glsl.
 
-#define CORE_POLISH_TURNS 40u
-#define CORE_CANDIDATE_TURNS 16u
+#define CORE_POLISH_ITERATIONS 40u
+#define CORE_CANDIDATE_ITERATIONS 16u
 
 // After a sample at the follower's parameter. `size`: of the volume, in the ray's parameter.
 void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found, inout core_projection_search search,
@@ -28,7 +28,7 @@ void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real
     const elvis_real farthest = max(abs(search.bracket_from), abs(search.bracket_to));
     const bool is_narrow = search.bracket_to - search.bracket_from <= elvis_real(4) * CORE_ROUNDOFF * farthest;
     const bool is_candidate = search.candidate.kind != CORE_CROSSING_VERIFIED;
-    const bool is_last = search.polish_turns >= (is_candidate ? CORE_CANDIDATE_TURNS : CORE_POLISH_TURNS);
+    const bool is_last = search.polish_turns >= (is_candidate ? CORE_CANDIDATE_ITERATIONS : CORE_POLISH_ITERATIONS);
     const bool is_settled = is_at_root || is_narrow || CORE_PLAIN == 1;
     const elvis_real root_t = is_at_root && CORE_PLAIN == 0 ? next : t;
     const elvis_real bend_here = search.bend + elvis_real(2) * search.curvature * core_model_norm1(found.gradient);

@@ -40,7 +40,7 @@ void core_projection_element(core_ray ray, core_traced_ray traced_ray, uint elem
     search.phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
 }
 
-// A turn towards the next part.
+// An iteration towards the next segment.
 void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout core_projection_search search) {
     const uint ending = core_segment_iterate(traced_ray, true, search.segment);
     search.n_evaluations += 1u;
@@ -48,7 +48,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     const bool is_lost = ending != CORE_SEGMENT_OPEN && search.segment.has_failed;
     search.n_failures += is_lost ? 1u : 0u;
     search.undecided_t = is_lost ? min(search.undecided_t, search.segment.begin) : search.undecided_t;
-    // A part may have been missed. In single precision, where rounding takes many turns, the beginning of one has been, too.
+    // A part may have been missed. In single precision, where rounding takes many iterations, the beginning of one has been, too.
     const bool is_found_late = ending == CORE_SEGMENT_FOUND && CORE_DOUBTS_BEGINNINGS;
     const bool is_doubtful = (ending == CORE_SEGMENT_NONE || is_found_late) && search.segment.is_estimated && CORE_PLAIN == 0;
     search.undecided_t = is_doubtful ? min(search.undecided_t, search.sought_from) : search.undecided_t;

@@ -5,7 +5,7 @@
 // directions, at most core_subdivisions times (lines/subpixel.glsl tells what is certain about a subpixel). Subpixels are visited depth
 // first, in the order (0,0) (1,0) (0,1) (1,1), which needs no stack.
 //
-// One evaluation of mapping and field a turn, whatever element and subpixel a lane is at.
+// One evaluation of mapping and field an iteration, whatever element and subpixel a lane is at.
 
 layout(local_size_x = 32) in;
 
@@ -40,7 +40,7 @@ layout(push_constant) uniform core_parameters {
 #include "field/shown_model.glsl"
 
 #define CORE_NO_ELEMENT 0xffffffffu
-// Turns of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
+// Iterations of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
 #define CORE_WORK_LIMIT 2000u
 // Times the mapping is linearized anew nearer to a subpixel before the subpixel is judged.
 #define CORE_MAX_MOVES 8u

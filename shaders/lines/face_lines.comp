@@ -29,7 +29,7 @@ layout(local_size_x = 32) in;
 
 #define CORE_NO_ELEMENT 0xffffffffu
 #define CORE_NO_WORD 0xffffffffu
-// Turns of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
+// Iterations of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
 #define CORE_WORK_LIMIT 1500u
 // Times the mapping is linearized anew nearer to a subpixel before the subpixel is judged.
 #define CORE_MAX_MOVES 8u

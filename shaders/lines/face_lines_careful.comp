@@ -5,7 +5,7 @@
 // parameters. Squares are dropped that lie outside of the pyramid, and whatever is seen of those is no line if the field takes no
 // isovalue on them, and they touch no edge of the face. A square that is not dropped is halved in both directions until it is
 // smaller than the pixel halved core_subdivisions times; if one is left, the pixel stays undecided. What is hidden counts, too: a
-// pixel may stay undecided for its sake, but is never wrong. Of a closed boundary, though, rays enter and leave the volume in
+// pixel may stay undecided for its sake, but is never wrong. Of a closed boundary, though, rays enter and leave the volume by
 // turns: all that they meet first they enter by, or all leave by, as the pixel's own ray; squares that are met the other way are
 // dropped, too.
 //

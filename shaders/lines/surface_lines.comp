@@ -58,7 +58,7 @@ layout(push_constant) uniform core_parameters {
 #endif
 
 #define CORE_NO_ELEMENT 0xffffffffu
-// Turns of one pixel: far above what lines of a smooth field take, well below where drivers end loops. Near silhouettes any number
+// Iterations of one pixel: far above what lines of a smooth field take, well below where drivers end loops. Near silhouettes any number
 // would be used up, for which the other pixels of a group wait.
 #define CORE_WORK_LIMIT (core_subdivisions <= CORE_FEW_SUBDIVISIONS ? 150u : 2000u)
 #define CORE_MAX_MOVES 8u

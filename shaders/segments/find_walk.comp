@@ -47,7 +47,7 @@ layout(push_constant) uniform core_parameters {
 #include "segments/curved_start.glsl"
 #endif
 
-// Turns of a ray, with all loops inside below where drivers end them.
+// Iterations of a ray, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
 
 // Error of starts that are not found at a face, in tolerances: up to 11 were seen in 40,000 rays.

@@ -1,4 +1,4 @@
-// Samples to polynomial. Each turn of a kernel's loop takes one sample:
+// Samples to polynomial. Each iteration of a kernel's loop takes one sample:
 //
 //     core_fit_samples segment = core_fit_begin();
 //     while (segment.status == CORE_FIT_WANTS) {

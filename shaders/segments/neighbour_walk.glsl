@@ -29,7 +29,7 @@
 // Elements looked at for the one that holds a point of the ray, when rounding has led it past an edge.
 #define CORE_MOST_HOPS 16u
 // Of rays along faces: steps towards where they leave; violation of the face within which they run along it.
-#define CORE_ROUGH_TURNS 8u
+#define CORE_ROUGH_ITERATIONS 8u
 #define CORE_ALONG 1e-5
 
 // Goes on from element to element towards the point of the ray at t, until one holds it: its position in the class; or
@@ -88,7 +88,7 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
 void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment segment) {
     elvis_real leave = from;
     int leave_face = CORE_NO_FACE;
-    for (uint turn = 0u; turn < CORE_ROUGH_TURNS; ++turn) {
+    for (uint turn = 0u; turn < CORE_ROUGH_ITERATIONS; ++turn) {
         elvis_real x = segment.x + (leave - segment.anchor) * segment.slope_x, y = segment.y + (leave - segment.anchor) * segment.slope_y;
         elvis_real z = segment.z + (leave - segment.anchor) * segment.slope_z;
         core_project(x, y, z);

@@ -18,13 +18,13 @@
 // The linearized mapping keeps this many digits of coordinates in the element.
 #define CORE_START_ERROR elvis_real(1e-2LF)
 
-// Elements of larger or unknown curvature, and those that take too many turns, are looked at with this bound or a part of it: their parts are
+// Elements of larger or unknown curvature, and those that take too many iterations, are looked at with this bound or a part of it: their parts are
 // estimated.
-// A kernel may bring others: more is right for more elements, and takes more turns.
+// A kernel may bring others: more is right for more elements, and takes more iterations.
 #ifndef CORE_ASSUMED_CURVATURE
 #define CORE_ASSUMED_CURVATURE elvis_real(4)
-#define CORE_CERTAIN_TURNS 64u
-#define CORE_SEGMENT_TURNS 128u
+#define CORE_CERTAIN_ITERATIONS 64u
+#define CORE_SEGMENT_ITERATIONS 128u
 #endif
 // In the record of core_links, behind the faces.
 #ifndef CORE_LINKS_CURVATURE
@@ -44,7 +44,7 @@
 // Of tolerances.
 #define CORE_MOST_BLUR elvis_real(64)
 // Cut elements have ends of two kinds, and are asked for more of both.
-#define CORE_TURNS_SHARE (1u + 2u * uint(ELVIS_HAS_INSIDE))
+#define CORE_ITERATIONS_SHARE (1u + 2u * uint(ELVIS_HAS_INSIDE))
 // Whether there may be such elements: code for them makes loops slower even where it is not reached.
 #ifndef CORE_HAS_CURVED
 #define CORE_HAS_CURVED 1
@@ -74,7 +74,7 @@ struct core_segment {
     bool is_followed;
     // The interval, the end of what is open, and the parameter to evaluate at.
     elvis_real begin, end, last, next;
-    // Known to be inside from an earlier turn; empty if from > to.
+    // Known to be inside from an earlier iteration; empty if from > to.
     elvis_real known_from, known_to;
     elvis_real enter, enter_error, leave, leave_error;
     // CORE_NO_FACE where they are not known.
@@ -280,7 +280,7 @@ bool core_seek_exit(core_traced_ray ray, core_ray_clip clip, bool is_sure, bool 
     return is_over;
 }
 
-// One turn. CORE_SEGMENT_FOUND: from part.enter to part.leave. `is_active`: false for lanes that have nothing to do.
+// One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `is_active`: false for lanes that have nothing to do.
 uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segment segment) {
     const uint element = is_active ? segment.element : 0u;
     const elvis_real since = segment.next - segment.anchor;
@@ -302,11 +302,11 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     const bool is_sound = frame.is_sound && core_is_finite(model.step.x + model.step.y + model.step.z);
 
     segment.iterations += 1u;
-    const bool is_certain = segment.iterations <= CORE_CERTAIN_TURNS * CORE_TURNS_SHARE;
+    const bool is_certain = segment.iterations <= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
     segment.is_estimated = segment.is_estimated || !is_certain;
     const elvis_real curvature = is_certain ? segment.curvature
                                  : segment.curvature *
-                                       (segment.iterations < CORE_CERTAIN_TURNS * CORE_TURNS_SHARE + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
+                                       (segment.iterations < CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
     const elvis_real step = max(core_model_step(model, segment.begin), core_model_step(model, segment.end));
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
     const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);
@@ -365,7 +365,7 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     segment.end = is_too_far ? follow_end : segment.end;
     segment.next = is_too_far ? clamp(segment.next, segment.begin, segment.end) : segment.next;
 
-    const bool is_given_up = segment.iterations >= CORE_SEGMENT_TURNS * CORE_TURNS_SHARE;
+    const bool is_given_up = segment.iterations >= CORE_SEGMENT_ITERATIONS * CORE_ITERATIONS_SHARE;
     const bool is_found = is_kept_in && (has_left || is_given_up);
     segment.has_failed = is_given_up && !has_left;
     const bool is_last = !is_kept_in && !segment.is_inside && (segment.begin >= segment.last || is_given_up);

@@ -36,13 +36,13 @@ layout(push_constant) uniform core_parameters {
 #include "segments/source_ray.glsl"
 #include "arithmetic/driver_limit.glsl"
 #define CORE_ASSUMED_CURVATURE elvis_real(64)
-#define CORE_CERTAIN_TURNS 512u
-#define CORE_SEGMENT_TURNS 640u
+#define CORE_CERTAIN_ITERATIONS 512u
+#define CORE_SEGMENT_ITERATIONS 640u
 #include "segments/segment.glsl"
 #include "segments/traced_ray.glsl"
 #include "segments/neighbour_walk.glsl"
 
-// Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
+// Elements of a ray in one dispatch, and iterations, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 256u
 #define CORE_WORK_LIMIT 2500u
 // Over the tolerance of ends: how far apart parts of a walk may be where a ray runs through edges.

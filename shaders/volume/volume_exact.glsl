@@ -13,8 +13,8 @@
 #define CORE_WORK_A_STEP 3u
 #define CORE_WORK_A_TURN 6u
 // Breakpoints met and cells halved in one step, beyond which it is not to be good.
-#define CORE_MOST_TURNS 256u
-#define CORE_MEETING_TURNS 48u
+#define CORE_MOST_ITERATIONS 256u
+#define CORE_MEETING_ITERATIONS 48u
 // Of the parameter: cells are not halved further.
 #define CORE_SMALLEST_CELL elvis_real(1.52587890625e-5LF)
 // Of what a step may be off, what quadrature may be in a cell: little, as its estimate may be far too small where both rules happen to
@@ -108,7 +108,7 @@ elvis_real core_meet(core_polynomial powers, elvis_real value, elvis_real from, 
                      elvis_real error) {
     elvis_real low = from, high = to, x = from;
     bool is_found = false;
-    for (uint turn = 0u; turn < CORE_MEETING_TURNS && !is_found; ++turn) {
+    for (uint turn = 0u; turn < CORE_MEETING_ITERATIONS && !is_found; ++turn) {
         const elvis_real f = core_power_value(powers, x) - value, slope = core_power_slope(powers, x);
         const bool is_before = rises ? f < elvis_real(0) : f > elvis_real(0), is_there = abs(f) <= error;
         low = is_before ? x : low;
@@ -167,7 +167,7 @@ void core_add_polynomial(inout core_light light, core_polynomial p, core_polynom
     elvis_real first = p.c[0], last = p.c[CORE_FIT_DEGREE], least = core_least(p), greatest = core_most(p);
     bool is_monotone = core_is_monotone(p), is_new = false, has_crossed = false;
     uint n_turns = 0u;
-    while (from < elvis_real(1) && light.error <= most && n_turns < CORE_MOST_TURNS) {
+    while (from < elvis_real(1) && light.error <= most && n_turns < CORE_MOST_ITERATIONS) {
         n_turns += 1u;
         work += CORE_WORK_A_TURN;
         if (is_new) {

@@ -62,7 +62,7 @@ layout(push_constant) uniform core_parameters {
 #include "volume/volume_steps.glsl"
 #endif
 
-// Elements of a ray in one dispatch, and turns, with all loops inside below where drivers end them.
+// Elements of a ray in one dispatch, and iterations, with all loops inside below where drivers end them.
 #define CORE_MOST_ELEMENTS 48u
 #define CORE_WORK_LIMIT 800u
 #ifndef CORE_BEGINS_AT_END
