@@ -2,9 +2,9 @@
 // projection of the field along the ray (Nelson & Kirby, Ray-tracing polymorphic multidomain spectral/hp elements for isosurface
 // rendering, 2006).
 //
-// Elements whose range holds an isovalue are visited nearest first, and in each the parts of the ray inside, from exact entry to
-// exact exit (segments/segment.glsl). Along a part the field is sampled and becomes a polynomial (segments/fit.glsl), whose
-// degree is raised, and then the part halved, until the error E is small beside how much the polynomial varies. Beside values each
+// Elements whose range holds an isovalue are visited nearest first, and in each the segments, from exact entry to
+// exact exit (segments/segment.glsl). Along a segment the field is sampled and becomes a polynomial (segments/fit.glsl), whose
+// degree is raised, and then the segment halved, until the error E is small beside how much the polynomial varies. Beside values each
 // sample has the field's slope along the ray, which the polynomial must have, too: few values alone can deceive. An interval without an
 // isovalue within E of the polynomial's Bernstein coefficients is left out: that is verified, not certified. Else the polynomial's
 // crossings are looked at in order. Each is polished on the field itself by Newton's method along the ray; it is taken if
@@ -16,7 +16,7 @@
 //
 // Where neither holds the interval is halved as long as E is more than rounding; then the pixel is undecided.
 //
-// With CORE_PLAIN the method is that of 2006: each part as one polynomial of fixed degree, whose first root is the answer.
+// With CORE_PLAIN the method is that of 2006: each segment as one polynomial of fixed degree, whose first root is the answer.
 
 layout(local_size_x = 32) in;
 
@@ -52,7 +52,7 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 #include "picture/look_beyond.glsl"
 #include "arithmetic/driver_limit.glsl"
 #include "field/shown_model.glsl"
-// Of elements that are curved more than usual a part that is missed would be a crossing missed.
+// Of elements that are curved more than usual a segment that is missed would be a crossing missed.
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
 #define CORE_CERTAIN_ITERATIONS 96u
 #define CORE_SEGMENT_ITERATIONS 160u
@@ -66,10 +66,10 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 // Iterations of a pixel, with all loops inside below where drivers end them.
 #define CORE_WORK_LIMIT 2500u
 
-// Times that a part of a ray may be halved. A field that is smooth needs few; that its derivatives jump is seen at the last.
+// Times that a segment may be halved. A field that is smooth needs few; that its derivatives jump is seen at the last.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_MOST_LEVELS 14u
-// Distance within which the ends of parts are wanted, over the volume's size.
+// Distance within which the ends of segments are wanted, over the volume's size.
 #define CORE_END_TOLERANCE elvis_real(2e-14LF)
 #else
 #define CORE_MOST_LEVELS 8u

@@ -1,4 +1,4 @@
-// Projection: a polynomial along an interval of a part, and where it may cross an isovalue.
+// Projection: a polynomial along an interval of a segment, and where it may cross an isovalue.
 //
 // The kernel brings isosurface/projection_search.glsl.
 
@@ -93,7 +93,7 @@ void core_projection_solve(core_traced_ray traced_ray, inout core_projection_sea
     }
 }
 
-// To the next interval of the part. `nearest_end`: nothing need be looked at behind.
+// To the next interval of the segment. `nearest_end`: nothing need be looked at behind.
 void core_projection_behind_interval(elvis_real nearest_end, inout core_projection_search search) {
     const bool is_last = core_is_last_interval(search.interval);
     if (!is_last) {

@@ -45,7 +45,7 @@ void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real
     // The last step may be small by chance.
     const elvis_real blur = max(abs(step), CORE_BLUR_SHARE * half_width);
     const bool is_wide = CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size, is_blurred = is_hit && is_wide;
-    // What rounding alone may have led out of the part may be in it.
+    // What rounding alone may have led out of the segment may be in it.
     const bool is_led_out = is_wide && !is_inside && outside <= half_width;
     const bool is_undecided = !is_hit && (is_settled ? !is_confirmed || is_led_out : is_last);
     search.n_crossings += is_settled && is_confirmed ? 1u : 0u;

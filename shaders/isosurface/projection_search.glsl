@@ -1,15 +1,15 @@
-// What projection (isosurface/isosurface_projection.comp) is at with a ray: the element, the part of the ray in it, the interval of that, and
+// What projection (isosurface/isosurface_projection.comp) is at with a ray: the element, the segment, the interval of that, and
 // the candidate for a crossing.
 //
 // The kernel brings segments/segment.glsl, segments/ray_sample.glsl, segments/root_candidate.glsl and segments/dyadic_interval.glsl.
 
-// What is next: an element, the part of the ray in it, a sample of an interval, a candidate, a step towards its crossing.
+// What is next: an element, the segment, a sample of an interval, a candidate, a step towards its crossing.
 #define CORE_PHASE_SEEK 0u
 #define CORE_PHASE_CLIP 1u
 #define CORE_PHASE_SAMPLE 2u
 #define CORE_PHASE_SOLVE 3u
 #define CORE_PHASE_POLISH 4u
-// An interval, a part or an element is done with.
+// An interval, a segment or an element is done with.
 #define CORE_PHASE_PIECE_DONE 5u
 #define CORE_PHASE_PART_DONE 6u
 
@@ -19,11 +19,11 @@ struct core_projection_search {
     uint element;
     // Bounds of the mapping's curvature and of the field's second derivatives in it.
     elvis_real curvature, bend;
-    // Where it ends at the latest; from where on the part is looked for; parts so far.
+    // Where it ends at the latest; from where on the segment is looked for; segments so far.
     elvis_real span_end, sought_from;
     uint n_parts;
     core_segment segment;
-    // The part, as much longer as its ends may be wrong.
+    // The segment, as much longer as its ends may be wrong.
     elvis_real part_from, part_to;
 
     core_dyadic_interval interval;

@@ -1,8 +1,8 @@
-// Projection: the parts of a ray in an element.
+// Projection: the segments of a ray in an element.
 //
 // The kernel brings isosurface/projection_search.glsl, isosurface/linear_model.glsl and isosurface/value_span.glsl.
 
-// Parts of a ray in one element.
+// Segments of a ray in one element.
 #define CORE_MOST_PARTS 16u
 
 #if ELVIS_REAL_IS_DOUBLE
@@ -48,7 +48,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     const bool is_lost = ending != CORE_SEGMENT_OPEN && search.segment.has_failed;
     search.n_failures += is_lost ? 1u : 0u;
     search.undecided_t = is_lost ? min(search.undecided_t, search.segment.begin) : search.undecided_t;
-    // A part may have been missed. In single precision, where rounding takes many iterations, the beginning of one has been, too.
+    // A segment may have been missed. In single precision, where rounding takes many iterations, the beginning of one has been, too.
     const bool is_found_late = ending == CORE_SEGMENT_FOUND && CORE_DOUBTS_BEGINNINGS;
     const bool is_doubtful = (ending == CORE_SEGMENT_NONE || is_found_late) && search.segment.is_estimated && CORE_PLAIN == 0;
     search.undecided_t = is_doubtful ? min(search.undecided_t, search.sought_from) : search.undecided_t;
@@ -65,7 +65,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     core_follow_to(search.follower, search.from);
 }
 
-// Behind a part: on in the element, or to the next one. `nearest_end`: nothing need be looked at behind.
+// Behind a segment: on in the element, or to the next one. `nearest_end`: nothing need be looked at behind.
 void core_projection_behind_segment(core_traced_ray traced_ray, elvis_real nearest_end, inout core_projection_search search) {
     search.n_parts += 1u;
     const elvis_real resume = search.segment.resume + traced_ray.tolerance;

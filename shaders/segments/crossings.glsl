@@ -1,9 +1,9 @@
 // Where a polynomial takes given values (isovalues, breakpoints), in order along the segment. Before it the kernel brings
 //     elvis_real core_listed_value(uint i)     an ascending list.
 //
-// The segment is divided dyadically, depth first, without a stack: a cell is [part, part + 1] / 2^level, and its coefficients are
-// always those of the whole segment, restricted. A cell with no listed value within its range, widened by the error E, is left: it
-// is verified that the field does not take them. A cell where the polynomial is monotone, or has one value in reach and one change
+// The segment is divided dyadically, depth first, without a stack: an interval is [index, index + 1] / 2^level, and its coefficients are
+// always those of the whole segment, restricted. An interval with no listed value within its range, widened by the error E, is left: it
+// is verified that the field does not take them. An interval where the polynomial is monotone, or has one value in reach and one change
 // of sign about it, is settled: crossings there are known one by one (Descartes' rule in the Bernstein basis: Collins & Akritas 1976;
 // Rouillier & Zimmermann 2004). So is one whose range is no wider than 2 E: there the polynomial does not know better. All others are
 // halved.
@@ -30,7 +30,7 @@
 // Regula falsi with the Illinois rule gains a digit and a half in two steps once near; more steps are a multiple root's.
 #define CORE_POLISH_STEPS 48u
 
-// The cell at hand, and how many of its crossings have been found before.
+// The interval at hand, and how many of its crossings have been found before.
 struct core_isolation {
     uint level, index, rank;
 };
@@ -40,7 +40,7 @@ struct core_crossing {
     // In the list.
     uint index;
     elvis_real t;
-    // Of the cell in which it lies: no other crossing of this value is in there, unless it is a touch.
+    // Of the interval in which it lies: no other crossing of this value is in there, unless it is a touch.
     elvis_real lower, upper;
 };
 
@@ -48,7 +48,7 @@ core_isolation core_isolation_begin() { return core_isolation(0u, 0u, 0u); }
 
 bool core_isolation_is_over(core_isolation isolation) { return isolation.level == 0u && isolation.index != 0u; }
 
-// The next cell of the same size, or that of which it is the left end.
+// The next interval of the same size, or that of which it is the left end.
 void core_isolation_next(inout core_isolation isolation) {
     const uint next = isolation.index + 1u;
     const uint up = uint(findLSB(next));
@@ -117,7 +117,7 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
         const bool is_isolated = n_reached == 1u && is_clear && core_variations(restricted, value) == 1u;
         const bool is_settled = is_small || is_isolated || core_is_monotone(restricted);
 
-        // A value met at the beginning of a cell belongs to the cell before.
+        // A value met at the beginning of an interval belongs to the interval before.
         const elvis_real zero = elvis_real(0);
         const bool crosses = (from < zero && to >= zero) || (from > zero && to <= zero) || (from == zero && to != zero && part == 0u);
         // Monotone, and stops within E of the value, or starts there: the end of the segment, or where it may turn round.
@@ -129,7 +129,7 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
                         : is_clear ? CORE_CROSSING_VERIFIED
                                    : CORE_CROSSING_PROBABLE;
         crossing.index = found ? index : 0u;
-        // In the cell; a crossing's is polished below.
+        // In the interval; a crossing's is polished below.
         crossing.t = is_small ? elvis_real(0.5LF) : stops ? elvis_real(1) : elvis_real(0);
         is_polished = found && crosses;
 

@@ -1,13 +1,13 @@
-// The intervals into which a part of a ray is halved, from its beginning to its end, with samples of the field and of its slope; samples
+// The intervals into which a segment is halved, from its beginning to its end, with samples of the field and of its slope; samples
 // at common ends are taken once.
 //
-// Needs: CORE_MOST_LEVELS, times that a part may be halved.
+// Needs: CORE_MOST_LEVELS, times that a segment may be halved.
 
 // The samples of an interval, and what comes after it: samples at the ends of the intervals that it is in, by level.
 struct core_dyadic_interval {
     core_fit_samples values, slopes;
     elvis_real end_values[CORE_MOST_LEVELS + 1u], end_slopes[CORE_MOST_LEVELS + 1u];
-    // [index, index + 1] / 2^level of the part.
+    // [index, index + 1] / 2^level of the segment.
     uint level, index;
 };
 
@@ -23,7 +23,7 @@ void core_halve(inout core_dyadic_interval interval) {
     interval.slopes = core_fit_half(interval.slopes, 0u);
 }
 
-// To the interval after it in the same part.
+// To the interval after it in the same segment.
 void core_next_interval(inout core_dyadic_interval interval) {
     const uint next = interval.index + 1u;
     const uint up = uint(findLSB(next));

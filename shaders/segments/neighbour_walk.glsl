@@ -3,10 +3,10 @@
 //     walk = where the ray has got to;
 //     goes = core_walk_begin(walk, its end, its status there)
 //     while (goes) {
-//         core_reach reach = core_walk_reach(ray, walk, part): how far it is in the walk's next element
+//         core_reach reach = core_walk_reach(ray, walk, segment): how far it is in the walk's next element
 //         the ray is in that element from walk.at to reach.leave, where what is settled already does not count
-//         core_walk_go_on(ray, walk, part, reach, from): the next element
-//         core_walk_help(ray, walk, part, flags)
+//         core_walk_go_on(ray, walk, segment, reach, from): the next element
+//         core_walk_help(ray, walk, segment, flags)
 //         goes = core_walk_goes(walk)
 //     }
 //
@@ -21,7 +21,7 @@
 
 #include "segments/walk_state.glsl"
 
-// Parts on end that are too short to matter, before the element around the ray is looked for.
+// Segments on end that are too short to matter, before the element around the ray is looked for.
 #define CORE_MOST_GRAZES 4u
 // Over the volume's size: gaps between elements of a walk that are rounding's.
 #define CORE_WIDEST_GAP 1e-6
@@ -84,7 +84,7 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
 }
 
 // Where the ray leaves the element as Newton's method predicts it, without bounds: for rays that run along a curved face within
-// rounding, which is then left out. The result stands in the part, which is an estimate.
+// rounding, which is then left out. The result stands in the segment, which is an estimate.
 void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment segment) {
     elvis_real leave = from;
     int leave_face = CORE_NO_FACE;

@@ -18,7 +18,7 @@
 // The linearized mapping keeps this many digits of coordinates in the element.
 #define CORE_START_ERROR elvis_real(1e-2LF)
 
-// Elements of larger or unknown curvature, and those that take too many iterations, are looked at with this bound or a part of it: their parts are
+// Elements of larger or unknown curvature, and those that take too many iterations, are looked at with this bound or a part of it: their segments are
 // estimated.
 // A kernel may bring others: more is right for more elements, and takes more iterations.
 #ifndef CORE_ASSUMED_CURVATURE
@@ -79,7 +79,7 @@ struct core_segment {
     elvis_real enter, enter_error, leave, leave_error;
     // CORE_NO_FACE where they are not known.
     int enter_face, leave_face;
-    // Where the search goes on after the part, if before `last`.
+    // Where the search goes on after the segment, if before `last`.
     elvis_real resume;
     // The last prediction, from which the next point comes.
     elvis_real x, y, z, slope_x, slope_y, slope_z, anchor;

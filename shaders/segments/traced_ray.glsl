@@ -1,12 +1,12 @@
 // A pixel's ray as segments/segment.glsl wants it. The kernel brings both and picture/pixel_ray.glsl.
 
-// Distance within which the ends of parts are wanted, over the volume's size.
+// Distance within which the ends of segments are wanted, over the volume's size.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_END_TOLERANCE elvis_real(2e-14LF)
 #else
 #define CORE_END_TOLERANCE elvis_real(2.5e-7LF)
 #endif
-// Share of the bound of rounding that is met at worst: parts of rays that are shorter than what it makes of them are not found.
+// Share of the bound of rounding that is met at worst: segments that are shorter than what it makes of them are not found.
 #define CORE_ROUNDING_SHARE elvis_real(0.125LF)
 
 // `extent`: the diagonal of the volume's bounds.

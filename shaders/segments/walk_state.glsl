@@ -1,6 +1,6 @@
 // Rays go through a volume in walks: into it through a face without known neighbour (or where the eye is), then through shared faces
 // from element to element, until they leave through a face without neighbour. Then the next walk is looked for, in the order of where
-// they begin. Parts that another walk has settled before do not count again.
+// they begin. Intervals that another walk has settled before do not count again.
 //
 // So a ray's way is a state that goes from dispatch to dispatch, and from one element class to another.
 

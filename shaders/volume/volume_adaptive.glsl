@@ -1,5 +1,5 @@
-// The volume rendering integral along a ray's part in one element by the trapezoidal rule, in steps halved until the rule agrees with
-// itself over two half steps (B. Nelson, 2012, section 6.4.4). Steps are dyadic: [part, part + 1] / 2^level of the segment, from one to
+// The volume rendering integral along a segment by the trapezoidal rule, in steps halved until the rule agrees with
+// itself over two half steps (B. Nelson, 2012, section 6.4.4). Steps are dyadic: [index, index + 1] / 2^level of the segment, from one to
 // the next without a stack.
 //
 // A narrow peak between samples would leave the rule in agreement. So what breakpoints between them do is bounded, too: the field
@@ -26,7 +26,7 @@
 
 struct core_integral {
     elvis_real from, to;
-    uint wants, level, part, n_samples;
+    uint wants, level, index, n_samples;
     elvis_real left_value, left_slope, middle_value, middle_slope, right_value, right_slope;
     core_optics left, middle, right;
     // Largest of a sample.
@@ -39,7 +39,7 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
     integral.from = from;
     integral.to = to;
     integral.wants = from < to ? CORE_WANTS_LEFT : CORE_WANTS_NOTHING;
-    integral.level = integral.part = integral.n_samples = 0u;
+    integral.level = integral.index = integral.n_samples = 0u;
     integral.left_value = integral.left_slope = integral.middle_value = integral.middle_slope = elvis_real(0);
     integral.right_value = integral.right_slope = integral.error = elvis_real(0);
     integral.left = integral.middle = integral.right = core_optics(elvis_real(0), elvis_real(0), elvis_real(0), elvis_real(0));
@@ -59,7 +59,7 @@ elvis_real core_integral_at(core_integral integral) {
     const elvis_real in_step = integral.wants == CORE_WANTS_LEFT    ? elvis_real(0)
                                : integral.wants == CORE_WANTS_RIGHT ? elvis_real(1)
                                                                     : elvis_real(0.5LF);
-    const elvis_real share = (elvis_real(integral.part) + in_step) / elvis_real(1u << integral.level);
+    const elvis_real share = (elvis_real(integral.index) + in_step) / elvis_real(1u << integral.level);
     return share >= elvis_real(1) ? integral.to : integral.from + (integral.to - integral.from) * share;
 }
 
@@ -149,7 +149,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         const elvis_real rounding = light.left * width * piece.steepness * integral.error;
         // What is flagged already is not looked at more closely than what is not.
         const elvis_real budget = light.error < tolerance ? tolerance - light.error : tolerance;
-        const elvis_real rest = ahead - step * elvis_real(integral.part);
+        const elvis_real rest = ahead - step * elvis_real(integral.index);
         const elvis_real allowed = budget * max(step / max(rest, step), CORE_LEAST_SHARE);
         const bool is_bounded = integral.level < CORE_MOST_LEVELS && integral.n_samples < CORE_MOST_SAMPLES;
         const bool is_good = step_error <= max(allowed, rounding), is_taken = is_good || !is_bounded;
@@ -161,7 +161,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         integral.n_breakpoints += is_taken ? n_breakpoints : 0u;
         // On; twice as far if that is dyadic and the rule's error, which goes with the cube, is likely to allow it; with no samples
         // left as far as that is. Or back.
-        const uint next = integral.part + 1u;
+        const uint next = integral.index + 1u;
         const bool is_over = is_taken && next >= (1u << integral.level);
         const bool is_longer = is_taken && !is_over && (next & 1u) == 0u &&
                                (elvis_real(4) * step_error <= allowed || integral.n_samples >= CORE_MOST_SAMPLES);
@@ -174,7 +174,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
         integral.left_slope = is_taken ? integral.right_slope : integral.left_slope;
         integral.right_value = is_taken ? integral.right_value : integral.middle_value;
         integral.right_slope = is_taken ? integral.right_slope : integral.middle_slope;
-        integral.part = is_longer ? next / 2u : is_taken ? next : 2u * integral.part;
+        integral.index = is_longer ? next / 2u : is_taken ? next : 2u * integral.index;
         integral.level = is_longer ? integral.level - 1u : is_taken ? integral.level : integral.level + 1u;
         integral.wants = is_over ? CORE_WANTS_NOTHING : is_taken ? CORE_WANTS_RIGHT : CORE_WANTS_MIDDLE;
     }

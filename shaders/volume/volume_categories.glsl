@@ -1,4 +1,4 @@
-// The volume rendering integral along a ray's part in one element, by what the field's range there leaves of the transfer function
+// The volume rendering integral along a segment, by what the field's range there leaves of the transfer function
 // (B. Nelson, 2012, algorithm 2 and section 6.4): its density and its colour are each empty (zero), smooth (no breakpoint in the
 // range) or piecewise smooth.
 //

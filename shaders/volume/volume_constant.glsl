@@ -1,11 +1,11 @@
-// What is known of the field along a ray's part in an element without evaluating it: bounds, from the element's linear model
+// What is known of the field along a segment without evaluating it: bounds, from the element's linear model
 // (isosurface/linear_model.glsl) and the line that the ray is in reference coordinates but for the mapping's curvature.
 //
 // The kernel brings segments/segment.glsl and volume/volume_light.glsl.
 
 #include "isosurface/linear_model.glsl"
 
-// Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `part`: as the search for where the
+// Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `segment`: as the search for where the
 // ray leaves has left it.
 elvis_vec2 core_range_along(core_segment segment, elvis_real from, elvis_real until) {
     const core_linear_model model = core_fetch_linear_model(segment.element);

@@ -29,7 +29,7 @@ layout(push_constant) uniform core_parameters {
     uint core_first_component, core_end_component;
     uint core_n_breakpoints;
     uint core_has_depths, core_has_stops;
-    // Parts of rays where bounds say that density and colour are constant need no values.
+    // Intervals where bounds say that density and colour are constant need no values.
     uint core_skips_by_range;
     uint core_zero;
     // The diagonal of the volume's bounds.
@@ -178,7 +178,7 @@ void main() {
                     n_failures += has_failed ? 1u : 0u;
                     flags |= is_nan ? CORE_FLAG_NAN : has_failed ? CORE_FLAG_NEWTON_FAILURE : 0u;
 #if !CORE_BEGINS_AT_END
-                    // The first evaluation at an end of the part may tell that there is nothing in all of it.
+                    // The first evaluation at an end of the segment may tell that there is nothing in all of it.
                     const bool is_all = is_fresh && abs(follower.span) >= until - from && result.is_known && !is_broken && core_skips_by_range != 0u;
                     if (is_all) {
                         const elvis_real other = result.value + follower.span * result.slope, beyond = result.bend + result.error;

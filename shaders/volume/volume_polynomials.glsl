@@ -1,4 +1,4 @@
-// The volume rendering integral along a ray's part in one element, by polynomials through samples with slopes: at both ends of a
+// The volume rendering integral along a segment, by polynomials through samples with slopes: at both ends of a
 // step, which makes a cubic, and where that may not be good enough inside, which makes a quintic. Steps adapt to what each channel may
 // be off.
 //
