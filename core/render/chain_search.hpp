@@ -1,6 +1,6 @@
 /**
  * @file chain_search.hpp
- * Finds where rays begin chains of elements (shaders/tiles/ray_tiles.comp, chain_seek.comp), for all that goes along rays.
+ * Finds where rays begin chains of elements (shaders/tiles/ray_tiles.comp, shaders/segments/find_walk.comp), for all that goes along rays.
  */
 #pragma once
 

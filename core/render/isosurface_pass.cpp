@@ -92,7 +92,7 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                            {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"},
                            {"CORE_TILE_CAPACITY", std::to_string(tile_capacity) + "u"},
-                           {"CORE_TESTS_LEVELS", "1"},
+                           {"CORE_TESTS_ISOVALUES", "1"},
                            {"CORE_CLASS", std::to_string(index) + "u"}};
         request.bindings = {{0, BindingType::uniform_buffer}};
         for (std::uint32_t binding = 1; binding <= 3; ++binding) {

@@ -59,23 +59,23 @@ core_quadric_span core_quadric_span_at(elvis_real column, elvis_real row, elvis_
     const elvis_real discriminant = b * b - elvis_real(4) * high * c;
     const elvis_real reach = (b + sqrt(max(discriminant, elvis_real(0)))) / (elvis_real(2) * high) * up;
 
-    core_quadric_span segment;
-    segment.is_known = high > elvis_real(0) && core_is_finite(reach);
+    core_quadric_span quadric_span;
+    quadric_span.is_known = high > elvis_real(0) && core_is_finite(reach);
     const elvis_real least = elvis_real(64) * CORE_ROUNDOFF * (b * b + abs(elvis_real(4) * high * c));
-    segment.is_absent = segment.is_known && discriminant < -least;
-    segment.from = base + (t0 - reach) * direction;
+    quadric_span.is_absent = quadric_span.is_known && discriminant < -least;
+    quadric_span.from = base + (t0 - reach) * direction;
     const elvis_real highest = middle.value + up * (g0 * h0 + largest * h0 * h0 + elvis_real(2) * middle.error);
     const elvis_real steepest = a * up + up * (g1 * h1 + largest * h1 * h1);
     const elvis_real root = sqrt(max(b * b - elvis_real(4) * steepest * highest, elvis_real(0)));
     const elvis_real room = elvis_real(-2) * highest / (up * (b + root));
-    segment.is_split = segment.is_known && is_front && highest < elvis_real(0) && core_is_finite(room);
+    quadric_span.is_split = quadric_span.is_known && is_front && highest < elvis_real(0) && core_is_finite(room);
     // The front is before where f is least on its ray.
     const elvis_real least_within = up * (b + elvis_real(8) * CORE_ROUNDOFF * g0 * length(local)) / (elvis_real(2) * high);
-    segment.to = base + (t0 + (segment.is_split ? -room : is_front ? min(least_within, reach) : reach)) * direction;
+    quadric_span.to = base + (t0 + (quadric_span.is_split ? -room : is_front ? min(least_within, reach) : reach)) * direction;
     const elvis_real middle_root = sqrt(max(middle.slope * middle.slope - elvis_real(4) * a * middle.value, elvis_real(0)));
-    segment.front = t0 - (segment.is_split ? (middle.slope + middle_root) / (elvis_real(2) * a) : elvis_real(0));
-    segment.width = h0 + reach * h1 + noise;
-    return segment;
+    quadric_span.front = t0 - (quadric_span.is_split ? (middle.slope + middle_root) / (elvis_real(2) * a) : elvis_real(0));
+    quadric_span.width = h0 + reach * h1 + noise;
+    return quadric_span;
 }
 
 // The part of the front that a square of the picture shows, flat but for `departure` along the rays.
@@ -86,16 +86,16 @@ struct core_front {
     bool is_known;
 };
 
-core_front core_quadric_front(elvis_real column, elvis_real row, elvis_real half_size, core_quadric_span segment) {
+core_front core_quadric_front(elvis_real column, elvis_real row, elvis_real half_size, core_quadric_span quadric_span) {
     const core_cut_column along = core_cut_begin(column);
     const elvis_real down = row - along.row0;
     const elvis_vec3 base = (along.base + down * along.base_row).xyz;
     const elvis_vec3 direction = (along.direction + down * along.direction_row).xyz;
     const elvis_mat3 to_world = elvis_mat3(CORE_SHAPE(0).xyz, CORE_SHAPE(1).xyz, CORE_SHAPE(2).xyz);
-    const elvis_vec3 terms = (along.size + abs(down * along.base_row)).xyz + abs(segment.front * direction);
+    const elvis_vec3 terms = (along.size + abs(down * along.base_row)).xyz + abs(quadric_span.front * direction);
     const elvis_real noise = elvis_real(8) * CORE_ROUNDOFF * max(max(terms.x, terms.y), terms.z);
     core_front front;
-    front.tangent.point = base + segment.front * direction;
+    front.tangent.point = base + quadric_span.front * direction;
     const core_quadric_point there = core_quadric_at((front.tangent.point - CORE_SHAPE(3).xyz) * to_world, direction * to_world,
                                                      elvis_real(0), noise);
     const elvis_real steepness = length(there.gradient), largest = elvis_real(0.5LF) * CORE_SHAPE(4).w;
@@ -112,7 +112,7 @@ core_front core_quadric_front(elvis_real column, elvis_real row, elvis_real half
     const elvis_real most = largest * square_radius + abs(there.value) + elvis_real(2) * there.error;
     const elvis_real up = elvis_real(1) + elvis_real(64) * CORE_ROUNDOFF;
     front.departure = up * elvis_real(2) * most / fall * stretch + noise;
-    front.is_known = segment.is_split && front.square.all_hit && fall > elvis_real(0) && core_is_finite(front.departure);
+    front.is_known = quadric_span.is_split && front.square.all_hit && fall > elvis_real(0) && core_is_finite(front.departure);
     return front;
 }
 

@@ -33,7 +33,7 @@ elvis_real core_torus_p1(core_torus_ray ray, elvis_real s) {
 
 // About 2 r times the distance from the surface; and how it changes with the point, and what it loses by rounding if the point has
 // `noise`.
-elvis_real core_torus_level(core_torus_ray ray, elvis_real s) {
+elvis_real core_torus_value(core_torus_ray ray, elvis_real s) {
     const elvis_vec3 y = ray.origin + s * ray.direction;
     const elvis_real rho = length(y.xy);
     const elvis_real near = rho - ray.major_radius, far = rho + ray.major_radius;
@@ -122,11 +122,11 @@ core_hit core_next_hit(core_surface_ray ray) {
         end3 = core_torus_extremum(local, turn1, last);
     }
 
-    elvis_real low = first, at_low = core_torus_level(local, first);
+    elvis_real low = first, at_low = core_torus_value(local, first);
     uint part = 0u;
     while (part < (is_near ? 4u : 0u)) {
         const elvis_real high = part == 0u ? end1 : part == 1u ? end2 : part == 2u ? end3 : last;
-        const elvis_real at_high = core_torus_level(local, high);
+        const elvis_real at_high = core_torus_value(local, high);
         elvis_real a = low, b = high, at_a = at_low, at_b = at_high;
         const bool has_zero = (at_a < elvis_real(0)) != (at_b < elvis_real(0)) && a < b;
         elvis_real s = abs(at_a) < abs(at_b) ? a : b;
@@ -135,7 +135,7 @@ core_hit core_next_hit(core_surface_ray ray) {
         while (step < CORE_TORUS_STEPS && width > elvis_real(2) * CORE_ROUNDOFF * (abs(a) + abs(b))) {
             const elvis_real fraction = at_a / (at_a - at_b);
             const elvis_real try = a + (step % 3u == 2u ? elvis_real(0.5LF) : fraction) * (b - a);
-            const elvis_real value = core_torus_level(local, try);
+            const elvis_real value = core_torus_value(local, try);
             const bool is_low = (value < elvis_real(0)) == (at_a < elvis_real(0));
             at_b = is_low ? elvis_real(0.5LF) * at_b : value;
             at_a = is_low ? value : elvis_real(0.5LF) * at_a;

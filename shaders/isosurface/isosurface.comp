@@ -1,6 +1,6 @@
 // The first point of each pixel's ray at which the field takes one of the isovalues, in the elements of one class.
 //
-// The list of a tile of pixels (tiles/ray_tiles.comp) names the octants, octants of elements that can hold an isovalue, in the order of
+// The list of a tile of pixels (tiles/ray_tiles.comp) names the octants of elements that can hold an isovalue, in the order of
 // depth, so that the search ends at the first octant behind the crossing found. A work group is a few rows of a tile, and takes over what
 // these can meet (isosurface/group_octants.glsl).
 //

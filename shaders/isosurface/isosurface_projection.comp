@@ -158,10 +158,10 @@ void main() {
         if (search.phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND) {
             core_projection_polish(ray, traced_ray, size, found, search, nearest);
         }
-        if (search.phase == CORE_PHASE_PIECE_DONE) {
+        if (search.phase == CORE_PHASE_INTERVAL_DONE) {
             core_projection_behind_interval(core_nearest_end(nearest), search);
         }
-        if (search.phase == CORE_PHASE_PART_DONE) {
+        if (search.phase == CORE_PHASE_SEGMENT_DONE) {
             core_projection_behind_segment(traced_ray, core_nearest_end(nearest), search);
         }
         if (search.phase == CORE_PHASE_SEEK && stack_size == 0u) {

@@ -12,8 +12,8 @@
 //
 // The curvature is that of element/prediction.glsl in the octant. Where there is no linearization, y is of the element's box, size is zero, and the error CORE_VALUE_UNKNOWN.
 
-#ifndef CORE_OCTANT_GUARD
-#define CORE_OCTANT_GUARD
+#ifndef CORE_OCTANT
+#define CORE_OCTANT
 
 #define CORE_VALUE_UNKNOWN 3e38
 // Of single precision, in x and in all that is computed of y.

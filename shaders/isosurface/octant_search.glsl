@@ -13,20 +13,20 @@
 elvis_real core_wider(core_linear_root crossing) { return elvis_real(4) * crossing.half_width; }
 
 // Starts with the part of a ray in an octant. Returns flags of the pixel.
-uint core_interval_search_begin(core_octant octant, core_octant_span part, out core_interval_search search) {
-    search.x = elvis_real(part.xi.x);
-    search.y = elvis_real(part.xi.y);
-    search.z = elvis_real(part.xi.z);
+uint core_interval_search_begin(core_octant octant, core_octant_span reached, out core_interval_search search) {
+    search.x = elvis_real(reached.xi.x);
+    search.y = elvis_real(reached.xi.y);
+    search.z = elvis_real(reached.xi.z);
     core_project(search.x, search.y, search.z);
-    search.from = elvis_real(part.span.x);
-    search.to = search.next = search.last = elvis_real(part.span.y);
-    search.element = part.is_met ? octant.element : CORE_NO_ELEMENT;
+    search.from = elvis_real(reached.span.x);
+    search.to = search.next = search.last = elvis_real(reached.span.y);
+    search.element = reached.is_met ? octant.element : CORE_NO_ELEMENT;
     search.curvature = elvis_real(octant.curvature);
     search.used = search.moves = 0u;
     search.wide = elvis_real(0);
     const elvis_real half_side = elvis_real(core_octant_half_side(octant.code));
     search.bend = elvis_real(2) * elvis_real(octant.error) / (half_side * half_side);
-    const bool is_dismissed = part.is_inside && !part.is_met;
+    const bool is_dismissed = reached.is_inside && !reached.is_met;
     return is_dismissed && (octant.code & CORE_OCTANT_ESTIMATED) != 0u ? CORE_FLAG_ESTIMATED : 0u;
 }
 

@@ -12,7 +12,7 @@ vec2 core_octant_inside(core_octant octant, vec3 start, vec3 motion, float toler
     span.x = max(span.x, max(max(low.x, low.y), low.z));
     span.y = min(span.y, min(min(high.x, high.y), high.z));
 #if ELVIS_SHAPE != ELVIS_SHAPE_HEXAHEDRON
-    // The octant is the part of an octant that lies in the shape.
+    // Only what lies in the shape counts.
     const float beyond = octant.size * (1.0 + tolerance) - core_octant_half_side(octant.code);
     const vec3 xi = core_octant_middle(octant.code) + octant.size * start, change = octant.size * motion;
     for (int face = 0; face < CORE_N_FACES; ++face) {
@@ -45,10 +45,10 @@ core_octant_span core_octant_span_of(core_octant octant, core_ray ray, float end
     const vec3 motion = core_octant_rotate(octant, vec3(ray.direction));
     const float tolerance = core_octant_tolerance(octant, ray.far);
     const vec2 inside = core_octant_inside(octant, start, motion, tolerance, vec2(float(ray.least_t), end_t));
-    core_octant_span part;
-    part.span = core_octant_value_span(octant, start, motion, tolerance, inside);
-    part.is_inside = inside.x <= inside.y;
-    part.is_met = part.is_inside && part.span.x <= part.span.y;
-    part.xi = core_octant_middle(octant.code) + octant.size * (start + 0.5 * (part.span.x + part.span.y) * motion);
-    return part;
+    core_octant_span reached;
+    reached.span = core_octant_value_span(octant, start, motion, tolerance, inside);
+    reached.is_inside = inside.x <= inside.y;
+    reached.is_met = reached.is_inside && reached.span.x <= reached.span.y;
+    reached.xi = core_octant_middle(octant.code) + octant.size * (start + 0.5 * (reached.span.x + reached.span.y) * motion);
+    return reached;
 }

@@ -1,4 +1,4 @@
-// The linear models of octants, which are octants of elements (isosurface/octant.glsl), the range of the field in each, and a box.
+// The linear models of octants (isosurface/octant.glsl), the range of the field in each, and a box.
 
 layout(local_size_x = 32) in;
 

@@ -53,7 +53,7 @@ void core_projection_judge(inout core_projection_search search) {
     search.fit.error = core_bernstein_rounding(search.fit.chebyshev);
 #endif
     search.isolation = core_isolation_begin();
-    search.phase = is_verified ? CORE_PHASE_PIECE_DONE : is_solved ? CORE_PHASE_SOLVE : search.phase;
+    search.phase = is_verified ? CORE_PHASE_INTERVAL_DONE : is_solved ? CORE_PHASE_SOLVE : search.phase;
     if (halves) {
         core_projection_halve(search);
         core_want_sample(search);
@@ -83,7 +83,7 @@ void core_projection_solve(core_traced_ray traced_ray, inout core_projection_sea
     search.last_step = CORE_FAR;
     core_follow_to(search.follower, search.from + search.candidate.t * (search.to - search.from));
     const bool is_ignored = CORE_PLAIN == 1 && search.candidate.kind == CORE_CROSSING_TOUCH;
-    search.phase = is_none ? CORE_PHASE_PIECE_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
+    search.phase = is_none ? CORE_PHASE_INTERVAL_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
     if (refines && (halves || !is_full)) {
         if (halves) {
             core_projection_halve(search);
@@ -103,5 +103,5 @@ void core_projection_behind_interval(elvis_real nearest_end, inout core_projecti
         search.to = search.part_from + share * (search.part_to - search.part_from);
         core_want_sample(search);
     }
-    search.phase = is_last ? CORE_PHASE_PART_DONE : search.from > nearest_end ? CORE_PHASE_SEEK : CORE_PHASE_SAMPLE;
+    search.phase = is_last ? CORE_PHASE_SEGMENT_DONE : search.from > nearest_end ? CORE_PHASE_SEEK : CORE_PHASE_SAMPLE;
 }

@@ -10,8 +10,8 @@
 #define CORE_PHASE_SOLVE 3u
 #define CORE_PHASE_POLISH 4u
 // An interval, a segment or an element is done with.
-#define CORE_PHASE_PIECE_DONE 5u
-#define CORE_PHASE_PART_DONE 6u
+#define CORE_PHASE_INTERVAL_DONE 5u
+#define CORE_PHASE_SEGMENT_DONE 6u
 
 struct core_projection_search {
     uint phase, flags;
@@ -92,6 +92,6 @@ core_ray_sample core_projection_sample(core_traced_ray ray, inout core_projectio
     search.n_failures += is_lost && found.is_finite ? 1u : 0u;
     search.flags |= !found.is_finite ? CORE_FLAG_NAN : 0u;
     search.undecided_t = is_lost && found.is_finite ? min(search.undecided_t, search.from) : search.undecided_t;
-    search.phase = is_lost ? CORE_PHASE_PART_DONE : search.phase;
+    search.phase = is_lost ? CORE_PHASE_SEGMENT_DONE : search.phase;
     return found;
 }

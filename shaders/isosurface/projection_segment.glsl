@@ -52,7 +52,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     const bool is_found_late = ending == CORE_SEGMENT_FOUND && CORE_DOUBTS_BEGINNINGS;
     const bool is_doubtful = (ending == CORE_SEGMENT_NONE || is_found_late) && search.segment.is_estimated && CORE_PLAIN == 0;
     search.undecided_t = is_doubtful ? min(search.undecided_t, search.sought_from) : search.undecided_t;
-    search.phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_SEGMENT_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_PART_DONE;
+    search.phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_SEGMENT_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_SEGMENT_DONE;
     // Ends are as wrong as that, and a crossing beside them is one all the same; but none is behind the eye.
     search.part_from = max(search.segment.enter - search.segment.enter_error - traced_ray.tolerance, ray.least_t);
     search.part_to = search.segment.leave + search.segment.leave_error + traced_ray.tolerance;

@@ -1,8 +1,8 @@
 // Where a linear model of a field along a ray leaves room for an isovalue: within `span`, value + t slope is the field but for `error`.
 // If there is only one isovalue, the part around it; all of the span if there are several.
 
-#ifndef CORE_LEVEL_PART
-#define CORE_LEVEL_PART
+#ifndef CORE_VALUE_INTERVAL
+#define CORE_VALUE_INTERVAL
 
 vec2 core_value_interval(float value, float slope, float error, vec2 span) {
     const float a = value + span.x * slope, b = value + span.y * slope;

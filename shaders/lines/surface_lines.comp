@@ -196,16 +196,16 @@ void main() {
         const elvis_vec3 shift = core_reference.xyz - elvis_origin(safe_element);
         const elvis_vec3 origin = shift - position;
 #if CORE_BY_QUADRIC_SPANS
-        const core_quadric_span segment = core_quadric_span_at(cell_column, cell_row, elvis_real(0.5LF) * cell_size, is_front);
-        const core_front front = core_quadric_front(cell_column, cell_row, elvis_real(0.5LF) * cell_size, segment);
+        const core_quadric_span quadric_span = core_quadric_span_at(cell_column, cell_row, elvis_real(0.5LF) * cell_size, is_front);
+        const core_front front = core_quadric_front(cell_column, cell_row, elvis_real(0.5LF) * cell_size, quadric_span);
         const bool is_plane = front.is_known;
         core_cut_square part;
-        part.corner0 = is_plane ? front.square.corner0 : segment.from;
-        part.corner1 = is_plane ? front.square.corner1 : segment.to;
-        part.corner2 = is_plane ? front.square.corner2 : segment.from;
-        part.corner3 = is_plane ? front.square.corner3 : segment.to;
-        part.error = is_plane ? front.square.error + front.departure : segment.width;
-        const bool is_absent = segment.is_absent;
+        part.corner0 = is_plane ? front.square.corner0 : quadric_span.from;
+        part.corner1 = is_plane ? front.square.corner1 : quadric_span.to;
+        part.corner2 = is_plane ? front.square.corner2 : quadric_span.from;
+        part.corner3 = is_plane ? front.square.corner3 : quadric_span.to;
+        part.error = is_plane ? front.square.error + front.departure : quadric_span.width;
+        const bool is_absent = quadric_span.is_absent;
         // That of no face: what looks as if it lay in one may cross it.
         const int own_face = CORE_N_FACES;
         const elvis_real error = part.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));

@@ -102,10 +102,10 @@ core_polynomial core_after(core_polynomial p, elvis_real t) {
     return p;
 }
 
-// On [part, part + 1] / 2^level, always from the whole segment: errors do not add up with the level.
-core_polynomial core_restricted(core_polynomial p, uint level, uint part) {
-    const elvis_real end = elvis_real(part + 1u);
-    return core_after(core_before(p, end / elvis_real(1u << level)), elvis_real(part) / end);
+// On [index, index + 1] / 2^level, always from the whole segment: errors do not add up with the level.
+core_polynomial core_restricted(core_polynomial p, uint level, uint index) {
+    const elvis_real end = elvis_real(index + 1u);
+    return core_after(core_before(p, end / elvis_real(1u << level)), elvis_real(index) / end);
 }
 
 // Horner's rule in t with (1 - t) carried along: no cancellation that the coefficients do not have.

@@ -97,12 +97,12 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
     crossing.kind = CORE_CROSSING_NONE;
     crossing.index = 0u;
     crossing.t = crossing.lower = crossing.upper = elvis_real(0);
-    uint level = 0u, part = 0u;
+    uint level = 0u, place = 0u;
     bool is_polished = false;
     while (crossing.kind == CORE_CROSSING_NONE && !core_isolation_is_over(isolation)) {
         level = isolation.level;
-        part = isolation.index;
-        const core_polynomial restricted = core_restricted(bernstein, level, part);
+        place = isolation.index;
+        const core_polynomial restricted = core_restricted(bernstein, level, place);
         const elvis_real first = restricted.c[0], last = restricted.c[CORE_FIT_DEGREE];
         const elvis_real least = core_least(restricted), most = core_most(restricted);
         const uint n_below = core_count_below(least - error, false, n_values);
@@ -119,10 +119,10 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
 
         // A value met at the beginning of an interval belongs to the interval before.
         const elvis_real zero = elvis_real(0);
-        const bool crosses = (from < zero && to >= zero) || (from > zero && to <= zero) || (from == zero && to != zero && part == 0u);
+        const bool crosses = (from < zero && to >= zero) || (from > zero && to <= zero) || (from == zero && to != zero && place == 0u);
         // Monotone, and stops within E of the value, or starts there: the end of the segment, or where it may turn round.
         const bool stops = rises ? to < zero : to > zero;
-        const bool touches = is_small || stops || part == 0u;
+        const bool touches = is_small || stops || place == 0u;
         const bool found = has_value && is_settled && (crosses || touches);
         crossing.kind = !found ? CORE_CROSSING_NONE
                         : !crosses ? CORE_CROSSING_TOUCH
@@ -146,11 +146,11 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
     }
     const elvis_real size = crossing.kind == CORE_CROSSING_NONE ? elvis_real(0) : elvis_real(1) / elvis_real(1u << level);
     if (is_polished) {
-        crossing.t = core_polish(core_restricted(bernstein, level, part), core_listed_value(crossing.index));
+        crossing.t = core_polish(core_restricted(bernstein, level, place), core_listed_value(crossing.index));
     }
-    crossing.t = (elvis_real(part) + crossing.t) * size;
-    crossing.lower = elvis_real(part) * size;
-    crossing.upper = elvis_real(part + 1u) * size;
+    crossing.t = (elvis_real(place) + crossing.t) * size;
+    crossing.lower = elvis_real(place) * size;
+    crossing.upper = elvis_real(place + 1u) * size;
     return crossing;
 }
 

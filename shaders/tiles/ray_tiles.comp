@@ -20,7 +20,7 @@ layout(push_constant) uniform core_constants {
     // Of the whole picture; and those that lists are wanted of.
     uint core_n_tiles;
     uint core_first_tile, core_end_tile;
-#ifdef CORE_TESTS_LEVELS
+#ifdef CORE_TESTS_ISOVALUES
     uint core_n_isovalues;
 #endif
 };
@@ -35,7 +35,7 @@ layout(std430, set = 0, binding = 2) buffer core_has_starts_block { uint core_ha
 
 #include "tiles/tile_frustum.glsl"
 
-#ifdef CORE_TESTS_LEVELS
+#ifdef CORE_TESTS_ISOVALUES
 #include "isosurface/octant_leaf_test.glsl"
 #elif defined(CORE_TESTS_STARTS)
 #include "segments/walk_leaf_test.glsl"

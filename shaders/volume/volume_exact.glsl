@@ -11,7 +11,7 @@
 
 // Of what the kernel does in one dispatch.
 #define CORE_WORK_A_STEP 3u
-#define CORE_WORK_A_TURN 6u
+#define CORE_WORK_AN_ITERATION 6u
 // Breakpoints met and cells halved in one step, beyond which it is not to be good.
 #define CORE_MOST_ITERATIONS 256u
 #define CORE_MEETING_ITERATIONS 48u
@@ -169,7 +169,7 @@ void core_add_polynomial(inout core_light light, core_polynomial p, core_polynom
     uint n_turns = 0u;
     while (from < elvis_real(1) && light.error <= most && n_turns < CORE_MOST_ITERATIONS) {
         n_turns += 1u;
-        work += CORE_WORK_A_TURN;
+        work += CORE_WORK_AN_ITERATION;
         if (is_new) {
             const core_polynomial restricted = core_after(core_before(p, to), from / to);
             last = restricted.c[CORE_FIT_DEGREE];

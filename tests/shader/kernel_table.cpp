@@ -148,7 +148,7 @@ void add_isosurface_kernels(std::vector<KernelUse>& uses) {
                         .watches_loops = true});
     }
     const std::vector<Choice> common{
-        width, height, {"CORE_ROWS", {"4u"}}, {"CORE_TILE_CAPACITY", {"512u"}}, yes("CORE_TESTS_LEVELS"), element_class};
+        width, height, {"CORE_ROWS", {"4u"}}, {"CORE_TILE_CAPACITY", {"512u"}}, yes("CORE_TESTS_ISOVALUES"), element_class};
     const auto use = [&](const char* kernel, const std::vector<std::string>& buffers, const std::vector<Choice>& more) {
         KernelUse made{.kernel = kernel, .element = Element::model, .buffers = buffers, .choices = common};
         made.choices.insert(made.choices.end(), more.begin(), more.end());
