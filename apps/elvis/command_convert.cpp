@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "crash_report.hpp"
 #include "long_task.hpp"
-#include "output_endings.hpp"
+#include <apps/elvis/render/output_endings.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>

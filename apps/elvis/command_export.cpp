@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "long_task.hpp"
-#include "output_endings.hpp"
 #include "volume_argument.hpp"
+#include <apps/elvis/render/output_endings.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/export/vtu_export.hpp>

@@ -3,10 +3,10 @@
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
-#include <core/render/field_range.hpp>
+#include <core/render/field/field_range.hpp>
 #include <core/render/renderer.hpp>
-#include <core/volume/field_extrema.hpp>
-#include <core/volume/jacobian_check.hpp>
+#include <core/volume/element/jacobian_check.hpp>
+#include <core/volume/field/field_extrema.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
 #include "commands.hpp"
-#include "view/application.hpp"
+#include <apps/elvis/view/window/application.hpp>
 
 #include <core/base/error.hpp>
 

@@ -1,8 +1,8 @@
 #include <core/bench/interface.hpp>
 
 #include <core/base/error.hpp>
-#include <core/render/cut_plane_pass.hpp>
-#include <core/render/device_time.hpp>
+#include <core/render/cut_surface/cut_plane_pass.hpp>
+#include <core/render/device/device_time.hpp>
 
 #include "by_hand_text.hpp"
 

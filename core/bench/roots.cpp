@@ -1,7 +1,7 @@
 #include <core/bench/roots.hpp>
 
 #include <core/base/float_rounding.hpp>
-#include <core/render/device_time.hpp>
+#include <core/render/device/device_time.hpp>
 #include <core/segment/colleague.hpp>
 #include <core/segment/crossings.hpp>
 #include <core/shader/composer.hpp>

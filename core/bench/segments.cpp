@@ -1,6 +1,6 @@
 #include <core/bench/bench.hpp>
 
-#include <core/render/segment_pass.hpp>
+#include <core/render/segments/segment_pass.hpp>
 
 namespace elvis {
 

@@ -1,6 +1,6 @@
 #include <core/bench/bench.hpp>
 
-#include <core/render/device_time.hpp>
+#include <core/render/device/device_time.hpp>
 #include <core/shader/composer.hpp>
 #include <core/volume/device_volume.hpp>
 

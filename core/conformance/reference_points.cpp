@@ -1,7 +1,7 @@
 #include <core/conformance/reference_points.hpp>
 
 #include <core/conformance/scratch.hpp>
-#include <core/volume/reference_corners.hpp>
+#include <core/volume/element/reference_corners.hpp>
 
 #include <algorithm>
 #include <set>

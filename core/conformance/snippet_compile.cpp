@@ -262,7 +262,7 @@ std::vector<std::string> evaluate_at(const std::string& path, const Subject& sub
             lines.push_back("elvis_field_value of " + name + " = " + text_of(sample.value));
             lines.push_back("elvis_field_gradient of " + name + " = " + text_of(sample.gradient));
             if (sample.is_endless != 0) {
-                lines.push_back("    a loop takes more than 50000 turns");
+                lines.push_back("    a loop takes more than 50000 iterations");
             }
             if (sample.bad_index_line != 0) {
                 lines.push_back("    " + text_of_bad_index(sample));

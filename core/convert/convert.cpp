@@ -1,12 +1,12 @@
 #include <core/base/error.hpp>
-#include <core/convert/block_projection.hpp>
 #include <core/convert/blocks.hpp>
-#include <core/convert/class_kernel.hpp>
 #include <core/convert/classes.hpp>
 #include <core/convert/convert.hpp>
-#include <core/convert/field_plan.hpp>
-#include <core/convert/jumps.hpp>
-#include <core/convert/topology.hpp>
+#include <core/convert/projection/block_projection.hpp>
+#include <core/convert/projection/class_kernel.hpp>
+#include <core/convert/projection/field_plan.hpp>
+#include <core/convert/topology/jumps.hpp>
+#include <core/convert/topology/topology.hpp>
 #include <core/plugin_host/plugin.hpp>
 
 #include <elvis/native/volume_file.hpp>

@@ -5,7 +5,7 @@
 #include <core/export/appended_data.hpp>
 #include <core/export/lagrange_nodes.hpp>
 #include <core/plugin_host/plugin.hpp>
-#include <core/scene/output_file.hpp>
+#include <core/scene/output/output_file.hpp>
 
 #include <algorithm>
 #include <fstream>

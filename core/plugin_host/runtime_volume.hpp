@@ -173,7 +173,8 @@ public:
                         std::span<double> values, std::span<double> gradients) const;
 
     bool has_jacobian_checks() const;
-    /** Checked: known signs, witnesses in the shape. Needs has_jacobian_checks(); core/volume/jacobian_check.hpp does not. */
+    /** Checked: known signs, witnesses in the shape. Needs has_jacobian_checks(); core/volume/element/jacobian_check.hpp does
+     * not. */
     elvis_certainty check_jacobians(std::uint64_t first, double tolerance, std::span<JacobianCheck> out) const;
 
 private:

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/base/vector3.hpp>
-#include <core/render/lighting.hpp>
+#include <core/render/picture/lighting.hpp>
 #include <core/render/surface.hpp>
 #include <core/render/volume_rendering.hpp>
 

@@ -5,16 +5,16 @@
  */
 #pragma once
 
-#include <core/render/cut_plane_pass.hpp>
-#include <core/render/edge_pass.hpp>
-#include <core/render/face_pass.hpp>
-#include <core/render/isosurface_pass.hpp>
-#include <core/render/line_pass.hpp>
-#include <core/render/point_value_pass.hpp>
+#include <core/render/boundary/face_pass.hpp>
+#include <core/render/cut_surface/cut_plane_pass.hpp>
+#include <core/render/cut_surface/surface_pass.hpp>
+#include <core/render/field/point_value_pass.hpp>
+#include <core/render/field/shown_field.hpp>
+#include <core/render/isosurface/isosurface_pass.hpp>
+#include <core/render/lines/edge_pass.hpp>
+#include <core/render/lines/line_pass.hpp>
 #include <core/render/renderer.hpp>
-#include <core/render/shown_field.hpp>
-#include <core/render/surface_pass.hpp>
-#include <core/render/volume_pass.hpp>
+#include <core/render/volume/volume_pass.hpp>
 
 #include <map>
 #include <optional>

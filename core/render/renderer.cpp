@@ -1,11 +1,11 @@
-#include <core/render/color_pass.hpp>
-#include <core/render/cut_plane_geometry.hpp>
-#include <core/render/device_time.hpp>
-#include <core/render/frame_read.hpp>
-#include <core/render/merge_pass.hpp>
-#include <core/render/occlusion_pass.hpp>
+#include <core/render/cut_surface/cut_plane_geometry.hpp>
+#include <core/render/device/device_time.hpp>
 #include <core/render/pass_set.hpp>
-#include <core/render/picture_rows.hpp>
+#include <core/render/picture/color_pass.hpp>
+#include <core/render/picture/frame_read.hpp>
+#include <core/render/picture/merge_pass.hpp>
+#include <core/render/picture/occlusion_pass.hpp>
+#include <core/render/picture/picture_rows.hpp>
 #include <core/render/renderer.hpp>
 
 #include <core/base/bounds.hpp>
@@ -142,7 +142,7 @@ FrameRequest Renderer::Impl::with_own_boundaries(FrameRequest request) const {
     return request;
 }
 
-/** Level sets are found with the digits that differences from their values have. */
+/** Isosurfaces are found with the digits that differences from their values have. */
 FrameRequest Renderer::Impl::with_offsets(FrameRequest request) {
     for (Surface& surface : request.surfaces) {
         if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {

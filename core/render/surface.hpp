@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/surface/shape.hpp>
-#include <core/volume/element_selection.hpp>
+#include <core/volume/element/element_selection.hpp>
 
 #include <array>
 #include <compare>
@@ -97,7 +97,7 @@ enum class IsosurfaceMethod : std::uint8_t {
 
 /** Where a field takes one of these values. */
 struct Isosurfaces {
-    /** Which has the level sets; Surface::field is what colours them. */
+    /** Whose isosurfaces they are; Surface::field is what colours them. */
     FieldChoice field{};
     /** Ascending; at least one. */
     std::vector<double> values{};

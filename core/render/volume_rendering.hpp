@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/render/surface.hpp>
-#include <core/render/transfer_function.hpp>
+#include <core/render/volume/transfer_function.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -7,12 +7,12 @@
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
-#include <core/scene/color_map.hpp>
+#include <core/scene/color/color_map.hpp>
+#include <core/scene/color/transfer.hpp>
 #include <core/scene/default_surfaces.hpp>
 #include <core/scene/line_width.hpp>
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
-#include <core/scene/transfer.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include <core/base/error.hpp>
-#include <core/scene/json_reader.hpp>
-#include <core/scene/read_parts.hpp>
+#include <core/scene/read/json_reader.hpp>
+#include <core/scene/read/read_parts.hpp>
 #include <core/scene/scene.hpp>
 
 #include <scene_schema.hpp>

@@ -6,7 +6,7 @@
 
 #include <core/render/frame.hpp>
 #include <core/scene/animation.hpp>
-#include <core/scene/opacity.hpp>
+#include <core/scene/color/opacity.hpp>
 #include <core/scene/scene_annotation.hpp>
 
 #include <array>

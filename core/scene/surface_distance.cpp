@@ -2,7 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
-#include <core/scene/json_reader.hpp>
+#include <core/scene/read/json_reader.hpp>
 
 #include <cctype>
 #include <cmath>

@@ -430,7 +430,7 @@ template <class Call> void ComposedKernel::watched(const Call& call) const {
                     "the driver has ended its loops early: nothing of it is to be trusted" +
                         (m_snippets.empty() ? ""
                                             : evaluates + "drivers may grant all loops of an invocation "
-                                                          "65535 turns, which high orders use up]"));
+                                                          "65535 iterations, which high orders use up]"));
     }
 }
 

@@ -77,8 +77,9 @@ struct KernelRequest {
     std::string text;
     /** Whether elvis_field_hessian and elvis_mapping_hessian are called; without it they need not exist. */
     bool with_second_derivatives = false;
-    /** Drivers may end loops early, without a word, once those of one invocation have taken many turns. Then dispatch() throws
-     * an Error: for kernels that do not mark by themselves what cannot be trusted (shaders/arithmetic/driver_limit.glsl). */
+    /** Drivers may end loops early, without a word, once those of one invocation have taken many iterations. Then dispatch()
+     * throws an Error: for kernels that do not mark by themselves what cannot be trusted
+     * (shaders/arithmetic/driver_limit.glsl). */
     bool watches_loops = false;
     /** Snippets are watched: outputs never written, loops without end (core/shader/poison.hpp), indices out of range
      * (core/shader/index_checks.hpp). */

@@ -102,10 +102,10 @@ std::string poison_outputs(std::string_view text, const GlslNames& names) {
         if (body == std::string_view::npos) {
             continue;
         }
-        insertions.emplace_back(body + 1, " core_loop_turns = 0u;" + assignments(text.substr(open + 1, close - open - 1)));
+        insertions.emplace_back(body + 1, " core_loop_iterations = 0u;" + assignments(text.substr(open + 1, close - open - 1)));
     }
     for (const std::size_t body : loop_bodies(text)) {
-        insertions.emplace_back(body, " if (++core_loop_turns > 50000u) { core_is_endless = true; break; }");
+        insertions.emplace_back(body, " if (++core_loop_iterations > 50000u) { core_is_endless = true; break; }");
     }
     std::string poisoned(text);
     std::sort(insertions.begin(), insertions.end());

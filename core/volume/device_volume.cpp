@@ -1,8 +1,8 @@
 #include <core/base/float_rounding.hpp>
 #include <core/expression/glsl.hpp>
-#include <core/volume/derivative_bounds.hpp>
 #include <core/volume/device_volume.hpp>
-#include <core/volume/element_records.hpp>
+#include <core/volume/element/element_records.hpp>
+#include <core/volume/field/derivative_bounds.hpp>
 
 #include <algorithm>
 #include <cassert>

@@ -4,9 +4,9 @@
  */
 #pragma once
 
+#include "element/space.hpp"
+#include "element/tabulation.hpp"
 #include "mesh.hpp"
-#include "space.hpp"
-#include "tabulation.hpp"
 
 #include <array>
 #include <memory>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "collection.hpp"
-#include "geometry.hpp"
+#include "element/geometry.hpp"
 
 #include <array>
 #include <cstdint>

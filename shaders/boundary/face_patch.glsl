@@ -1,4 +1,4 @@
-// Patches of element faces (core/volume/face_patches.hpp): what is known of a face on a square of its parameters, before anything
+// Patches of element faces (core/volume/boundary/face_patches.hpp): what is known of a face on a square of its parameters, before anything
 // is evaluated there.
 //
 // A patch is x(a, b) = x0 + a A + b B + r(a, b), -1 <= a, b <= 1 (a + b <= 0 on the diagonal of a triangle). In the coordinates

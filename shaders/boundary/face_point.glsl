@@ -1,7 +1,7 @@
 // Points of element faces: x(u, v) relative to elvis_origin of the element, with both derivatives.
 //
 // CORE_FACE_ORDER: the faces' polynomials of that order in u and in v, as coefficients of products of Chebyshev polynomials,
-// which the host found from samples of the mapping (core/volume/face_fit.hpp); a fraction of the work that the element's mapping
+// which the host found from samples of the mapping (core/volume/boundary/face_fit.hpp); a fraction of the work that the element's mapping
 // is. Without it: the mapping itself.
 
 struct core_face_point {

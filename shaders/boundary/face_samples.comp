@@ -1,4 +1,4 @@
-// Positions of points of faces, relative to elvis_origin: what the host fits polynomials to (core/volume/face_fit.hpp).
+// Positions of points of faces, relative to elvis_origin: what the host fits polynomials to (core/volume/boundary/face_fit.hpp).
 
 layout(local_size_x = 32) in;
 

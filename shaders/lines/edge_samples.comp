@@ -1,4 +1,4 @@
-// Positions of points of edges, relative to elvis_origin (core/volume/edge_set.hpp).
+// Positions of points of edges, relative to elvis_origin (core/volume/boundary/edge_set.hpp).
 
 layout(local_size_x = 32) in;
 

@@ -1,4 +1,4 @@
-// Geometry of one cut plane in one picture, prepared by the host in double precision (core/render/cut_plane_geometry.hpp).
+// Geometry of one cut plane in one picture, prepared by the host in double precision (core/render/cut_surface/cut_plane_geometry.hpp).
 //
 // Everything is relative to a reference point near the part of the plane that is seen, so that single precision spends its digits
 // on differences. Pixel (column, row) has the ray

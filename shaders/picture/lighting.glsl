@@ -1,4 +1,4 @@
-// Light that a surface reflects, as core/render/lighting.hpp states it: two-sided diffuse light, and highlights by the half vector
+// Light that a surface reflects, as core/render/picture/lighting.hpp states it: two-sided diffuse light, and highlights by the half vector
 // (J. F. Blinn, Models of light reflection for computer synthesized pictures, SIGGRAPH 1977).
 //
 // The kernel defines CORE_LIGHTS_BINDING.

@@ -1,4 +1,4 @@
-// A transfer function cut at its breakpoints (core/render/transfer_function.hpp): between two of them, or beyond the last, density
+// A transfer function cut at its breakpoints (core/render/volume/transfer_function.hpp): between two of them, or beyond the last, density
 // and colour are linear in the field's value less the value that the piece starts from. Values lack the field's offset.
 //
 // The kernel brings core_n_breakpoints; core_breakpoints, ascending; and core_pieces, one more than those: (from, density, its slope,

@@ -1,5 +1,5 @@
 // Composite quadrature: the orders that theory gives for smooth functions, and for functions with a breakpoint.
-#include <core/bench/composite_rules.hpp>
+#include <core/bench/volume/composite_rules.hpp>
 
 #include <catch2/catch.hpp>
 

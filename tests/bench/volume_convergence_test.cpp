@@ -1,7 +1,7 @@
 // Integrators of volume rendering: their orders of convergence, what categories leave out, and what adaptive steps promise.
-#include <core/bench/composite_rules.hpp>
-#include <core/bench/volume.hpp>
-#include <core/bench/volume_convergence.hpp>
+#include <core/bench/volume/composite_rules.hpp>
+#include <core/bench/volume/volume.hpp>
+#include <core/bench/volume/volume_convergence.hpp>
 #include <core/render/renderer.hpp>
 
 #include <catch2/catch.hpp>

@@ -3,7 +3,7 @@
  */
 #include "closed_forms.hpp"
 
-#include <core/render/segment_pass.hpp>
+#include <core/render/segments/segment_pass.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include "points.hpp"
 
 #include <core/plugin_host/plugin.hpp>
-#include <core/render/sampled_range.hpp>
+#include <core/render/field/sampled_range.hpp>
 
 #include <catch2/catch.hpp>
 

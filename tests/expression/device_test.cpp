@@ -1,5 +1,5 @@
 // Expressions on the device against those on the CPU, on curved elements of all shapes; their models against samples.
-#include "../native_plugin/test_volume.hpp"
+#include <tests/native_plugin/volume_fixture.hpp>
 
 #include <core/expression/glsl.hpp>
 #include <core/expression/volume_point.hpp>

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <core/convert/convert.hpp>
+#include <core/oracle/element/volume.hpp>
 #include <core/plugin_host/source_volume.hpp>
-#include <tests/oracle/volume.hpp>
 #include <tests/support/files.hpp>
 
 #include <array>

@@ -1,7 +1,7 @@
 // Extrema that the plugin tells, and those that the host finds by itself, against Bernstein forms of the same functions.
 #include "direct_fixture.hpp"
 
-#include <core/volume/field_extrema.hpp>
+#include <core/volume/field/field_extrema.hpp>
 #include <elvis/native/extrema.hpp>
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // The oracle for isosurfaces against closed forms, and its three ways to find roots against each other.
-#include "isosurface_compare.hpp"
-#include "meshes.hpp"
-#include "random_volumes.hpp"
-#include "root_finders.hpp"
+#include <core/oracle/isosurface/isosurface_compare.hpp>
+#include <core/oracle/isosurface/root_finders.hpp>
+#include <core/oracle/samples/meshes.hpp>
+#include <core/oracle/samples/random_volumes.hpp>
 
 #include <catch2/catch.hpp>
 

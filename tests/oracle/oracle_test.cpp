@@ -1,8 +1,8 @@
 // The oracle on cases whose answers are known.
-#include "color.hpp"
-#include "meshes.hpp"
-#include "picture.hpp"
-#include "test_volumes.hpp"
+#include <core/oracle/picture/color.hpp>
+#include <core/oracle/picture/picture.hpp>
+#include <core/oracle/samples/exact_volumes.hpp>
+#include <core/oracle/samples/meshes.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // The oracle for volume rendering against closed forms, brute force and a second formula.
-#include "meshes.hpp"
-#include "random_volumes.hpp"
-#include "transfers.hpp"
-#include "volume_integral.hpp"
+#include <core/oracle/samples/meshes.hpp>
+#include <core/oracle/samples/random_volumes.hpp>
+#include <core/oracle/volume/transfers.hpp>
+#include <core/oracle/volume/volume_integral.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -142,7 +142,7 @@ TEST_CASE("constant density and colour have a closed form") {
         }
         CAPTURE(native::name(shape), largest);
         CHECK(largest < 1e-12);
-        CHECK(tracer.integrate({{-4, 3, 0}, {1, 0, 0}}).n_pieces == 0);
+        CHECK(tracer.integrate({{-4, 3, 0}, {1, 0, 0}}).n_smooth_intervals == 0);
         CHECK(tracer.integrate({{-4, 3, 0}, {1, 0, 0}}).transmittance == 1);
         CHECK(tracer.n_failures() == 0);
     }
@@ -263,9 +263,9 @@ TEST_CASE("a million steps give the same") {
             BruteForce brute(transfer);
             brute.add([&](double share) { return line.at(from + share * (to - from)).squaredNorm(); }, to - from, 1000000);
             const VolumeLight light = tracer.integrate(line);
-            CAPTURE(width, light.transmittance, light.n_pieces, light.error, distance(light, brute.light()));
+            CAPTURE(width, light.transmittance, light.n_smooth_intervals, light.error, distance(light, brute.light()));
             CHECK(light.transmittance < 0.9);
-            CHECK(light.n_pieces >= 6);
+            CHECK(light.n_smooth_intervals >= 6);
             // A bend of the density costs the midpoint rule the square of a step times its slope, of 200 a unit for narrow
             // peaks.
             CHECK(distance(light, brute.light()) < (width < 0.05 ? 1e-8 : 1e-10));
@@ -299,10 +299,10 @@ TEST_CASE("in random volumes the integral by parts and brute force give the same
                 n_dim += light.transmittance < 0.99;
                 if (i % 20 == 0) {
                     BruteForce brute(transfer.transfer);
-                    for (const OwnedPiece& owned : tracer.owned_pieces(line)) {
-                        const double length = 0.5 * (owned.end - owned.begin) * (owned.piece.to - owned.piece.from);
+                    for (const OwnedInterval& owned : tracer.owned_intervals(line)) {
+                        const double length = 0.5 * (owned.end - owned.begin) * (owned.interval.to - owned.interval.from);
                         brute.add(
-                            [&](double share) { return owned.piece.field(owned.begin + share * (owned.end - owned.begin)); },
+                            [&](double share) { return owned.interval.field(owned.begin + share * (owned.end - owned.begin)); },
                             length, 10000);
                     }
                     by_force = std::max(by_force, distance(light, brute.light()));

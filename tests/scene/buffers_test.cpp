@@ -3,8 +3,8 @@
 #include "fixture.hpp"
 #include "stage.hpp"
 
-#include <core/scene/buffers_file.hpp>
-#include <core/scene/pixel_flags.hpp>
+#include <core/scene/output/buffers_file.hpp>
+#include <core/scene/output/pixel_flags.hpp>
 
 #include <hdf5.h>
 

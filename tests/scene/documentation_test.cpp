@@ -1,6 +1,6 @@
 // What the page on scenes shows is read as it stands there.
 
-#include <core/scene/color_map.hpp>
+#include <core/scene/color/color_map.hpp>
 #include <core/scene/scene.hpp>
 #include <tests/support/files.hpp>
 

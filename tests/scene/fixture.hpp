@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/render/transfer_function.hpp>
+#include <core/render/volume/transfer_function.hpp>
 #include <tests/support/error_of.hpp>
 #include <tests/support/files.hpp>
 

@@ -3,9 +3,9 @@
 #include "fixture.hpp"
 #include "stage.hpp"
 
-#include <core/scene/color_map.hpp>
+#include <core/scene/color/color_map.hpp>
+#include <core/scene/color/transfer.hpp>
 #include <core/scene/scene_annotation.hpp>
-#include <core/scene/transfer.hpp>
 
 #include <algorithm>
 #include <cmath>

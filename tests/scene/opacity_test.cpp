@@ -2,7 +2,7 @@
 
 #include "fixture.hpp"
 
-#include <core/scene/opacity.hpp>
+#include <core/scene/color/opacity.hpp>
 
 #include <cmath>
 

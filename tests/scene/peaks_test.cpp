@@ -2,7 +2,7 @@
 
 #include "fixture.hpp"
 
-#include <core/scene/transfer.hpp>
+#include <core/scene/color/transfer.hpp>
 
 #include <numeric>
 

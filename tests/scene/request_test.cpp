@@ -3,8 +3,8 @@
 #include "fixture.hpp"
 #include "stage.hpp"
 
+#include <core/scene/color/transfer.hpp>
 #include <core/scene/scene_annotation.hpp>
-#include <core/scene/transfer.hpp>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/scene/scene.hpp>
-#include <core/scene/write_scene.hpp>
+#include <core/scene/write/write_scene.hpp>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

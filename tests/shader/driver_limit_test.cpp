@@ -1,4 +1,4 @@
-// Drivers may end loops that take many turns, without a word: what kernels that draw columns of pixels make of it.
+// Drivers may end loops that take many iterations, without a word: what kernels that draw columns of pixels make of it.
 #include "fixture.hpp"
 
 #include <core/base/error.hpp>
@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::uint32_t width = 8, height = 16;
 
-/** Counts the turns of a loop in each row of a column, as a stand-in for what the pixels of a column do. */
+/** Counts the iterations of a loop in each row of a column, as a stand-in for what the pixels of a column do. */
 constexpr const char* kernel_text = R"(
 layout(local_size_x = 8) in;
 #include "picture/samples.glsl"
 layout(std430, set = 0, binding = 0) buffer marks_block { core_mark core_marks[]; };
-layout(std430, set = 0, binding = 1) buffer turns_block { uint n_turns[]; };
+layout(std430, set = 0, binding = 1) buffer iterations_block { uint n_iterations[]; };
 layout(push_constant) uniform parameters {
     uvec2 core_size;
     uint zero;
-    uint turns_a_row;
+    uint iterations_a_row;
 };
 #include "picture/distrust_column.glsl"
 
@@ -32,9 +32,9 @@ void main() {
     uint row = 0u;
     while (row < end_row) {
         uint n = 0u;
-        while (n < turns_a_row + zero * column) {
+        while (n < iterations_a_row + zero * column) {
             n += 1u;
-            n_turns[row * core_size.x + column] += 1u;
+            n_iterations[row * core_size.x + column] += 1u;
         }
         row += 1u;
     }
@@ -44,7 +44,7 @@ void main() {
 )";
 
 struct Parameters {
-    std::uint32_t width, height, zero, turns_a_row;
+    std::uint32_t width, height, zero, iterations_a_row;
 };
 
 struct Mark {
@@ -53,10 +53,10 @@ struct Mark {
 
 struct Columns {
     std::vector<Mark> marks;
-    std::vector<std::uint32_t> n_turns;
+    std::vector<std::uint32_t> n_iterations;
 };
 
-Columns run(const Device& device, std::uint32_t turns_a_row) {
+Columns run(const Device& device, std::uint32_t iterations_a_row) {
     KernelRequest request;
     request.name = "columns";
     request.kernel = "driver_limit_test";
@@ -65,13 +65,13 @@ Columns run(const Device& device, std::uint32_t turns_a_row) {
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
     request.push_constant_bytes = sizeof(Parameters);
     const ComposedKernel kernel(device, request);
-    const Buffer marks(device, width * height * sizeof(Mark)), turns(device, width * height * sizeof(std::uint32_t));
+    const Buffer marks(device, width * height * sizeof(Mark)), iterations(device, width * height * sizeof(std::uint32_t));
     marks.fill(0);
-    turns.fill(0);
-    const Parameters parameters{width, height, 0, turns_a_row};
-    const std::array<const Buffer*, 2> bindings{&marks, &turns};
+    iterations.fill(0);
+    const Parameters parameters{width, height, 0, iterations_a_row};
+    const std::array<const Buffer*, 2> bindings{&marks, &iterations};
     kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), 1);
-    return {marks.read_items<Mark>(width * height), turns.read_items<std::uint32_t>(width * height)};
+    return {marks.read_items<Mark>(width * height), iterations.read_items<std::uint32_t>(width * height)};
 }
 
 } // namespace
@@ -80,20 +80,20 @@ TEST_CASE("pixels that a driver has cut short are marked, in every row of a colu
     const test::CacheFolder cache;
     const Device device;
     // Less than any driver grants to all rows together, and more than some do.
-    for (const std::uint32_t turns_a_row : {100u, 10'000u}) {
-        const Columns columns = run(device, turns_a_row);
+    for (const std::uint32_t iterations_a_row : {100u, 10'000u}) {
+        const Columns columns = run(device, iterations_a_row);
         std::size_t n_short = 0, n_silent = 0;
         for (std::size_t pixel = 0; pixel < columns.marks.size(); ++pixel) {
-            const bool is_short = columns.n_turns[pixel] < turns_a_row;
+            const bool is_short = columns.n_iterations[pixel] < iterations_a_row;
             n_short += is_short ? 1 : 0;
             n_silent += is_short && columns.marks[pixel].flags == 0 ? 1 : 0;
-            if (turns_a_row == 100) {
+            if (iterations_a_row == 100) {
                 CHECK(columns.marks[pixel].flags == 0);
             }
         }
-        CAPTURE(turns_a_row, n_short);
+        CAPTURE(iterations_a_row, n_short);
         CHECK(n_silent == 0);
-        if (turns_a_row == 100) {
+        if (iterations_a_row == 100) {
             CHECK(n_short == 0);
         } else {
             WARN(n_short << " of " << columns.marks.size() << " pixels cut short by the driver");
@@ -109,12 +109,12 @@ TEST_CASE("a kernel that is watched fails where a driver has ended its loops, an
     request.kernel = "long_loop";
     request.kernel_text = R"(
 layout(local_size_x = 1) in;
-layout(std430, set = 0, binding = 0) buffer turns_block { uint n_turns; };
+layout(std430, set = 0, binding = 0) buffer iterations_block { uint n_iterations; };
 layout(push_constant) uniform parameters { uint wanted; };
 void main() {
-    n_turns = 0u;
+    n_iterations = 0u;
     for (uint i = 0u; i < wanted; ++i) {
-        n_turns += 1u + n_turns / 100000u;
+        n_iterations += 1u + n_iterations / 100000u;
     }
 }
 )";
@@ -122,8 +122,8 @@ void main() {
     request.push_constant_bytes = sizeof(std::uint32_t);
     request.watches_loops = true;
     const ComposedKernel kernel(device, request);
-    const Buffer turns(device, sizeof(std::uint32_t));
-    const std::array<const Buffer*, 1> bindings{&turns};
+    const Buffer iterations(device, sizeof(std::uint32_t));
+    const std::array<const Buffer*, 1> bindings{&iterations};
     // The last one sees that a failure is not remembered.
     for (const std::uint32_t wanted : {1000u, 90'000u, 1000u}) {
         CAPTURE(wanted);
@@ -135,7 +135,7 @@ void main() {
             CHECK(std::string(error.what()).find("kernel 'long loop'") != std::string::npos);
             CHECK(std::string(error.what()).find("ended its loops early") != std::string::npos);
         }
-        CHECK(has_failed == (turns.read_items<std::uint32_t>(1).front() < wanted));
+        CHECK(has_failed == (iterations.read_items<std::uint32_t>(1).front() < wanted));
         CHECK((wanted > 1000 || !has_failed));
     }
 }

@@ -83,8 +83,8 @@ TEST_CASE("The debug build poisons every output and counts every loop with brace
     CHECK(contains(poisoned, " gradient = elvis_vec3("));
     CHECK(std::count(poisoned.begin(), poisoned.end(), '\n') == std::count(text.begin(), text.end(), '\n'));
     std::size_t n_counts = 0;
-    for (std::size_t at = poisoned.find("++core_loop_turns"); at != std::string::npos;
-         at = poisoned.find("++core_loop_turns", at + 1)) {
+    for (std::size_t at = poisoned.find("++core_loop_iterations"); at != std::string::npos;
+         at = poisoned.find("++core_loop_iterations", at + 1)) {
         ++n_counts;
     }
     CHECK(n_counts == 3);

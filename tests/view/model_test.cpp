@@ -1,12 +1,12 @@
 // What the window does to a scene and its camera, without a window.
 
-#include <apps/elvis/view/camera_motion.hpp>
-#include <apps/elvis/view/handles.hpp>
-#include <apps/elvis/view/histogram.hpp>
-#include <apps/elvis/view/model.hpp>
-#include <apps/elvis/view/settings.hpp>
+#include <apps/elvis/view/model/camera_motion.hpp>
+#include <apps/elvis/view/model/handles.hpp>
+#include <apps/elvis/view/model/histogram.hpp>
+#include <apps/elvis/view/model/model.hpp>
+#include <apps/elvis/view/model/settings.hpp>
 
-#include <core/scene/write_scene.hpp>
+#include <core/scene/write/write_scene.hpp>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

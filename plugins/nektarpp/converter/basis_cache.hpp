@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "../reader/mode_set.hpp"
+#include "../reader/field/mode_set.hpp"
 
 #include <Eigen/Core>
 

@@ -3,9 +3,9 @@
  */
 #include "source.hpp"
 
-#include "../reader/field_series.hpp"
-#include "../reader/mesh.hpp"
-#include "../reader/paths.hpp"
+#include "../reader/field/field_series.hpp"
+#include "../reader/geometry/mesh.hpp"
+#include "../reader/text/paths.hpp"
 #include "basis_cache.hpp"
 
 #include <elvis/plugin.hpp>

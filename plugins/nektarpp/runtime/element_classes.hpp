@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "../reader/field_series.hpp"
+#include "../reader/field/field_series.hpp"
 #include "record.hpp"
 
 #include <elvis/plugin.hpp>

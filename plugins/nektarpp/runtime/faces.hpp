@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "../reader/mesh.hpp"
+#include "../reader/geometry/mesh.hpp"
 
 #include <elvis/plugin.hpp>
 

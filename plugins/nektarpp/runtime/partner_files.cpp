@@ -1,6 +1,6 @@
 #include "partner_files.hpp"
 
-#include "../reader/paths.hpp"
+#include "../reader/text/paths.hpp"
 
 #include <elvis/plugin.hpp>
 

@@ -1,6 +1,6 @@
 #include "record.hpp"
 
-#include "../reader/mode_set.hpp"
+#include "../reader/field/mode_set.hpp"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "../reader/field_series.hpp"
-#include "../reader/paths.hpp"
+#include "../reader/field/field_series.hpp"
+#include "../reader/text/paths.hpp"
 #include "element_classes.hpp"
 
 #include <elvis/native/derivative_bounds.hpp>

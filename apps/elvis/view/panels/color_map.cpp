@@ -1,6 +1,6 @@
 #include "panels.hpp"
 
-#include <core/scene/color_map.hpp>
+#include <core/scene/color/color_map.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "panels.hpp"
 
-#include <core/scene/color_map.hpp>
-#include <core/scene/opacity.hpp>
+#include <core/scene/color/color_map.hpp>
+#include <core/scene/color/opacity.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "panels.hpp"
 
-#include "../file_list.hpp"
+#include <apps/elvis/view/model/file_list.hpp>
 
 #include <imgui_stdlib.h>
 

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "../ui.hpp"
+#include <apps/elvis/view/window/ui.hpp>
 
 namespace elvis::view {
 

@@ -1,6 +1,6 @@
 #include "panels.hpp"
 
-#include <core/scene/transfer.hpp>
+#include <core/scene/color/transfer.hpp>
 
 #include <algorithm>
 

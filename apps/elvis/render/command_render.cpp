@@ -1,0 +1,247 @@
+#include "field_samples.hpp"
+#include "missed_surfaces.hpp"
+#include "output_endings.hpp"
+#include "render_animation.hpp"
+#include "render_options.hpp"
+#include "render_stats.hpp"
+#include <apps/elvis/commands.hpp>
+#include <apps/elvis/volume_argument.hpp>
+
+#include <core/annotation/font.hpp>
+#include <core/base/error.hpp>
+#include <core/render/renderer.hpp>
+#include <core/scene/color/color_map.hpp>
+#include <core/scene/frame_request.hpp>
+#include <core/scene/output/buffers_file.hpp>
+#include <core/scene/output/output_file.hpp>
+#include <core/scene/output/png_file.hpp>
+#include <core/scene/scene.hpp>
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+namespace elvis::commands {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/** When the command began, and what loading the volume took. */
+struct Times {
+    Clock::time_point start;
+    double load;
+};
+
+void render_picture(const RenderArguments& arguments, const Scene& scene, const Device& device, const RuntimeVolume& volume,
+                    Renderer& renderer, const Times& times) {
+    const bool is_double = scene.precision.value_or("float32") == "float64";
+    FrameRequest request = make_frame_request(scene, volume, renderer);
+    for (const std::string& remark : request.remarks) {
+        spdlog::warn("{}", remark);
+    }
+    if (request.volume && scene.volume_rendering->has_default_density()) {
+        const auto& density = request.volume->transfer.density;
+        spdlog::info("volume: density rises from {:.6g} at {:.6g} to {:.6g} at {:.6g}", density.front().density,
+                     density.front().value, density.back().density, density.back().value);
+    }
+    request.with_buffers = !arguments.buffers.empty();
+    request.sharing = sharing_of(arguments);
+    Frame frame = renderer.render(request);
+    std::vector<double> repeated;
+    for (int repetition = 0; repetition < arguments.repeat; ++repetition) {
+        const Clock::time_point frame_start = Clock::now();
+        renderer.render(request);
+        repeated.push_back(milliseconds_since(frame_start));
+    }
+    if (scene.annotation) {
+        const AnnotationRequest annotation = make_annotation_request(*scene.annotation, request, frame, volume);
+        for (const std::string& name : annotate(frame, annotation)) {
+            spdlog::warn("annotation: there is no room for the {}", name);
+        }
+    }
+    write_png(frame, arguments.output, arguments.bits);
+    if (!arguments.buffers.empty()) {
+        write_buffers(frame, request, volume, arguments.buffers, is_double);
+    }
+    if (!arguments.stats.empty()) {
+        const auto stats =
+            stats_json(device, is_double, frame, renderer, times.load, milliseconds_since(times.start), repeated);
+        write_text_file(arguments.stats, stats.dump(2) + "\n");
+    }
+    MissedSurfaces missed;
+    missed.add(request, frame);
+    for (const std::string& remark : missed.remarks(scene, request, renderer)) {
+        spdlog::warn("{}", remark);
+    }
+    warn_about(frame.counts);
+}
+
+/** Before the work is done: whether the files can be what their names say. */
+void check_names(const RenderArguments& arguments, const Scene& scene) {
+    if (!scene.animation) {
+        need_picture_ending("--output", arguments.output);
+    }
+    if (!arguments.buffers.empty()) {
+        need_hdf5_ending("--buffers", arguments.buffers);
+    }
+    if (!arguments.stats.empty()) {
+        need_ending("--stats", arguments.stats, {".json"});
+    }
+}
+
+void run(const RenderArguments& arguments) {
+    if (arguments.schema) {
+        std::printf("%s", std::string(scene_schema_text()).c_str());
+        return;
+    }
+    if (arguments.input.empty() || arguments.output.empty()) {
+        throw UsageError("render", "needs a scene or volume, and -o OUT.png; see elvis render --help");
+    }
+    const Clock::time_point start = Clock::now();
+    Scene scene;
+    if (is_scene(arguments.input)) {
+        scene = read_scene(arguments.input);
+    } else {
+        scene.volume = arguments.input;
+    }
+    apply_options(arguments, scene);
+    check_animation(arguments, scene);
+    check_names(arguments, scene);
+    if (scene.volume.empty()) {
+        throw Error(arguments.input, "'volume' is missing");
+    }
+    if (scene.annotation) {
+        // Before the work is done: is there a font?
+        const Font font(scene.annotation->style.font);
+    }
+    const bool is_double = scene.precision.value_or("float32") == "float64";
+
+    const PluginRegistry registry;
+    const RuntimeVolume volume = open_volume(registry, scene.volume, scene.plugin, scene.plugin_options);
+    const double load = milliseconds_since(start);
+
+    const Device device(arguments.device, arguments.validation);
+    spdlog::info("device: {}", device.summary().name);
+    Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
+    if (const auto percentiles = percentiles_of(arguments)) {
+        scene.range_steps = scene.animation ? drawn_steps(scene, volume) : std::vector<std::uint32_t>{};
+        scene.color_map.range = percentile_range(scene, volume, renderer.bounds(), *percentiles);
+        if (scene.color_map.is_logarithmic && !((*scene.color_map.range)[0] > 0)) {
+            throw Error("--range", "the lower percentile is not above 0, as it must be on a logarithmic scale");
+        }
+        spdlog::info("range: {:.6g} to {:.6g}", (*scene.color_map.range)[0], (*scene.color_map.range)[1]);
+    }
+    if (scene.animation) {
+        render_animation(arguments, scene, device, volume, renderer);
+    } else {
+        render_picture(arguments, scene, device, volume, renderer, {start, load});
+    }
+    if (arguments.validation && !device.validation_messages().empty()) {
+        throw Error("validation layer", device.validation_messages().front());
+    }
+}
+
+} // namespace
+
+void add_render(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("render", "Draw one picture of a volume, or an animation, from a scene file or options");
+    auto a = std::make_shared<RenderArguments>();
+    command->add_option("input", a->input, "Scene file (JSON) or volume");
+    command->add_option("-o,--output", a->output, "Picture to write (PNG), or folder for those of an animation");
+    command->add_option("--field", a->field,
+                        "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
+    command->add_option("--cut-plane", a->cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
+        ->allow_extra_args(false);
+    const CLI::Option* boundary = command
+                                      ->add_option("--boundary", a->boundary_groups,
+                                                   "The whole boundary; with a name, that group of it only; may be repeated")
+                                      ->expected(0, 1)
+                                      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--isosurface", a->isovalues, "Value of the field where a surface is drawn; may be repeated")
+        ->allow_extra_args(false);
+    command->add_option("--volume", a->volume,
+                        "File of a transfer function (JSON, own or ParaView's) for the volume itself; default: the colour map, "
+                        "with density from its lower to its upper end; none");
+    std::vector<std::string> integrators;
+    for (const auto& [name, integrator] : integrator_names()) {
+        integrators.push_back(name);
+    }
+    command->add_option("--integrator", a->integrator, "Along rays through the volume; exact by default")
+        ->check(CLI::IsMember(integrators));
+    command->add_option("--volume-step", a->volume_step, "World length of steps, of riemann, trapezoid and categories")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--volume-tolerance", a->volume_tolerance,
+                     "Of a color channel, of exact and adaptive-trapezoid; by default 0.001")
+        ->check(CLI::PositiveNumber);
+    const CLI::Option* contours =
+        command->add_option("--contours", a->contours, "V,V,..: values of contour lines; round ones if none are given")
+            ->expected(0, 1);
+    command->add_flag("--mesh-lines", a->mesh_lines, "Draw where boundaries of elements meet the surfaces");
+    std::string maps;
+    for (const std::string& name : color_map_names()) {
+        maps += (maps.empty() ? "" : ", ") + name;
+    }
+    command->add_option("--color-map", a->color_map,
+                        "Built-in name (" + maps +
+                            "; gray is even in lightness, not linear in RGB), or file (ParaView JSON, ElVis XML)");
+    command->add_option(
+        "--range", a->range,
+        "LOW,HIGH: values at the ends of the colour map; 2%,98%: those below which these parts of the volume lie");
+    command->add_flag("--log-scale", a->log_scale,
+                      "Colours by the logarithm of values, which have none of their own where they are not above 0");
+    command->add_option("--eye", a->eye, "x,y,z of the camera");
+    command->add_option("--look-at", a->look_at, "x,y,z in the middle of the picture");
+    command->add_option("--up", a->up, "x,y,z of the direction that is up in the picture");
+    command->add_option("--fov", a->field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
+    command->add_option("--orthographic", a->orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
+    command->add_option("--background", a->background, "R,G,B or R,G,B,A from 0 to 1");
+    command
+        ->add_option(
+            "--lighting", a->lighting,
+            "none, or default: a headlight on all surfaces; isosurfaces alone of a volume have it unless told otherwise")
+        ->check(CLI::IsMember({"none", "default"}));
+    command->add_option("--annotation", a->annotation, "none, or default: color bars, axes and a title")
+        ->check(CLI::IsMember({"none", "default"}));
+    command->add_option("--size", a->size, "WIDTHxHEIGHT");
+    command->add_option("--precision", a->precision, "float32 or float64")->check(CLI::IsMember({"float32", "float64"}));
+    command->add_option("--device", a->device, "Name (or part of it) or index of the Vulkan device");
+    command->add_option("--time-step", a->time_step, "Which time step")->check(CLI::NonNegativeNumber);
+    command->add_option("--time-steps", a->time_steps,
+                        "all, FIRST:LAST or FIRST:LAST:STRIDE: a picture of each of these steps");
+    command->add_option("--turntable", a->turntable, "That many pictures with the eye once around the point looked at")
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--turntable-axis", a->turntable_axis, "x,y,z that the eye goes around; by default the camera's up");
+    command->add_option("--film", a->film, "Also make a film of the pictures, such as FILM.mp4; needs ffmpeg");
+    command->add_option("--frames-a-second", a->frames_a_second, "Of the film; 25 by default")->check(CLI::PositiveNumber);
+    command->add_flag("--resume", a->resume, "Keep pictures of the animation that are there already");
+    command->add_option("--buffers", a->buffers, "HDF5 file with what the picture is made of, per pixel");
+    command->add_option("--stats", a->stats, "JSON file with times and counts");
+    command->add_option("--share", a->share,
+                        "What passes take from each other, to compare times: all, none, depths or parts (the default)");
+    command->add_option("--repeat", a->repeat, "Draw the frame that many times more, and put the times into --stats")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--bits", a->bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));
+    command->add_flag("--validation", a->validation, "Run with the Vulkan validation layer; any message is an error");
+    command->add_flag("--schema", a->schema, "Print the JSON Schema of scene files");
+    command->callback([a, boundary, contours] {
+        a->boundary = boundary->count() > 0;
+        a->has_contours = contours->count() > 0;
+        if (a->contours == "{}") {
+            a->contours.clear(); // What the option's library takes no value for.
+        }
+        // Without a name the list holds an empty one.
+        std::erase_if(a->boundary_groups, [](const std::string& name) { return name.empty() || name == "{}"; });
+        run(*a);
+    });
+}
+
+} // namespace elvis::commands

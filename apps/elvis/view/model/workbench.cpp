@@ -1,0 +1,381 @@
+#include "workbench.hpp"
+
+#include <apps/elvis/render/field_samples.hpp>
+#include <apps/elvis/render/frame_remarks.hpp>
+#include <apps/elvis/render/output_endings.hpp>
+
+#include <core/base/counted.hpp>
+#include <core/base/error.hpp>
+#include <core/scene/write/write_scene.hpp>
+
+#include <filesystem>
+#include <numeric>
+#include <utility>
+
+namespace elvis::view {
+
+namespace {
+
+constexpr std::size_t most_frame_times = 60;
+/** Kept, of a tenth of a mebibyte each: time steps that are played would bring ever more. */
+constexpr std::size_t most_histograms = 100;
+
+double seconds_between(Workbench::Clock::time_point from, Workbench::Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+} // namespace
+
+double MotionStatistics::frames_per_second() const {
+    const double sum = std::accumulate(frame_seconds.begin(), frame_seconds.end(), 0.0);
+    return sum > 0 ? static_cast<double>(frame_seconds.size()) / sum : 0;
+}
+
+Workbench::Workbench(std::unique_ptr<Session> session) : m_device(&session->device()), m_worker(std::move(session)) {}
+
+void Workbench::say(Message::Kind kind, std::string text) {
+    constexpr std::size_t most_messages = 500;
+    m_messages.push_back({kind, std::move(text)});
+    if (m_messages.size() > most_messages) {
+        m_messages.erase(m_messages.begin());
+    }
+}
+
+void Workbench::open(const std::string& path) {
+    try {
+        if (!std::filesystem::exists(path)) {
+            throw Error(path, "there is no such file");
+        }
+        if (is_scene(path)) {
+            Scene scene = read_scene(path);
+            open_scene(std::move(scene), path, path);
+        } else {
+            Scene scene;
+            scene.volume = path;
+            open_scene(std::move(scene), {}, path);
+        }
+    } catch (const std::exception& error) {
+        say(Message::Kind::error, error.what());
+    }
+}
+
+void Workbench::open_scene(Scene scene, const std::string& file, const std::string& path) {
+    scene.size = file.empty() ? m_model.scene().size : scene.size;
+    const auto job = [this, scene = std::move(scene), file, path](Session& session) mutable -> FrameWorker::Answer {
+        if (file.empty()) {
+            bool is_foreign = false;
+            try {
+                session.registry().runtime_for(path);
+            } catch (const Error&) {
+                session.registry().converter_for(path); // Says what is wrong if it is nobody's file.
+                is_foreign = true;
+            }
+            if (is_foreign) {
+                return [this, path] { foreign_file = path; };
+            }
+        }
+        VolumeFacts facts = session.open(scene);
+        if (file.empty()) {
+            const std::array<std::uint32_t, 2> size = scene.size;
+            scene = session.first_scene(path);
+            scene.size = size;
+        }
+        return [this, scene = std::move(scene), facts = std::move(facts), file, path]() mutable {
+            // The window may have got its size since.
+            scene.size = file.empty() ? m_model.scene().size : scene.size;
+            ++m_volume_number;
+            m_ranges.clear();
+            m_histograms.clear();
+            m_picked.reset();
+            m_picture = {};
+            m_stage = FrameStage::none;
+            say(Message::Kind::info,
+                "opened " + path + ": " + counted(facts.n_elements, "element") + ", " + counted(facts.fields.size(), "field"));
+            try {
+                m_model.open(std::move(scene), std::move(facts), file);
+            } catch (const std::exception& error) {
+                say(Message::Kind::error, error.what());
+            }
+            if (on_file) {
+                on_file(path);
+            }
+        };
+    };
+    m_worker.post("opening " + std::filesystem::path(path).filename().string(), job,
+                  [this](const std::string& error) { say(Message::Kind::error, error); });
+}
+
+void Workbench::save_scene(const std::string& path) {
+    try {
+        write_scene(m_model.scene(), path);
+        m_model.saved(path);
+        say(Message::Kind::info, "saved the scene as " + path);
+        if (on_file) {
+            on_file(path);
+        }
+    } catch (const std::exception& error) {
+        say(Message::Kind::error, error.what());
+    }
+}
+
+void Workbench::save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits) {
+    try {
+        commands::need_picture_ending("the picture", path);
+    } catch (const std::exception& error) {
+        say(Message::Kind::error, error.what());
+        return;
+    }
+    Scene scene = m_model.scene();
+    // The shift is in pixels: a larger picture has what is looked at in the same place.
+    for (double& shift : scene.camera.image_shift) {
+        shift *= static_cast<double>(size[1]) / scene.size[1];
+    }
+    scene.size = size;
+    m_worker.post(
+        "drawing " + std::filesystem::path(path).filename().string(),
+        [this, scene = std::move(scene), path, bits](Session& session) -> FrameWorker::Answer {
+            std::vector<std::string> remarks = session.save_picture(scene, path, bits);
+            return [this, path, remarks = std::move(remarks), size = scene.size] {
+                say(Message::Kind::info,
+                    "saved the picture as " + path + ", " + std::to_string(size[0]) + "x" + std::to_string(size[1]));
+                for (const std::string& remark : remarks) {
+                    say(Message::Kind::warning, remark);
+                }
+            };
+        },
+        [this](const std::string& error) { say(Message::Kind::error, error); });
+}
+
+void Workbench::pick(const PicturePoint& place) {
+    const Scene& scene = m_model.scene();
+    m_worker.post(
+        "picking",
+        [this, scene, place, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+            Picked picked = session.pick(scene, place);
+            return [this, picked = std::move(picked), number] {
+                if (number == m_volume_number) {
+                    m_picked = picked;
+                }
+            };
+        },
+        [this](const std::string& error) { say(Message::Kind::error, error); });
+}
+
+std::string Workbench::field_key(const std::optional<std::string>& field) const {
+    const Scene& scene = m_model.scene();
+    std::string key = std::to_string(scene.time_step);
+    const std::string text = field.value_or("");
+    // Distances are to surfaces of the scene, which may move.
+    if (text.find("distance") != std::string::npos) {
+        key += ' ';
+        key += std::to_string(m_model.revision());
+    }
+    key += '|';
+    key += text;
+    return key;
+}
+
+std::optional<FieldRange> Workbench::range(const std::optional<std::string>& field) {
+    if (!m_model.volume()) {
+        return std::nullopt;
+    }
+    const std::string key = field_key(field);
+    const auto [found, is_new] = m_ranges.try_emplace(key);
+    if (is_new) {
+        const Scene& scene = m_model.scene();
+        m_worker.post(
+            "finding a range",
+            [this, scene, field, key, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+                const FieldRange range = session.range(scene, field);
+                return [this, range, key, number] {
+                    if (number == m_volume_number) {
+                        m_ranges[key] = range;
+                    }
+                };
+            },
+            [](const std::string&) {}); // The picture says it.
+    }
+    return found->second;
+}
+
+const Histogram* Workbench::histogram(const std::optional<std::string>& field) {
+    const std::optional<FieldRange> ends = range(field);
+    if (!ends || m_model.volume()->dimension == 2) {
+        return nullptr;
+    }
+    const std::string key = field_key(field);
+    if (m_histograms.size() >= most_histograms && !m_histograms.contains(key)) {
+        m_histograms.clear();
+    }
+    const auto [found, is_new] = m_histograms.try_emplace(key);
+    if (is_new) {
+        found->second.emplace(ends->lower, ends->upper);
+        sample(field, key, 0);
+    }
+    return found->second->n_values() > 0 ? &*found->second : nullptr;
+}
+
+void Workbench::sample(const std::optional<std::string>& field, const std::string& key, unsigned piece) {
+    const Scene& scene = m_model.scene();
+    m_worker.post_later(
+        "sampling the field",
+        [this, scene, field, key, piece, number = m_volume_number](Session& session) -> FrameWorker::Answer {
+            return [this, values = session.samples(scene, field, piece), field, key, piece, number] {
+                const auto found = m_histograms.find(key);
+                if (number != m_volume_number || found == m_histograms.end()) {
+                    return;
+                }
+                found->second->add(values);
+                if (piece + 1 < commands::n_pieces) {
+                    sample(field, key, piece + 1);
+                }
+            };
+        },
+        [](const std::string&) {});
+}
+
+void Workbench::convert(const std::string& input, const std::string& output) {
+    if (m_conversion.is_running()) {
+        say(Message::Kind::error, "another conversion is still at work");
+        return;
+    }
+    m_conversion.start({input}, output);
+}
+
+void Workbench::take(DrawAnswer answer, double showing_milliseconds) {
+    const Clock::time_point now = Clock::now();
+    if (!answer.error.empty()) {
+        if (m_drawing_error != answer.error) {
+            say(Message::Kind::error, answer.error);
+        }
+        m_drawing_error = answer.error;
+        m_failed_revision = answer.revision;
+        return;
+    }
+    m_drawing_error.clear();
+    m_picture = std::move(answer.picture);
+    m_schedule.drawn(answer.step, m_picture.is_refinable, m_picture.milliseconds + showing_milliseconds);
+    const bool is_full = answer.step.stage == FrameStage::full;
+    m_stage = is_full && !m_picture.is_refinable ? FrameStage::exact : answer.step.stage;
+    m_divisor = answer.step.divisor;
+    m_shown_revision = answer.revision;
+    if (m_was_moving) {
+        if (m_last_moving_picture) {
+            m_motion.frame_seconds.push_back(seconds_between(*m_last_moving_picture, now));
+            if (m_motion.frame_seconds.size() > most_frame_times) {
+                m_motion.frame_seconds.pop_front();
+            }
+        }
+        m_last_moving_picture = now;
+    } else if (m_rest_since) {
+        if (answer.step.stage == FrameStage::full) {
+            m_motion.rest_to_full_seconds = seconds_between(*m_rest_since, now);
+        }
+        if (m_stage == FrameStage::exact) {
+            m_motion.rest_to_exact_seconds = seconds_between(*m_rest_since, now);
+            m_rest_since.reset();
+        }
+    }
+}
+
+void Workbench::take(const ConversionResult& result) {
+    if (result.was_cancelled) {
+        say(Message::Kind::info, "the conversion was cancelled");
+        return;
+    }
+    if (!result.error.empty()) {
+        say(Message::Kind::error, result.error);
+        return;
+    }
+    if (!result.said.empty()) {
+        say(Message::Kind::warning, result.said);
+    }
+    for (const FieldReport& field : result.report.fields) {
+        char text[200];
+        std::snprintf(text, sizeof text, "field %s: %s, residual %.3g of its range", field.name.c_str(),
+                      field.exact ? "exact but for round-off" : "NOT exact", field.residual);
+        say(field.exact ? Message::Kind::info : Message::Kind::warning, text);
+    }
+    open(result.output);
+}
+
+void Workbench::follow(bool is_moving) {
+    const Clock::time_point now = Clock::now();
+    if (m_model.revision() != m_scheduled_revision) {
+        m_scheduled_revision = m_model.revision();
+        // One change after the other is a movement, too: the window's edge is dragged.
+        const bool goes_on = now - std::exchange(m_last_change, now) < FrameSchedule::rest;
+        if (is_moving || goes_on) {
+            m_schedule.touch(now);
+        } else {
+            m_schedule.change();
+        }
+    }
+    if (m_was_moving && !is_moving) {
+        m_schedule.release();
+        m_rest_since = now;
+        m_last_moving_picture.reset();
+    } else if (is_moving) {
+        m_rest_since.reset();
+    }
+    if (now - m_last_change > FrameSchedule::rest) {
+        // The hand holds still: what comes next is no measure of how many pictures can be drawn.
+        m_last_moving_picture.reset();
+    }
+    m_was_moving = is_moving;
+}
+
+bool Workbench::collect(double showing_milliseconds) {
+    std::optional<DrawAnswer> answer = m_worker.collect();
+    const bool has_news = answer.has_value();
+    if (answer) {
+        take(std::move(*answer), showing_milliseconds);
+    }
+    if (const std::optional<ConversionResult> result = m_conversion.collect()) {
+        take(*result);
+    }
+    return has_news;
+}
+
+void Workbench::go_on(bool is_moving) {
+    follow(is_moving);
+    const std::uint64_t revision = m_model.revision();
+    if (!m_model.volume() || m_failed_revision == revision) {
+        return;
+    }
+    const Clock::time_point now = Clock::now();
+    const std::optional<FrameSchedule::Step> drawing = m_worker.drawing();
+    const bool is_outdated = drawing && m_schedule.is_outdated(*drawing, now);
+    if (is_outdated) {
+        m_worker.cancel_drawing();
+    }
+    if (!drawing || is_outdated) {
+        if (const std::optional<FrameSchedule::Step> step = m_schedule.next(now)) {
+            m_worker.draw({m_model.scene(), *step, revision});
+        }
+    }
+}
+
+bool Workbench::is_settled() const {
+    const std::uint64_t revision = m_model.revision();
+    const bool is_drawn = m_stage == FrameStage::exact && m_shown_revision == revision;
+    return m_worker.is_idle() && !m_conversion.is_running() && (!m_model.volume() || is_drawn || m_failed_revision == revision);
+}
+
+std::string Workbench::activity() const { return m_worker.activity(); }
+
+std::vector<Message> Workbench::picture_messages() const {
+    std::vector<Message> messages;
+    if (m_stage != FrameStage::exact) {
+        return messages;
+    }
+    for (const commands::FrameRemark& remark : commands::remarks_on(m_picture.counts)) {
+        messages.push_back({remark.is_warning ? Message::Kind::warning : Message::Kind::info, remark.text});
+    }
+    for (const std::string& remark : m_picture.remarks) {
+        messages.push_back({Message::Kind::warning, remark});
+    }
+    return messages;
+}
+
+} // namespace elvis::view

@@ -1,0 +1,69 @@
+#include "describe.hpp"
+
+#include <core/base/memory.hpp>
+#include <core/scene/write/write_scene.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace elvis::view {
+
+namespace {
+
+const char* stage_name(FrameStage stage) {
+    switch (stage) {
+    case FrameStage::moving:
+        return "moving";
+    case FrameStage::full:
+        return "full";
+    case FrameStage::exact:
+        return "exact";
+    case FrameStage::none:
+        break;
+    }
+    return "none";
+}
+
+} // namespace
+
+std::string description(Ui& ui) {
+    Workbench& bench = ui.bench;
+    const Model& model = bench.model();
+    nlohmann::ordered_json json;
+    json["settled"] = bench.is_settled();
+    json["stage"] = stage_name(bench.stage());
+    json["divisor"] = bench.divisor();
+    json["activity"] = bench.activity();
+    json["milliseconds"] = bench.picture().milliseconds;
+    json["frames_per_second"] = bench.motion().frames_per_second();
+    json["rest_to_full_seconds"] = bench.motion().rest_to_full_seconds.value_or(-1);
+    json["rest_to_exact_seconds"] = bench.motion().rest_to_exact_seconds.value_or(-1);
+    json["cancel_milliseconds"] = bench.cancel_times();
+    json["volume"] = model.volume() ? model.volume()->path : std::string();
+    json["scene"] = scene_json(model.scene(), "scene.json");
+    json["undo"] = model.undo_name().value_or("");
+    json["redo"] = model.redo_name().value_or("");
+    json["items"] = nlohmann::ordered_json::array();
+    for (const ItemId& item : items_of(model.scene())) {
+        json["items"].push_back(item_label(model.scene(), item));
+    }
+    json["picked"] = bench.picked() ? text_of(*bench.picked()) : std::string();
+    json["messages"] = nlohmann::ordered_json::array();
+    for (const Message& message : bench.messages()) {
+        json["messages"].push_back(message.text);
+    }
+    // At rest: else it would change all the time.
+    if (bench.is_settled()) {
+        const DeviceUse use = bench.device_use();
+        json["memory"] = {{"resident", resident_bytes()},
+                          {"heap", heap_bytes()},
+                          {"device", use.bytes},
+                          {"buffers", use.n_buffers},
+                          {"kernels", use.n_kernels}};
+    }
+    json["foreign_file"] = bench.foreign_file.value_or("");
+    json["dialog"] = static_cast<int>(ui.dialog);
+    json["places"] = ui.places;
+    return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+} // namespace elvis::view

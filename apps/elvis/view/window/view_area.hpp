@@ -1,0 +1,46 @@
+/**
+ * @file view_area.hpp
+ * The part of the window that shows the picture, and the hand in it.
+ */
+#pragma once
+
+#include "presenter.hpp"
+#include "ui.hpp"
+#include <apps/elvis/view/model/handles.hpp>
+
+#include <optional>
+
+namespace elvis::view {
+
+class ViewArea {
+public:
+    /** Takes what is left of the present ImGui window. Sizes in pixels of the framebuffer. */
+    void draw(Ui& ui, float framebuffer_scale);
+    /** Where the picture goes. */
+    const PixelBox& box() const { return m_box; }
+    /** The hand moves something, or has just done so. */
+    bool is_moving() const;
+
+private:
+    enum class Drag { none, orbit, pan, zoom, roll, handle };
+    void begin_drag(Ui& ui, const PicturePoint& place);
+    void go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by);
+    void draw_handles(Ui& ui);
+    void draw_picked_point(Ui& ui) const;
+    /** A place of the picture, for ImGui. */
+    ImVec2 on_screen(const PicturePoint& place) const;
+    /** Which of the three stages is on the screen. */
+    void draw_stage(Ui& ui) const;
+
+    PixelBox m_box;
+    PictureSize m_size;
+    float m_pixels = 1; ///< of the framebuffer, a unit of ImGui
+    Drag m_drag = Drag::none;
+    double m_dragged = 0; ///< pixels since the button went down
+    double m_last_zoom = -1;
+    std::optional<std::size_t> m_handle;
+    Scene m_before; ///< when a handle was taken
+    PicturePoint m_taken{};
+};
+
+} // namespace elvis::view

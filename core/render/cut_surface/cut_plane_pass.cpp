@@ -1,0 +1,224 @@
+#include <core/render/cut_surface/cut_plane_pass.hpp>
+#include <core/render/device/in_parts.hpp>
+#include <core/render/device/pixel_kernel.hpp>
+#include <core/render/device/provide_buffer.hpp>
+#include <core/render/device/real_array.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t tile_height = 16;
+/** Nodes of a tile and their number: shaders/tiles/cut_tiles.glsl. */
+constexpr std::uint32_t tile_stride = 32;
+constexpr std::uint32_t tiles_group_size = 32;
+/**
+ * Pixels of one dispatch: bounds its time, so that no driver's time limit is met. Software drivers give each thread one share
+ * of consecutive groups: in a dispatch of few tiles all shares have about the same to do.
+ */
+constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
+
+struct TilesParameters {
+    std::uint32_t tiles_a_row, n_tiles;
+};
+
+struct PixelsParameters {
+    std::uint32_t width, height;
+    std::uint32_t first_listed;
+    std::uint32_t surface;
+    std::uint32_t first_component, end_component;
+    std::uint32_t is_discontinuous;
+    std::uint32_t n_isovalues;
+};
+
+struct ListParameters {
+    std::uint32_t n_pixels, groups_x;
+    std::uint32_t width, tiles_a_row;
+};
+
+struct LinesParameters {
+    std::uint32_t width, tiles_a_row;
+    std::uint32_t first, n_listed;
+    std::uint32_t first_component, end_component;
+    std::uint32_t n_isovalues;
+    std::uint32_t with_mesh_lines;
+    std::uint32_t subdivisions;
+};
+
+constexpr std::uint32_t lines_group_size = 32;
+/** Pixels looked at closely in one dispatch. */
+constexpr std::uint32_t listed_a_dispatch = 1u << 15;
+
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
+
+} // namespace
+
+CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines,
+                           const KernelEdit& edit)
+    : m_device(device), m_data(data), m_precision(data.precision()), m_with_lines(with_lines),
+      // Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes.
+      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_listed(device),
+      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
+    compile(volume, data, edit);
+}
+
+void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data, const KernelEdit& edit) {
+    const std::vector<std::pair<std::string, std::string>> tile_size = {
+        {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"}, {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
+    const auto bindings = [](std::uint32_t count) {
+        std::vector<BindingLayout> list = {{0, BindingType::uniform_buffer}};
+        for (std::uint32_t binding = 1; binding < count; ++binding) {
+            list.push_back({binding, BindingType::storage_buffer});
+        }
+        return list;
+    };
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        if (volume.classes()[index].n_elements == 0) {
+            continue;
+        }
+        KernelRequest request;
+        request.precision = m_precision;
+        request.buffers = data.host_buffers(index);
+        request.defines = tile_size;
+        request.name = "cut_tiles";
+        request.kernel = "cut_surface/cut_tiles.comp";
+        request.bindings = bindings(3);
+        request.push_constant_bytes = sizeof(TilesParameters);
+        ClassKernels kernels;
+        kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
+
+        data.add_field(request, index, m_with_lines);
+        if (edit) {
+            edit(request, index);
+        }
+        request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
+        request.name = "cut_plane of element class " + std::to_string(index);
+        request.kernel = "cut_surface/cut_plane.comp";
+        request.bindings = bindings(7);
+        request.push_constant_bytes = sizeof(PixelsParameters);
+        kernels.pixels = std::make_unique<ComposedKernel>(m_device, request);
+        if (m_with_lines) {
+            request.name = "cut_lines of element class " + std::to_string(index);
+            request.kernel = "lines/cut_lines.comp";
+            request.bindings = bindings(6);
+            request.push_constant_bytes = sizeof(LinesParameters);
+            kernels.lines = std::make_unique<ComposedKernel>(m_device, request);
+        }
+        m_kernels.push_back(std::move(kernels));
+    }
+    if (m_with_lines) {
+        KernelRequest request = pixel_kernel("picture/list_pixels", m_precision,
+                                             {BindingType::storage_buffer, BindingType::storage_buffer,
+                                              BindingType::storage_buffer, BindingType::storage_buffer},
+                                             sizeof(ListParameters));
+        request.defines.insert(request.defines.end(), tile_size.begin(), tile_size.end());
+        m_list_pixels.emplace(m_device, request);
+    }
+}
+
+void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
+                        const LineRequest& lines, bool shows_outside, const LayerTarget& target, FrameCounts& counts) {
+    write_reals(m_frame, m_precision, std::span<const double>(geometry.rows.front().data(), 4 * geometry.rows.size()));
+    m_counts.fill(0);
+    const auto n_isovalues = static_cast<std::uint32_t>(lines.isovalues.size());
+    if (m_with_lines) {
+        // A buffer cannot be empty.
+        const std::uint64_t bytes = std::max<std::uint64_t>(n_isovalues, 1) * real_bytes(m_precision);
+        if (!m_isovalues || m_isovalues->bytes() != bytes) {
+            m_isovalues.emplace(m_device, bytes);
+        }
+        write_reals(*m_isovalues, m_precision, lines.isovalues);
+    }
+    for (ClassKernels& kernels : m_kernels) {
+        draw_pixels(kernels, surface, component, n_isovalues, target);
+    }
+    if (target.after_samples) {
+        target.after_samples();
+    }
+    if (m_with_lines) {
+        for (const ClassKernels& kernels : m_kernels) {
+            draw_lines(kernels, component, lines, target, counts);
+        }
+    }
+    if (shows_outside) {
+        if (!m_outside) {
+            m_outside = std::make_unique<OutsidePass>(m_device, m_precision, true);
+        }
+        std::array<double, 6> box = box_around(m_data.bounds());
+        const std::array<double, 4>& reference = geometry.rows[6];
+        for (std::size_t i = 0; i < box.size(); ++i) {
+            box[i] -= reference[i % 3];
+        }
+        m_outside->set_box(box);
+        m_outside->draw(m_frame, nullptr, surface, target);
+    }
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
+    counts.field_evaluations += found[0];
+    counts.newton_iterations += found[1];
+    counts.newton_failures += found[2];
+}
+
+void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, const ShownComponent& component,
+                               std::uint32_t n_isovalues, const LayerTarget& target) {
+    const Layer& layer = target.layer;
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
+    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
+    provide_buffer(kernels.tile_nodes, m_device, std::uint64_t{tiles_a_row} * tile_rows * tile_stride * sizeof(std::uint32_t));
+    const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows};
+    const Buffer& listed = m_listed.begin(tiles.n_tiles);
+    const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &*kernels.tile_nodes, &listed};
+    kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)), divided_up(tiles.n_tiles, tiles_group_size));
+    // Isovalues are not read without lines: anything of reals.
+    const Buffer& isovalues = m_with_lines ? *m_isovalues : layer.samples;
+    const std::array<const Buffer*, 7> bindings = {&m_frame,   &layer.samples, &*kernels.tile_nodes, &m_counts, &layer.marks,
+                                                   &isovalues, &listed};
+    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
+    const TileList::Part part = m_listed.read().shallow;
+    in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+        const PixelsParameters pixels{layer.width,
+                                      layer.height,
+                                      part.first + first,
+                                      surface,
+                                      component.first(),
+                                      component.end(),
+                                      component.is_discontinuous ? 1u : 0u,
+                                      n_isovalues};
+        kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), count);
+    });
+}
+
+void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent& component, const LineRequest& lines,
+                              const LayerTarget& target, FrameCounts& counts) {
+    const Layer& layer = target.layer;
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
+    const Buffer n_listed_buffer(m_device, sizeof(std::uint32_t));
+    n_listed_buffer.fill(0);
+    const ListParameters list{n_pixels, pixel_groups_x, layer.width, tiles_a_row};
+    dispatch_pixels(*m_list_pixels, {&layer.marks, &*kernels.tile_nodes, &*m_list, &n_listed_buffer},
+                    std::as_bytes(std::span(&list, 1)), n_pixels);
+    const std::uint32_t n_listed = n_listed_buffer.read_items<std::uint32_t>(1)[0];
+    counts.refined_pixels += n_listed;
+    const std::array<const Buffer*, 6> bindings = {&m_frame,  &*kernels.tile_nodes, &*m_list,
+                                                   &m_counts, &layer.marks,         &*m_isovalues};
+    for (std::uint32_t first = 0; first < n_listed; first += listed_a_dispatch) {
+        const std::uint32_t count = std::min(listed_a_dispatch, n_listed - first);
+        const LinesParameters parameters{layer.width,
+                                         tiles_a_row,
+                                         first,
+                                         count,
+                                         component.first(),
+                                         component.end(),
+                                         static_cast<std::uint32_t>(lines.isovalues.size()),
+                                         lines.mesh_lines ? 1u : 0u,
+                                         lines.subdivisions};
+        kernels.lines->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, lines_group_size));
+    }
+}
+
+} // namespace elvis

@@ -1,0 +1,81 @@
+#include <core/expression/glsl.hpp>
+#include <core/render/device/real_array.hpp>
+#include <core/render/field/field_range.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace elvis {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t block = 65536;
+constexpr std::uint32_t group_size = 32;
+
+void include(FieldRange& range, double lower, double upper) {
+    range.lower = std::min(range.lower, lower);
+    range.upper = std::max(range.upper, upper);
+}
+
+} // namespace
+
+std::vector<FieldRange> ranges_from_plugin(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step,
+                                           elvis_certainty& certainty) {
+    const std::size_t n_components = volume.fields()[field].n_components;
+    std::vector<FieldRange> total(n_components, {infinity, -infinity});
+    std::vector<FieldRange> ranges;
+    certainty = ELVIS_CERTIFIED;
+    for (std::uint64_t first = 0; first < volume.n_elements(); first += block) {
+        const std::uint64_t count = std::min(block, volume.n_elements() - first);
+        ranges.resize(count * n_components);
+        certainty = std::max(certainty, volume.field_ranges(field, time_step, first, count, ranges));
+        for (std::size_t index = 0; index < ranges.size(); ++index) {
+            // An element with values that are not finite has no range; the others have.
+            if (std::isfinite(ranges[index].lower) && std::isfinite(ranges[index].upper)) {
+                include(total[index % n_components], ranges[index].lower, ranges[index].upper);
+            }
+        }
+    }
+    return total;
+}
+
+double rounding_of_expression(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                              const Expression& expression) {
+    // Enough to meet what is large, and no more than a picture costs.
+    constexpr std::uint32_t most_elements = 2048;
+    struct ErrorParameters {
+        std::uint32_t n_sampled, stride;
+    };
+    double largest = 0;
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        const auto n_elements = static_cast<std::uint32_t>(volume.classes()[index].n_elements);
+        if (n_elements == 0) {
+            continue;
+        }
+        KernelRequest request;
+        request.name = "expression_error of element class " + std::to_string(index);
+        request.kernel = "field/expression_error.comp";
+        request.watches_loops = true;
+        request.precision = data.precision();
+        request.buffers = data.host_buffers(index);
+        data.add_field(request, index);
+        request.text = error_glsl(expression, data.about_class(index));
+        request.bindings = {{0, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(ErrorParameters);
+        const std::uint32_t stride = (n_elements + most_elements - 1) / most_elements;
+        const ErrorParameters parameters{(n_elements + stride - 1) / stride, stride};
+        const Buffer output(device, parameters.n_sampled * real_bytes(data.precision()));
+        const std::array<const Buffer*, 1> bindings = {&output};
+        ComposedKernel(device, request)
+            .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (parameters.n_sampled + group_size - 1) / group_size);
+        for (const double error : read_reals(output, data.precision(), parameters.n_sampled)) {
+            largest = std::max(largest, error);
+        }
+    }
+    return largest;
+}
+
+} // namespace elvis

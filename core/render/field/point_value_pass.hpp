@@ -1,0 +1,30 @@
+/**
+ * @file point_value_pass.hpp
+ * Evaluates a field at the places in elements that another pass has found, for the samples of a picture.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+#include <core/render/picture/layer.hpp>
+#include <core/volume/device_volume.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace elvis {
+
+/** The kernels of one volume and field, one for each element class. Compiled when constructed. */
+class PointValuePass {
+public:
+    PointValuePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+
+    /** For all pixels that show something; `target` has its places. */
+    void draw(const ShownComponent& component, const LayerTarget& target, FrameCounts& counts);
+
+private:
+    /** By class; null where it is empty. */
+    std::vector<std::unique_ptr<ComposedKernel>> m_kernels;
+    Buffer m_counts;
+};
+
+} // namespace elvis

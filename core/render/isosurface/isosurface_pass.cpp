@@ -1,0 +1,209 @@
+#include <core/base/bounds.hpp>
+#include <core/render/device/in_parts.hpp>
+#include <core/render/device/provide_buffer.hpp>
+#include <core/render/device/real_array.hpp>
+#include <core/render/isosurface/isosurface_pass.hpp>
+
+#include <algorithm>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t tile_height = 16;
+/** Rows of an invocation: all its pixels share the iterations that drivers grant. */
+constexpr std::uint32_t rows_an_invocation = 4;
+/** Of a tile's list, and its words: shaders/tiles/ray_tiles.glsl. */
+constexpr std::uint32_t tile_capacity = 127;
+constexpr std::uint32_t tile_stride = 2 * tile_capacity + 2;
+constexpr std::uint32_t group_size = 32;
+/** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
+constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
+/** Of m_counts. */
+enum Count : std::size_t { evaluations, excluded, outside, undecided, crossings, n_counts };
+
+struct TilesParameters {
+    std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
+    std::uint32_t n_isovalues;
+};
+
+struct Parameters {
+    std::uint32_t width, height;
+    std::uint32_t tiles_a_row;
+    std::uint32_t first_listed;
+    std::uint32_t surface;
+    std::uint32_t first_component, end_component;
+    std::uint32_t n_isovalues;
+    std::uint32_t has_beyond;
+    float extent;
+};
+
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
+
+} // namespace
+
+const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device, Role role, bool has_one_isovalue) {
+    std::unique_ptr<ComposedKernel>& kernel = kernels[static_cast<std::size_t>(role)][has_one_isovalue ? 1 : 0];
+    if (!kernel) {
+        KernelRequest own = request;
+        own.buffers.insert(own.buffers.end(), octants.begin(), octants.end());
+        own.defines.emplace_back("CORE_HAS_ONE_ISOVALUE", has_one_isovalue ? "1" : "0");
+        if (role == Role::tiles) {
+            own.name = "isosurface_tiles";
+            own.kernel = "tiles/ray_tiles.comp";
+            own.defines.emplace_back("CORE_LISTS_TILES", "1");
+            own.push_constant_bytes = sizeof(TilesParameters);
+        } else {
+            own.name = "isosurface";
+            own.kernel = "isosurface/isosurface.comp";
+            own.defines.emplace_back("CORE_DESCENDS", role == Role::deep_pixels ? "1" : "0");
+            for (std::uint32_t binding = 4; binding <= 10; ++binding) {
+                own.bindings.push_back({binding, BindingType::storage_buffer});
+            }
+            own.push_constant_bytes = sizeof(Parameters);
+        }
+        own.name += " of element class " + std::to_string(element_class);
+        kernel = std::make_unique<ComposedKernel>(device, own);
+    }
+    return *kernel;
+}
+
+IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+      m_extent(static_cast<float>(diagonal_of(data.bounds()))), m_isovalue_set(device, volume, data), m_projection(device),
+      m_listed(device), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        if (volume.classes()[index].n_elements == 0) {
+            continue;
+        }
+        ClassKernels kernels;
+        KernelRequest& request = kernels.request;
+        request.precision = m_precision;
+        kernels.octants = m_isovalue_set.octant_buffers(index);
+        kernels.elements = m_isovalue_set.element_buffers(index);
+        for (const FetchBuffer& buffer : data.host_buffers(index)) {
+            if (buffer.name != "core_nodes") {
+                request.buffers.push_back(buffer);
+            }
+        }
+        data.add_field(request, index, true);
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                           {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"},
+                           {"CORE_TILE_CAPACITY", std::to_string(tile_capacity) + "u"},
+                           {"CORE_TESTS_ISOVALUES", "1"},
+                           {"CORE_CLASS", std::to_string(index) + "u"}};
+        request.bindings = {{0, BindingType::uniform_buffer}};
+        for (std::uint32_t binding = 1; binding <= 3; ++binding) {
+            request.bindings.push_back({binding, BindingType::storage_buffer});
+        }
+        kernels.element_class = index;
+        m_kernels.push_back(std::move(kernels));
+    }
+}
+
+void IsosurfacePass::choose(const Isosurfaces& wanted, double offset, const ShownComponent& component) {
+    m_values = wanted.values;
+    for (double& value : m_values) {
+        value -= offset;
+    }
+    m_component = {component.first(), component.end()};
+    m_isovalue_set.choose(m_values, m_component, wanted.skips_by_range);
+    m_method = wanted.method;
+    m_degree = wanted.degree;
+    for (ClassKernels& kernels : m_kernels) {
+        if (m_method != IsosurfaceMethod::interval) {
+            break;
+        }
+        kernels.provide(m_device, Role::tiles, m_values.size() == 1);
+        kernels.provide(m_device, Role::pixels, m_values.size() == 1);
+    }
+}
+
+void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
+                          FrameCounts& counts) {
+    const Layer& layer = target.layer;
+    const Buffer& bending = provide_buffer(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
+    const Buffer& isovalues = provide_buffer(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
+    write_reals(isovalues, m_precision, m_values);
+    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    if (m_isovalue_set.rests_on_estimates()) {
+        layer.marks.write_items(std::span<const Mark>(std::vector<Mark>(layer.n_pixels(), Mark{0, pixel_flag::estimated})));
+    }
+    std::uint32_t left = 0;
+    if (m_method == IsosurfaceMethod::interval) {
+        draw_by_intervals(first_surface, target, counts);
+        left = pixel_flag::isosurface_undecided | pixel_flag::work_limit;
+    }
+    const IsosurfaceProjection::Picture picture{m_frame, isovalues,   bending,
+                                                target,  m_component, static_cast<std::uint32_t>(m_values.size())};
+    if (m_projection.list(target.layer, left) == 0) {
+        return;
+    }
+    for (const ClassKernels& kernels : m_kernels) {
+        if (m_isovalue_set.n_elements(kernels.element_class) > 0) {
+            m_isovalue_set.provide_element_nodes(kernels.element_class);
+            KernelRequest request = kernels.request;
+            request.buffers.insert(request.buffers.end(), kernels.elements.begin(), kernels.elements.end());
+            m_projection.draw(request, kernels.element_class, m_method, m_degree, picture,
+                              first_surface + kernels.element_class, counts);
+        }
+    }
+}
+
+void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts) {
+    const Layer& layer = target.layer;
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
+    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
+    const std::uint32_t n_tiles = tiles_a_row * tile_rows;
+    const TileRows wanted = target.tile_rows(tile_height);
+    const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
+    // The beyond buffer is not read without depths: anything of reals.
+    const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
+    for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
+        ClassKernels& kernels = m_kernels[index];
+        if (m_isovalue_set.n_octants(kernels.element_class) == 0) {
+            continue;
+        }
+        m_counts.fill(0);
+        const Buffer& listed = m_listed.begin(n_tiles);
+        const TilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row,
+                                       static_cast<std::uint32_t>(m_values.size())};
+        const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &listed, &*m_isovalues};
+        kernels.provide(m_device, Role::tiles, m_values.size() == 1)
+            .dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)),
+                      divided_up(of_tiles.end_tile - of_tiles.first_tile, group_size));
+        Parameters parameters{layer.width,
+                              layer.height,
+                              tiles_a_row,
+                              0,
+                              first_surface + kernels.element_class,
+                              m_component.first,
+                              m_component.end,
+                              static_cast<std::uint32_t>(m_values.size()),
+                              target.beyond ? 1u : 0u,
+                              m_extent};
+        const std::array<const Buffer*, 11> bindings = {&m_frame,      &layer.samples, &layer.normals, &m_counts,
+                                                        &layer.marks,  &tiles,         &*m_isovalues,  &beyond,
+                                                        target.places, &*m_bending,    &listed};
+        const auto draw_tiles = [&](Role role, const TileList::Part& part) {
+            in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+                parameters.first_listed = part.first + first;
+                kernels.provide(m_device, role, m_values.size() == 1)
+                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / rows_an_invocation);
+            });
+        };
+        const TileList::Parts parts = m_listed.read();
+        draw_tiles(Role::pixels, parts.shallow);
+        draw_tiles(Role::deep_pixels, parts.deep);
+        const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+        counts.field_evaluations += found[evaluations];
+        counts.excluded_pieces += found[excluded] + found[outside];
+        counts.undecided_pieces += found[undecided];
+        counts.isosurface_crossings += found[crossings];
+    }
+}
+
+} // namespace elvis

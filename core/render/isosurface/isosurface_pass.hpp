@@ -1,0 +1,81 @@
+/**
+ * @file isosurface_pass.hpp
+ * Draws isosurfaces into the samples of a picture.
+ */
+#pragma once
+
+#include <core/render/cut_surface/cut_plane_geometry.hpp>
+#include <core/render/frame.hpp>
+#include <core/render/isosurface/isosurface_projection.hpp>
+#include <core/render/picture/layer.hpp>
+#include <core/render/tiles/tile_list.hpp>
+#include <core/volume/device_volume.hpp>
+#include <core/volume/isosurface/isovalue_set.hpp>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+/** The kernels of one volume and of the field whose isosurfaces are drawn, for each element class. */
+class IsosurfacePass {
+public:
+    /** `data` has that field selected, and its derivative bounds. Kernels are compiled when first needed, most by choose(). */
+    IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+
+    /** What the next pictures show; the field lacks `offset` on the device. See IsovalueSet::choose. */
+    void choose(const Isosurfaces& wanted, double offset, const ShownComponent& component);
+
+    /**
+     * Draws the nearest crossing of each ray; each class is a surface of its own, numbered from `first_surface`. Samples get
+     * the isovalue, less the offset; `target` has places. `view` is the geometry of any plane: only its rays matter.
+     */
+    void draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
+
+    /** An upper bound of the normal curvatures of what was drawn last, a number a pixel. */
+    const Buffer& bending() const { return *m_bending; }
+    /** The rays of what was drawn last, as kernels read them (cut_frame.glsl). */
+    const Buffer& frame() const { return m_frame; }
+
+private:
+    /** Lists for tiles of pixels; tiles whose lists hold leaves only; tiles that many elements may touch. */
+    enum class Role { tiles, pixels, deep_pixels };
+    struct ClassKernels {
+        /** What they have in common. */
+        KernelRequest request;
+        /** What intervals are looked for in, and projection. */
+        std::vector<FetchBuffer> octants, elements;
+        std::uint32_t element_class = 0;
+        /** By role, and whether there is one isovalue. Compiled when first needed. */
+        std::array<std::array<std::unique_ptr<ComposedKernel>, 2>, 3> kernels;
+
+        const ComposedKernel& provide(const Device& device, Role role, bool has_one_isovalue);
+    };
+
+    void draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
+
+    const Device& m_device;
+    Precision m_precision;
+    std::uint32_t m_tile_width;
+    /** The diagonal of the volume's bounds. */
+    float m_extent;
+    IsovalueSet m_isovalue_set;
+    /** Less the offset. */
+    std::vector<double> m_values;
+    ScalarComponent m_component;
+    IsosurfaceMethod m_method = IsosurfaceMethod::interval;
+    std::uint32_t m_degree = 0;
+    std::vector<ClassKernels> m_kernels;
+    IsosurfaceProjection m_projection;
+    TileList m_listed;
+    Buffer m_frame;
+    Buffer m_counts;
+    std::optional<Buffer> m_isovalues;
+    /** Kept from frame to frame. */
+    std::optional<Buffer> m_tiles, m_bending;
+};
+
+} // namespace elvis

@@ -1,0 +1,107 @@
+#include <core/render/device/pixel_kernel.hpp>
+#include <core/render/device/provide_buffer.hpp>
+#include <core/render/isosurface/isosurface_projection.hpp>
+#include <core/segment/tables.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t group_size = 32;
+/** Pixels of one dispatch: each may take a thousand evaluations. */
+constexpr std::uint32_t pixels_a_dispatch = 1u << 13;
+/** Of m_counts. */
+enum Count : std::size_t { evaluations, certified, verified, undecided, crossings, failures, pieces, degrees, n_counts };
+
+struct ListParameters {
+    std::uint32_t n_pixels, groups_x, wanted_flags;
+};
+
+struct Parameters {
+    std::uint32_t width;
+    std::uint32_t first, end;
+    std::uint32_t surface;
+    std::uint32_t first_component, end_component;
+    std::uint32_t n_isovalues;
+    std::uint32_t has_beyond;
+};
+
+} // namespace
+
+IsosurfaceProjection::IsosurfaceProjection(const Device& device)
+    : m_device(device), m_counts(device, n_counts * sizeof(std::uint32_t)) {}
+
+const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request, const Key& key) {
+    const auto found = m_kernels.find(key);
+    if (found != m_kernels.end()) {
+        return found->second;
+    }
+    const auto& [element_class, uses_colleague, degree] = key;
+    KernelRequest own = request;
+    own.name = "isosurface_projection of element class " + std::to_string(element_class);
+    own.kernel = "isosurface/isosurface_projection.comp";
+    own.text += segment::segment_glsl(degree == 0 ? segment::nested_plan() : segment::fixed_plan(static_cast<int>(degree)));
+    own.defines.emplace_back("CORE_USES_COLLEAGUE", uses_colleague ? "1" : "0");
+    own.defines.emplace_back("CORE_PLAIN", degree == 0 ? "0" : "1");
+    for (std::uint32_t binding = 4; binding <= 9; ++binding) {
+        own.bindings.push_back({binding, BindingType::storage_buffer});
+    }
+    own.push_constant_bytes = sizeof(Parameters);
+    return m_kernels.try_emplace(key, m_device, own).first->second;
+}
+
+std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags) {
+    if (!m_list_kernel) {
+        m_list_kernel = std::make_unique<ComposedKernel>(
+            m_device, pixel_kernel("isosurface/list_open_pixels", Precision::float32,
+                                   {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer},
+                                   sizeof(ListParameters)));
+    }
+    provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
+    m_counts.fill(0);
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const ListParameters parameters{n_pixels, pixel_groups_x, flags};
+    dispatch_rows(*m_list_kernel, {&layer.marks, &*m_list, &m_counts}, std::as_bytes(std::span(&parameters, 1)), layer);
+    m_n_listed = m_counts.read_items<std::uint32_t>(1)[0];
+    return m_n_listed;
+}
+
+void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t element_class, IsosurfaceMethod method,
+                                std::uint32_t degree, const Picture& picture, std::uint32_t surface, FrameCounts& counts) {
+    const Layer& layer = picture.target.layer;
+    const ComposedKernel& kernel = provide(request, {element_class, method == IsosurfaceMethod::companion, degree});
+    // The beyond buffer is not read without depths: anything of reals.
+    const Buffer& beyond = picture.target.beyond ? *picture.target.beyond : layer.normals;
+    const std::array<const Buffer*, 10> bindings = {&picture.frame,        &layer.samples,  &layer.normals,     &m_counts,
+                                                    &layer.marks,          &*m_list,        &picture.isovalues, &beyond,
+                                                    picture.target.places, &picture.bending};
+    m_counts.fill(0);
+    for (std::uint32_t first = 0; first < m_n_listed; first += pixels_a_dispatch) {
+        const Parameters parameters{layer.width,
+                                    first,
+                                    std::min(m_n_listed, first + pixels_a_dispatch),
+                                    surface,
+                                    picture.component.first,
+                                    picture.component.end,
+                                    picture.n_isovalues,
+                                    picture.target.beyond ? 1u : 0u};
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                        (parameters.end - first + group_size - 1) / group_size);
+    }
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+    counts.field_evaluations += found[evaluations];
+    counts.certified_segments += found[certified];
+    counts.verified_segments += found[verified];
+    counts.undecided_segments += found[undecided];
+    counts.isosurface_crossings += found[crossings];
+    counts.newton_failures += found[failures];
+    counts.segments += found[pieces];
+    counts.segment_degrees += found[degrees];
+    // Once, not for each class.
+    counts.projected_pixels = std::max<std::uint64_t>(counts.projected_pixels, m_n_listed);
+}
+
+} // namespace elvis

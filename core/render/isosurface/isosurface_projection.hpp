@@ -1,0 +1,51 @@
+/**
+ * @file isosurface_projection.hpp
+ * Draws isosurfaces by projection of the field along rays, in listed pixels (shaders/isosurface/isosurface_projection.comp).
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+#include <core/render/picture/layer.hpp>
+#include <core/shader/composer.hpp>
+#include <core/volume/isosurface/isovalue_set.hpp>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+namespace elvis {
+
+/** The kernels of one volume and of the field whose isosurfaces are drawn. Compiled when first needed. */
+class IsosurfaceProjection {
+public:
+    explicit IsosurfaceProjection(const Device& device);
+
+    /** Takes the pixels that carry one of these flags, or all if there are none, and clears their marks. Returns their number.
+     */
+    std::uint32_t list(const Layer& layer, std::uint32_t flags);
+
+    struct Picture {
+        const Buffer &frame, &isovalues, &bending;
+        const LayerTarget& target;
+        ScalarComponent component;
+        std::uint32_t n_isovalues = 0;
+    };
+    /** In the listed pixels, for one class, whose kernels have `request` in common (IsosurfacePass). */
+    void draw(const KernelRequest& request, std::uint32_t element_class, IsosurfaceMethod method, std::uint32_t degree,
+              const Picture& picture, std::uint32_t surface, FrameCounts& counts);
+
+private:
+    /** Element class, whether roots are eigenvalues, degree. */
+    using Key = std::tuple<std::uint32_t, bool, std::uint32_t>;
+    const ComposedKernel& provide(const KernelRequest& request, const Key& key);
+
+    const Device& m_device;
+    std::map<Key, ComposedKernel> m_kernels;
+    std::unique_ptr<ComposedKernel> m_list_kernel;
+    Buffer m_counts;
+    std::optional<Buffer> m_list;
+    std::uint32_t m_n_listed = 0;
+};
+
+} // namespace elvis

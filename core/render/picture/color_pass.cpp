@@ -1,0 +1,170 @@
+#include <core/render/device/pixel_kernel.hpp>
+#include <core/render/device/real_array.hpp>
+#include <core/render/picture/color_pass.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace elvis {
+
+namespace {
+
+struct ColorParameters {
+    std::uint32_t n_pixels, groups_x, width;
+    std::uint32_t n_points, n_isovalues, n_clips;
+    std::uint32_t common_flags;
+    std::uint32_t surface;
+    /** Of the two kinds of lines: 1 undecided pixels have a colour; contours: 2 they have colours of their own, 4 undecided
+     * pixels without a colour are not drawn. */
+    std::uint32_t contour_style, mesh_style;
+    float contour_reach, mesh_reach;
+    std::uint32_t is_plane;
+};
+
+/** Words a surface: whether there are values below, above, and none at all, and whether a pixel shows it. */
+constexpr std::size_t n_special = 4;
+
+constexpr std::uint32_t with_undecided_color = 1;
+constexpr std::uint32_t with_own_color = 2;
+constexpr std::uint32_t only_decided = 4;
+
+std::uint32_t style_bits(const LineStyle& style) {
+    return (style.undecided_color ? with_undecided_color : 0u) | (style.color ? with_own_color : 0u);
+}
+
+/** From the middle of a pixel that meets the line, to that of the farthest that is drawn. */
+float reach(const LineStyle& style) { return static_cast<float>(0.5 * (std::max(style.width, 1.0) - 1.0)); }
+
+void append(std::vector<double>& numbers, const std::optional<std::array<double, 3>>& color) {
+    const std::array<double, 3> rgb = color.value_or(std::array<double, 3>{});
+    numbers.insert(numbers.end(), {rgb[0], rgb[1], rgb[2], 1.0});
+}
+
+/**
+ * Values up to the first have no place on the table's scale; below the second and above the third they are outside by more than
+ * rounding may have done (core/render/frame.hpp).
+ */
+std::array<double, 3> special_limits(const ColorTable& table, Precision precision) {
+    constexpr double beyond = 1e-4;
+    const double lower = table.points.front().value, upper = table.points.back().value;
+    if (table.is_logarithmic) {
+        const double factor = std::exp(beyond * (std::log(upper) - std::log(lower)));
+        return {0, lower / factor, upper * factor};
+    }
+    const double least = precision == Precision::float64 ? std::numeric_limits<double>::lowest()
+                                                         : static_cast<double>(std::numeric_limits<float>::lowest());
+    return {least, lower - beyond * (upper - lower), upper + beyond * (upper - lower)};
+}
+
+KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines) {
+    constexpr BindingType storage = BindingType::storage_buffer;
+    KernelRequest request =
+        pixel_kernel(std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : ""), precision,
+                     {BindingType::uniform_buffer, storage, storage, storage, storage, storage}, sizeof(ColorParameters));
+    request.kernel = "picture/color.comp";
+    request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
+    request.defines.emplace_back("CORE_HAS_LINES", has_lines ? "1" : "0");
+    if (is_lit) {
+        for (const std::uint32_t binding : {6u, 7u}) {
+            request.bindings.push_back({binding, storage});
+        }
+    }
+    return request;
+}
+
+} // namespace
+
+ColorPass::ColorPass(const Device& device, Precision precision)
+    : m_device(device), m_precision(precision),
+      m_frame(device, cut_plane_rows * 4 * real_bytes(precision), Buffer::Use::uniform) {}
+
+const ComposedKernel& ColorPass::provide(bool is_lit, bool has_lines) {
+    std::unique_ptr<ComposedKernel>& kernel = m_kernels[(is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];
+    if (!kernel) {
+        kernel = std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, is_lit, has_lines));
+    }
+    return *kernel;
+}
+
+void ColorPass::begin(std::size_t n_surfaces) {
+    if (!m_special || n_surfaces > m_n_surfaces) {
+        m_special = std::make_unique<Buffer>(m_device, n_surfaces * n_special * sizeof(std::uint32_t));
+    }
+    m_n_surfaces = n_surfaces;
+    m_special->fill(0);
+}
+
+std::vector<SpecialValues> ColorPass::special_values() const {
+    const std::vector<std::uint32_t> words = m_special->read_items<std::uint32_t>(n_special * m_n_surfaces);
+    std::vector<SpecialValues> result;
+    for (std::size_t at = 0; at < words.size(); at += n_special) {
+        result.push_back({words[at] != 0, words[at + 1] != 0, words[at + 2] != 0, words[at + 3] != 0});
+    }
+    return result;
+}
+
+void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
+                     const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting) {
+    std::vector<double> numbers;
+    const ColorTable& table = surface.colors;
+    for (const ColorTable::Point& point : table.points) {
+        numbers.insert(numbers.end(), {point.value - offset, point.rgb[0], point.rgb[1], point.rgb[2]});
+    }
+    for (const Color& color : {table.below, table.above, table.nan, background}) {
+        numbers.insert(numbers.end(), color.begin(), color.end());
+    }
+    const LineStyle contour = surface.contours ? surface.contours->style : LineStyle{};
+    const bool has_inks = surface.contours && !surface.contours->inks.empty();
+    const LineStyle mesh = surface.mesh_lines ? surface.mesh_lines->style : LineStyle{};
+    for (const auto& color : {contour.undecided_color, mesh.color, mesh.undecided_color}) {
+        append(numbers, color);
+    }
+    const std::array<double, 3> outside = surface.outside.value_or(std::array<double, 3>{});
+    numbers.insert(numbers.end(), {surface.opacity, outside[0], outside[1], outside[2]});
+    const std::array<double, 3> limits = special_limits(table, m_precision);
+    numbers.insert(numbers.end(), {limits[0] - offset, limits[1] - offset, limits[2] - offset, 0});
+    for (const std::array<double, 4>& plane : surface.clip) {
+        // Relative to the reference point of the rays.
+        const std::array<double, 4>& reference = view.rows[6];
+        const double level = plane[0] * reference[0] + plane[1] * reference[1] + plane[2] * reference[2] + plane[3];
+        numbers.insert(numbers.end(), {plane[0], plane[1], plane[2], level});
+    }
+    const std::vector<double> isovalues = surface.contours ? surface.contours->values : std::vector<double>{};
+    for (std::size_t i = 0; i < isovalues.size(); ++i) {
+        const std::array<double, 3> rgb = surface.contours->color(i);
+        numbers.insert(numbers.end(), {isovalues[i] - offset, rgb[0], rgb[1], rgb[2]});
+    }
+    const Buffer rows(m_device, numbers.size() * real_bytes(m_precision));
+    write_reals(rows, m_precision, numbers);
+    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const ColorParameters parameters{n_pixels,
+                                     pixel_groups_x,
+                                     layer.width,
+                                     static_cast<std::uint32_t>(table.points.size()),
+                                     static_cast<std::uint32_t>(isovalues.size()),
+                                     static_cast<std::uint32_t>(surface.clip.size()),
+                                     common_flags,
+                                     static_cast<std::uint32_t>(index),
+                                     style_bits(contour) | (has_inks ? with_own_color | only_decided : 0u),
+                                     style_bits(mesh),
+                                     reach(contour),
+                                     reach(mesh),
+                                     std::holds_alternative<CutPlane>(surface.geometry) ? 1u : 0u};
+    const std::span<const std::byte> push_constants = std::as_bytes(std::span(&parameters, 1));
+    std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
+    const ComposedKernel& kernel = provide(lighting != nullptr, surface.has_lines());
+    if (!lighting) {
+        dispatch_rows(kernel, bindings, push_constants, layer);
+        return;
+    }
+    const std::array<double, 4>& reference = view.rows[6];
+    const std::vector<double> light_numbers = lighting_rows(*lighting, {reference[0], reference[1], reference[2]});
+    const Buffer lights(m_device, light_numbers.size() * real_bytes(m_precision));
+    write_reals(lights, m_precision, light_numbers);
+    bindings.insert(bindings.end(), {&lights, &layer.normals});
+    dispatch_rows(kernel, bindings, push_constants, layer);
+}
+
+} // namespace elvis

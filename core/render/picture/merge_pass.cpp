@@ -1,0 +1,123 @@
+#include <core/render/device/pixel_kernel.hpp>
+#include <core/render/picture/merge_pass.hpp>
+
+#include <array>
+
+namespace elvis {
+
+namespace {
+
+struct MergeParameters {
+    std::uint32_t n_pixels, groups_x;
+    std::uint32_t surface;
+    std::uint32_t has_normals;
+    std::uint32_t is_first;
+    float red, green, blue, alpha;
+    std::uint32_t width;
+};
+
+struct PixelParameters {
+    std::uint32_t n_pixels, groups_x;
+};
+
+ComposedKernel storage_kernel(const Device& device, Precision precision, const char* name, std::uint32_t n_bindings,
+                              std::size_t push_bytes) {
+    KernelRequest request = pixel_kernel(name, precision, {}, push_bytes);
+    for (std::uint32_t binding = 0; binding < n_bindings; ++binding) {
+        request.bindings.push_back({binding, BindingType::storage_buffer});
+    }
+    return ComposedKernel(device, request);
+}
+
+} // namespace
+
+MergePass::MergePass(const Device& device, Precision precision)
+    : m_device(device), m_precision(precision),
+      m_merge(storage_kernel(device, precision, "picture/merge", 11, sizeof(MergeParameters))),
+      m_take(storage_kernel(device, precision, "picture/take_layer", 5, sizeof(PixelParameters))),
+      m_order(storage_kernel(device, precision, "picture/order_layers", 4, sizeof(PixelParameters))),
+      m_blend(storage_kernel(device, precision, "picture/blend", 4, sizeof(PixelParameters))),
+      m_counts(device, 3 * sizeof(std::uint32_t)) {}
+
+void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background) {
+    if (!m_picture || m_picture->width != width || m_picture->height != height) {
+        m_transparent_layers.clear();
+        m_picture = std::make_unique<Layer>(m_device, m_precision, width, height);
+        m_depths = std::make_unique<Buffer>(m_device, m_picture->n_pixels() * real_bytes(m_precision));
+        m_beyond = std::make_unique<Buffer>(m_device, m_picture->n_pixels() * real_bytes(m_precision));
+    }
+    m_picture->rows = rows;
+    m_n_transparent_layers = 0;
+    m_background = background;
+    m_is_empty = true;
+}
+
+MergePass::Wanted MergePass::merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through) {
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const auto channel = [this](std::size_t i) { return static_cast<float>(m_background[i]); };
+    const MergeParameters parameters{
+        n_pixels,   pixel_groups_x, surface,    has_normals ? 1u : 0u, m_is_empty ? 1u : 0u, channel(0), channel(1),
+        channel(2), channel(3),     layer.width};
+    constexpr std::array<std::uint32_t, 3> no_rows = {0, 0xffffffffu, 0};
+    m_counts.write_items(std::span<const std::uint32_t>(no_rows));
+    const std::vector<const Buffer*> bindings = {
+        &layer.samples,    &layer.marks,        &layer.normals,     &layer.colors,  &m_picture->samples,
+        &m_picture->marks, &m_picture->normals, &m_picture->colors, m_depths.get(), m_beyond.get(),
+        &m_counts};
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
+    if (m_is_empty) {
+        // The background, too.
+        dispatch_pixels(m_merge, bindings, bytes, n_pixels);
+    } else {
+        dispatch_rows(m_merge, bindings, bytes, layer);
+    }
+    m_is_empty = false;
+    if (!is_see_through) {
+        return {};
+    }
+    keep(layer);
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(3);
+    return {found[0], found[1], found[2]};
+}
+
+void MergePass::keep(const Layer& layer) {
+    if (m_n_transparent_layers == m_transparent_layers.size()) {
+        const std::uint64_t bytes = layer.n_pixels() * real_bytes(m_precision);
+        m_transparent_layers.push_back({Buffer(m_device, 4 * bytes), Buffer(m_device, bytes)});
+    }
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const PixelParameters parameters{n_pixels, pixel_groups_x};
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
+    const TransparentLayer& taken = m_transparent_layers[m_n_transparent_layers];
+    dispatch_rows(m_take, {&layer.samples, &layer.marks, &layer.colors, &taken.colors, &taken.depths}, bytes, layer);
+    // Insertion: the new layer moves forward past every one that is farther.
+    for (std::size_t i = m_n_transparent_layers; i > 0; --i) {
+        const TransparentLayer& nearer = m_transparent_layers[i - 1];
+        const TransparentLayer& farther = m_transparent_layers[i];
+        dispatch_rows(m_order, {&nearer.colors, &nearer.depths, &farther.colors, &farther.depths}, bytes, layer);
+    }
+    ++m_n_transparent_layers;
+}
+
+void MergePass::fill_empty() {
+    if (m_is_empty) {
+        std::vector<double> colors(4 * m_picture->n_pixels());
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            colors[i] = m_background[i % 4];
+        }
+        write_reals(m_picture->colors, m_precision, colors);
+        m_picture->marks.fill(0);
+    }
+}
+
+void MergePass::finish() {
+    const auto n_pixels = static_cast<std::uint32_t>(m_picture->n_pixels());
+    const PixelParameters parameters{n_pixels, pixel_groups_x};
+    for (std::size_t i = m_n_transparent_layers; i > 0; --i) {
+        const TransparentLayer& layer = m_transparent_layers[i - 1];
+        dispatch_rows(m_blend, {&layer.colors, &layer.depths, &m_picture->colors, m_depths.get()},
+                      std::as_bytes(std::span(&parameters, 1)), *m_picture);
+    }
+}
+
+} // namespace elvis

@@ -1,0 +1,139 @@
+#include <core/base/bounds.hpp>
+#include <core/render/device/provide_buffer.hpp>
+#include <core/render/segments/walk_search.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace elvis {
+
+namespace {
+
+/** Words of a tile's list: shaders/tiles/ray_tiles.glsl. */
+constexpr std::uint32_t tile_stride = 64;
+constexpr std::uint32_t group_size = 32;
+enum Count : std::size_t { seeking, evaluations, n_counts };
+
+struct TilesParameters {
+    std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
+};
+
+struct SeekParameters {
+    std::uint32_t width, height;
+    std::uint32_t tiles_a_row;
+    std::uint32_t first_group;
+    std::uint32_t first_element;
+    std::uint32_t zero;
+    float extent;
+};
+
+std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
+
+void add_storage_buffers(KernelRequest& request, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+        request.bindings.push_back({static_cast<std::uint32_t>(request.bindings.size()), BindingType::storage_buffer});
+    }
+}
+
+} // namespace
+
+WalkSearch::WalkSearch(const Device& device, const DeviceVolume& data, const WalkData& walk_data, const RuntimeVolume& volume,
+                       std::vector<std::pair<std::string, std::string>> defines, bool are_given)
+    : m_device(device), m_data(data), m_walk_data(walk_data), m_defines(std::move(defines)), m_are_given(are_given),
+      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        const ClassInfo& info = volume.classes()[index];
+        if (info.n_elements > 0) {
+            m_ranges.push_back(
+                {index, static_cast<std::uint32_t>(info.first_element), static_cast<std::uint32_t>(info.n_elements)});
+        }
+    }
+    m_kernels.resize(m_ranges.size());
+}
+
+KernelRequest WalkSearch::request(const Range& range, const char* kernel) const {
+    KernelRequest request;
+    request.name = std::string(kernel) + " of element class " + std::to_string(range.element_class);
+    request.kernel = std::string(kernel) + ".comp";
+    request.precision = m_data.precision();
+    request.buffers = m_walk_data.host_buffers(range.element_class);
+    for (const FetchBuffer& buffer : m_data.host_buffers(range.element_class)) {
+        if (buffer.name != "core_nodes") {
+            request.buffers.push_back(buffer);
+        }
+    }
+    request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
+                       {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                       {"CORE_LEAF_WORD", "index"},
+                       m_walk_data.curved_define(range.element_class)};
+    request.defines.insert(request.defines.end(), m_defines.begin(), m_defines.end());
+    request.bindings = {{0, BindingType::uniform_buffer}};
+    return request;
+}
+
+void WalkSearch::compile() {
+    for (std::size_t index = 0; index < m_ranges.size(); ++index) {
+        Kernels& kernels = m_kernels[index];
+        if (kernels.seek) {
+            continue;
+        }
+        const Range& range = m_ranges[index];
+        if (!m_are_given) {
+            KernelRequest tiles = request(range, "tiles/ray_tiles");
+            tiles.defines.emplace_back("CORE_TESTS_STARTS", "1");
+            tiles.instances = {m_data.instance(range.element_class)};
+            add_storage_buffers(tiles, 2);
+            tiles.push_constant_bytes = sizeof(TilesParameters);
+            kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
+        }
+        KernelRequest seek = request(range, "segments/find_walk");
+        seek.instances = {m_data.instance(range.element_class)};
+        add_storage_buffers(seek, 4);
+        seek.push_constant_bytes = sizeof(SeekParameters);
+        kernels.seek = std::make_unique<ComposedKernel>(m_device, seek);
+    }
+}
+
+void WalkSearch::list_starts(const WalkRays& rays) {
+    const std::uint32_t n_tiles = tiles_a_row(rays.width) * divided_up(rays.height, tile_height);
+    const TilesParameters parameters{tiles_a_row(rays.width), n_tiles, 0, n_tiles};
+    const std::uint64_t bytes = std::uint64_t{parameters.n_tiles} * tile_stride * sizeof(std::uint32_t);
+    const std::uint64_t flag_bytes = std::uint64_t{parameters.n_tiles} * sizeof(std::uint32_t);
+    provide_buffer(m_has_starts, m_device, flag_bytes).fill(0);
+    for (std::size_t index = 0; index < m_ranges.size(); ++index) {
+        Kernels& kernels = m_kernels[index];
+        provide_buffer(kernels.lists, m_device, bytes);
+        if (m_walk_data.n_starts(m_ranges[index].element_class) > 0) {
+            const std::array<const Buffer*, 3> bindings = {&rays.frame, &*kernels.lists, &*m_has_starts};
+            kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                    divided_up(parameters.n_tiles, group_size));
+        }
+    }
+}
+
+WalkSearch::Found WalkSearch::seek(std::size_t index, const WalkRays& rays, const RayGroups& groups) {
+    if (m_walk_data.n_starts(m_ranges[index].element_class) == 0) {
+        return {};
+    }
+    m_counts.fill(0);
+    SeekParameters parameters{rays.width, rays.height, tiles_a_row(rays.width), 0, m_ranges[index].first_element, 0, m_extent};
+    // No lists are read where rays are given: anything.
+    const std::array<const Buffer*, 5> bindings = {&rays.frame, &rays.states,
+                                                   m_are_given ? &m_counts : &*m_kernels[index].lists, &m_counts,
+                                                   m_are_given ? rays.given : groups.list};
+    const auto dispatch = [&](std::uint32_t first, std::uint32_t count) {
+        parameters.first_group = first;
+        m_kernels[index].seek->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
+    };
+    if (m_are_given) {
+        dispatch(0, tiles_a_row(rays.width));
+    } else {
+        groups.in_parts(dispatch);
+    }
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+    return {found[seeking] > 0, found[evaluations]};
+}
+
+} // namespace elvis

@@ -1,0 +1,94 @@
+#include <core/render/device/in_parts.hpp>
+#include <core/render/device/pixel_kernel.hpp>
+#include <core/render/device/provide_buffer.hpp>
+#include <core/render/volume/live_rays.hpp>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+struct LiveRays::Parameters {
+    std::uint32_t width, height;
+    std::uint32_t first, n_groups;
+    std::uint32_t seeks;
+    std::uint32_t first_element, n_elements;
+};
+
+namespace {
+
+/** What all devices take in one direction. */
+constexpr std::uint32_t groups_a_dispatch = 1u << 15;
+/** Groups of rays that a work group of the kernel looks at: CORE_GROUPS. */
+constexpr std::uint32_t groups_a_work_group = 16;
+/** Of m_counts. */
+enum Count : std::size_t { live, open, n_counts };
+
+KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::uint32_t tile_height, std::size_t push_bytes) {
+    constexpr BindingType buffer = BindingType::storage_buffer;
+    KernelRequest request =
+        pixel_kernel("volume/live_rays", precision, {buffer, buffer, buffer, buffer, buffer, buffer}, push_bytes);
+    request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width) + "u"},
+                       {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                       {"CORE_GROUPS", std::to_string(groups_a_work_group) + "u"}};
+    return request;
+}
+
+} // namespace
+
+void RayGroups::in_parts(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const {
+    elvis::in_parts(count, groups_a_dispatch, dispatch);
+}
+
+RayGroups AllRayGroups::of(const Device& device, std::uint32_t tiles_a_row, std::uint32_t height) {
+    const std::uint64_t bytes = std::uint64_t{tiles_a_row} * height * sizeof(std::uint32_t);
+    if (!m_list || m_list->bytes() != bytes) {
+        std::vector<std::uint32_t> all(std::size_t{tiles_a_row} * height);
+        std::iota(all.begin(), all.end(), 0u);
+        provide_buffer(m_list, device, bytes).write_items(std::span<const std::uint32_t>(all));
+    }
+    return {&*m_list, tiles_a_row * height};
+}
+
+LiveRays::LiveRays(const Device& device, Precision precision, std::uint32_t tile_width, std::uint32_t tile_height)
+    : m_device(device), m_tile_width(tile_width), m_tile_height(tile_height),
+      m_kernel(device, request_for(precision, tile_width, tile_height, sizeof(Parameters))),
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {}
+
+void LiveRays::begin(const Buffer& states, const Buffer& has_starts, std::uint32_t width, std::uint32_t height) {
+    m_states = &states;
+    m_has_starts = &has_starts;
+    m_width = width;
+    m_height = height;
+    m_all = m_all_groups.of(m_device, (width + m_tile_width - 1) / m_tile_width, height);
+    m_open = m_all;
+    for (std::optional<Buffer>* list : {&m_live, &m_open_lists[0], &m_open_lists[1]}) {
+        provide_buffer(*list, m_device, m_all.list->bytes());
+    }
+}
+
+RayGroups LiveRays::run(std::uint32_t seeks, std::uint32_t first_element, std::uint32_t n_elements) {
+    m_counts.fill(0);
+    const Buffer& next_open = *m_open_lists[m_next_open];
+    const std::array<const Buffer*, 6> bindings = {m_states, m_has_starts, m_open.list, &*m_live, &next_open, &m_counts};
+    m_open.in_parts([&](std::uint32_t first, std::uint32_t count) {
+        const Parameters parameters{m_width, m_height, first, count, seeks, first_element, n_elements};
+        m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                          (count + groups_a_work_group - 1) / groups_a_work_group);
+    });
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+    if (seeks != 0) {
+        m_open = {&next_open, found[open]};
+        m_next_open = 1 - m_next_open;
+    }
+    return {&*m_live, found[live]};
+}
+
+RayGroups LiveRays::seeking() { return run(1, 0, 0); }
+
+RayGroups LiveRays::going(std::uint32_t first_element, std::uint32_t n_elements) { return run(0, first_element, n_elements); }
+
+} // namespace elvis

@@ -1,0 +1,247 @@
+#include <core/render/device/pixel_kernel.hpp>
+#include <core/render/device/provide_buffer.hpp>
+#include <core/render/device/real_array.hpp>
+#include <core/render/volume/volume_pass.hpp>
+#include <core/segment/tables.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace elvis {
+
+namespace {
+
+/** Of the polynomials of one step. */
+constexpr int step_degree = 5;
+/** A ray has no more chains, and chains no more parts in different classes: far more than there are elements along a ray. */
+constexpr std::uint32_t most_rounds = 4096;
+/** Beyond all values, and a number in single precision. */
+constexpr double unbounded = 3e38;
+/** Of m_counts. */
+constexpr std::size_t n_counts = 8;
+enum MarchCount : std::size_t { moved, evaluations, mappings, segments, empty_segments, steps, breakpoints, failures };
+enum FinishCount : std::size_t { volume_pixels };
+
+struct MarchParameters {
+    std::uint32_t width, height;
+    std::uint32_t first_group;
+    std::uint32_t first_element, n_elements;
+    std::uint32_t first_component, end_component;
+    std::uint32_t n_breakpoints;
+    std::uint32_t has_depths, has_stops;
+    std::uint32_t skips_by_range;
+    std::uint32_t zero;
+    float extent;
+    float tolerance, steepest, step;
+};
+
+struct PixelParameters {
+    std::uint32_t n_pixels, groups_x;
+    float tolerance;
+};
+
+/** Bytes of one core_volume_state. */
+std::size_t state_bytes(Precision precision) { return 9 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
+
+double largest(const std::array<double, 3>& numbers) {
+    return std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
+}
+
+/** How much density and light per length change at most with the value, from `from` on over `width`. */
+double steepness(const TransferPiece& piece, double width) {
+    const double end = piece.density + piece.density_slope * width;
+    const double color = std::max(largest(piece.rgb),
+                                  largest({piece.rgb[0] + piece.rgb_slope[0] * width, piece.rgb[1] + piece.rgb_slope[1] * width,
+                                           piece.rgb[2] + piece.rgb_slope[2] * width}));
+    return std::abs(piece.density_slope) * std::max(color, 1.0) + std::max(piece.density, end) * largest(piece.rgb_slope);
+}
+
+/** Whether the second does not begin as the first ends, in density or light, but for rounding. */
+bool is_step(const TransferPiece& first, const TransferPiece& second) {
+    const double width = second.from - first.from;
+    const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-9 * (std::abs(a) + std::abs(b)) + 1e-12; };
+    const double density = first.density + first.density_slope * width;
+    bool is_one = differ(density, second.density);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        is_one = is_one || differ(density * (first.rgb[channel] + first.rgb_slope[channel] * width),
+                                  second.density * second.rgb[channel]);
+    }
+    return is_one;
+}
+
+} // namespace
+
+struct VolumePass::Picture {
+    const Layer& layer;
+    /** Of opaque surfaces, and of the next transparent one; null if there is none. */
+    const Buffer *depths, *stops;
+    WalkRays rays;
+    bool only_live;
+};
+
+VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_device(device), m_data(data), m_precision(data.precision()), m_walk_data(device, volume, data),
+      m_search(device, data, m_walk_data, volume, {}, false), m_models(device, volume, data),
+      m_begin(device,
+              pixel_kernel("volume/volume_begin", data.precision(), {BindingType::storage_buffer}, sizeof(PixelParameters))),
+      m_transparent_layer(device, pixel_kernel("volume/volume_transparency", data.precision(),
+                                               {BindingType::storage_buffer, BindingType::storage_buffer,
+                                                BindingType::storage_buffer, BindingType::storage_buffer},
+                                               sizeof(PixelParameters))),
+      m_finish(device, pixel_kernel("volume/volume_finish", data.precision(),
+                                    {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
+                                     BindingType::storage_buffer},
+                                    sizeof(PixelParameters))),
+      m_live(device, data.precision(), m_search.tile_width(), WalkSearch::tile_height),
+      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_counts(device, n_counts * sizeof(std::uint32_t)), m_march(m_search.ranges().size()) {}
+
+void VolumePass::choose(const VolumeRendering& wanted, double offset, const ShownComponent& component) {
+    const TransferTable table = cut_at_breakpoints(wanted.transfer);
+    std::vector<double> values, pieces;
+    for (const double value : table.breakpoints) {
+        values.push_back(value - offset);
+    }
+    m_n_breakpoints = static_cast<std::uint32_t>(values.size());
+    // Buffers are never empty.
+    values.resize(std::max<std::size_t>(values.size(), 1));
+    m_steepest = 1e-30;
+    m_has_steps = false;
+    for (std::size_t i = 0; i < table.pieces.size(); ++i) {
+        const TransferPiece& piece = table.pieces[i];
+        const bool is_bounded = i > 0 && i < table.breakpoints.size();
+        const double steep = is_bounded ? steepness(piece, table.breakpoints[i] - piece.from) : 0;
+        m_steepest = std::max(m_steepest, steep);
+        m_has_steps = m_has_steps || (i > 0 && is_step(table.pieces[i - 1], piece));
+        const double below = i > 0 ? table.breakpoints[i - 1] - offset : -unbounded;
+        const double above = i < table.breakpoints.size() ? table.breakpoints[i] - offset : unbounded;
+        const std::array<double, 12> rows = {piece.from - offset, piece.density,      piece.density_slope, steep,
+                                             piece.rgb[0],        piece.rgb[1],       piece.rgb[2],        below,
+                                             piece.rgb_slope[0],  piece.rgb_slope[1], piece.rgb_slope[2],  above};
+        pieces.insert(pieces.end(), rows.begin(), rows.end());
+    }
+    write_reals(provide_buffer(m_breakpoints, m_device, values.size() * real_bytes(m_precision)), m_precision, values);
+    write_reals(provide_buffer(m_pieces, m_device, pieces.size() * real_bytes(m_precision)), m_precision, pieces);
+    m_wanted = wanted;
+    m_component = component;
+    m_models.provide({component.first(), component.end()});
+    m_search.compile();
+    for (std::size_t index = 0; index < m_march.size(); ++index) {
+        march_kernel(index);
+    }
+}
+
+const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
+    std::unique_ptr<ComposedKernel>& kernel =
+        m_march[index][2 * static_cast<std::size_t>(m_wanted.integrator) + (m_has_steps ? 1 : 0)];
+    if (!kernel) {
+        const WalkSearch::Range& range = m_search.ranges()[index];
+        KernelRequest request = m_search.request(range, "volume/volume_march");
+        request.buffers.push_back(m_models.host_buffer(range.element_class));
+        m_data.add_field(request, range.element_class, true);
+        request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
+        request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
+        request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
+        for (std::uint32_t binding = 1; binding <= 7; ++binding) {
+            request.bindings.push_back({binding, BindingType::storage_buffer});
+        }
+        request.push_constant_bytes = sizeof(MarchParameters);
+        kernel = std::make_unique<ComposedKernel>(m_device, request);
+    }
+    return *kernel;
+}
+
+bool VolumePass::march(std::size_t index, const Picture& picture, const RayGroups& groups, FrameCounts& counts) {
+    m_counts.fill(0);
+    MarchParameters parameters{picture.layer.width,
+                               picture.layer.height,
+                               0,
+                               m_search.ranges()[index].first_element,
+                               m_search.ranges()[index].n_elements,
+                               m_component.first(),
+                               m_component.end(),
+                               m_n_breakpoints,
+                               picture.depths ? 1u : 0u,
+                               picture.stops ? 1u : 0u,
+                               m_wanted.skips_by_range ? 1u : 0u,
+                               0,
+                               m_search.extent(),
+                               static_cast<float>(m_wanted.tolerance),
+                               static_cast<float>(m_steepest),
+                               static_cast<float>(m_wanted.step)};
+    // What is not there is not read: anything of reals.
+    const Buffer& depths = picture.depths ? *picture.depths : picture.layer.normals;
+    const Buffer& stops = picture.stops ? *picture.stops : picture.layer.normals;
+    const std::array<const Buffer*, 8> bindings = {&m_frame,   &*m_states, &depths, &*m_breakpoints,
+                                                   &*m_pieces, &m_counts,  &stops,  groups.list};
+    const ComposedKernel& kernel = march_kernel(index);
+    groups.in_parts([&](std::uint32_t first, std::uint32_t count) {
+        parameters.first_group = first;
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
+    });
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+    counts.field_evaluations += found[evaluations];
+    counts.mapping_evaluations += found[mappings];
+    counts.volume_segments += found[segments];
+    counts.empty_segments += found[empty_segments];
+    counts.volume_steps += found[steps];
+    counts.volume_breakpoints += found[breakpoints];
+    counts.newton_failures += found[failures];
+    return found[moved] > 0;
+}
+
+void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
+    const RayGroups all = m_live.all();
+    RayGroups live = all;
+    const auto spare = [&] { counts.spared_pixels += std::uint64_t{all.count - live.count} * m_search.tile_width(); };
+    bool is_open = true;
+    for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
+        bool is_seeking = false;
+        if (picture.only_live) {
+            live = m_live.seeking();
+        }
+        for (std::size_t index = 0; index < m_march.size(); ++index) {
+            spare();
+            const WalkSearch::Found found = m_search.seek(index, picture.rays, live);
+            counts.mapping_evaluations += found.evaluations;
+            is_seeking = is_seeking || found.is_seeking;
+        }
+        is_open = is_seeking;
+        for (std::size_t index = 0; index < m_march.size(); ++index) {
+            if (picture.only_live) {
+                const WalkSearch::Range& range = m_search.ranges()[index];
+                live = m_live.going(range.first_element, range.n_elements);
+            }
+            spare();
+            is_open = march(index, picture, live, counts) || is_open;
+        }
+    }
+}
+
+void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
+                      FrameCounts& counts) {
+    const Layer& layer = merged.picture();
+    const Buffer& states = provide_buffer(m_states, m_device, layer.n_pixels() * state_bytes(m_precision));
+    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    m_walk_data.look_from(start);
+    Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live};
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance)};
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
+    dispatch_pixels(m_begin, {&states}, bytes, n_pixels);
+    m_search.list_starts(picture.rays);
+    m_live.begin(states, m_search.has_starts(), layer.width, layer.height);
+    for (std::size_t i = 0; i < merged.n_transparent_layers(); ++i) {
+        picture.stops = &merged.transparent_layer(i).depths;
+        march_all(picture, counts);
+        dispatch_rows(m_transparent_layer, {&states, &merged.transparent_layer(i).colors, picture.stops, picture.depths}, bytes,
+                      layer);
+    }
+    picture.stops = nullptr;
+    march_all(picture, counts);
+    m_counts.fill(0);
+    dispatch_pixels(m_finish, {&states, &layer.colors, &layer.marks, &m_counts}, bytes, n_pixels);
+    counts.volume_pixels += m_counts.read_items<std::uint32_t>(n_counts)[volume_pixels];
+}
+
+} // namespace elvis

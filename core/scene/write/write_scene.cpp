@@ -1,0 +1,113 @@
+#include <core/scene/write/write_scene.hpp>
+
+#include <core/base/error.hpp>
+#include <core/scene/output/output_file.hpp>
+#include <core/scene/write/write_parts.hpp>
+
+#include <filesystem>
+
+namespace elvis {
+
+namespace {
+
+SceneJson camera_json(const SceneCamera& camera) {
+    SceneJson json = SceneJson::object();
+    if (camera.orthographic) {
+        json["type"] = *camera.orthographic ? "orthographic" : "perspective";
+    }
+    set(json, "eye", camera.eye);
+    set(json, "look_at", camera.look_at);
+    set(json, "up", camera.up);
+    set(json, "field_of_view", camera.field_of_view);
+    set(json, "height", camera.height);
+    if (camera.image_shift != std::array<double, 2>{}) {
+        json["image_shift"] = camera.image_shift;
+    }
+    return json;
+}
+
+SceneJson volume_json(const Scene& scene, const std::string& path) {
+    SceneJson json;
+    json["path"] = seen_from(path, scene.volume);
+    if (!scene.plugin.empty()) {
+        json["plugin"] = scene.plugin;
+    }
+    if (!scene.plugin_options.empty()) {
+        json["options"] = SceneJson::parse(scene.plugin_options);
+    }
+    if (scene.time_step != 0) {
+        json["time_step"] = scene.time_step;
+    }
+    return json;
+}
+
+SceneJson image_json(const Scene& scene, const std::string& path) {
+    SceneJson json;
+    json["size"] = scene.size;
+    json["background"] = scene.background;
+    if (scene.annotation) {
+        json["annotation"] = annotation_json(*scene.annotation, path);
+    }
+    return json;
+}
+
+} // namespace
+
+std::string seen_from(const std::string& scene, const std::string& path) {
+    namespace fs = std::filesystem;
+    // Folders without symbolic links, so that ".." means the same to everyone.
+    const auto real = [](const fs::path& file) {
+        const fs::path whole = fs::absolute(file).lexically_normal();
+        std::error_code error;
+        const fs::path folder = fs::weakly_canonical(whole.parent_path(), error);
+        return error ? whole : folder / whole.filename();
+    };
+    const fs::path relative = real(path).lexically_relative(real(scene).parent_path());
+    return relative.empty() ? real(path).string() : relative.string();
+}
+
+SceneJson scene_json(const Scene& scene, const std::string& path) {
+    SceneJson json;
+    json["version"] = 1;
+    if (!scene.volume.empty()) {
+        json["volume"] = volume_json(scene, path);
+    }
+    set(json, "field", scene.field);
+    set(json, "precision", scene.precision);
+    if (const SceneJson camera = camera_json(scene.camera); !camera.empty()) {
+        json["camera"] = camera;
+    }
+    json["image"] = image_json(scene, path);
+    if (const SceneJson map = color_map_json(scene.color_map, path); !map.empty()) {
+        json["color_map"] = map;
+    }
+    if (scene.contours) {
+        json["contours"] = contours_json(*scene.contours);
+    }
+    if (scene.mesh_lines) {
+        json["mesh_lines"] = line_style_json(*scene.mesh_lines);
+    }
+    if (scene.subdivisions != Scene{}.subdivisions) {
+        json["subdivisions"] = scene.subdivisions;
+    }
+    if (scene.lighting) {
+        json["lighting"] = lighting_json(*scene.lighting, scene.hidden_lights);
+    }
+    for (const SceneSurface& surface : scene.surfaces) {
+        json["surfaces"].push_back(surface_json(surface, path));
+    }
+    if (scene.volume_rendering) {
+        json["volume_rendering"] = volume_rendering_json(*scene.volume_rendering, path);
+    }
+    if (scene.animation) {
+        json["animation"] = animation_json(*scene.animation);
+    }
+    for (const SceneView& view : scene.views) {
+        json["views"].push_back({{"name", view.name}, {"camera", camera_json(view.camera)}});
+    }
+    return json;
+}
+
+void write_scene(const Scene& scene, const std::string& path) { write_text_file(path, scene_json(scene, path).dump(2) + "\n"); }
+
+} // namespace elvis

@@ -1,0 +1,193 @@
+#include <core/volume/boundary/edge_set.hpp>
+#include <core/volume/element/chebyshev.hpp>
+#include <core/volume/element/reference_corners.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t group_size = 32;
+constexpr std::uint64_t edges_a_dispatch = 65536;
+/** Positions agree to this share of the volume's size if they are the same. */
+constexpr double same_point = 1e-5;
+
+struct Parameters {
+    std::uint32_t n_edges, n_points;
+};
+
+struct LocalEdge {
+    std::uint32_t element = 0;
+    std::uint32_t number = 0;
+    std::array<double, 3> origin{};
+    std::array<double, 3> from{}, to{};
+};
+
+/** Of the faces of one class, each edge of an element once. */
+std::vector<LocalEdge> local_edges(const ClassInfo& info, const RuntimeVolume& volume, const DeviceVolume& data,
+                                   std::span<const ElementFace> faces) {
+    std::vector<LocalEdge> edges;
+    std::set<std::array<char, 2>> of_element;
+    std::uint64_t element = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const ElementFace& face = faces[i];
+        if (i == 0 || face.element != element) {
+            of_element.clear();
+            element = face.element;
+        }
+        const std::string_view corners = face_corners(info.shape, face.local_face);
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            std::array<char, 2> ends = {corners[k], corners[(k + 1) % corners.size()]};
+            std::ranges::sort(ends);
+            if (of_element.insert(ends).second) {
+                std::array<std::int64_t, 1> number{};
+                volume.element_numbers(element, 1, number);
+                edges.push_back({static_cast<std::uint32_t>(element - info.first_element),
+                                 static_cast<std::uint32_t>(number[0]), data.origin(element),
+                                 reference_corner(info.shape, static_cast<std::uint32_t>(ends[0] - '0')),
+                                 reference_corner(info.shape, static_cast<std::uint32_t>(ends[1] - '0'))});
+            }
+        }
+    }
+    return edges;
+}
+
+/** Positions of order + 1 points of each edge. */
+std::vector<double> sample(const Device& device, const DeviceVolume& data, std::uint32_t element_class, std::uint32_t order,
+                           std::span<const LocalEdge> edges) {
+    const bool is_double = data.precision() == Precision::float64;
+    const std::uint64_t real_bytes = is_double ? sizeof(double) : sizeof(float);
+    const std::uint64_t block = std::min<std::uint64_t>(edges.size(), edges_a_dispatch);
+    const std::uint32_t n_points = order + 1;
+    KernelRequest request;
+    request.name = "edge_samples of element class " + std::to_string(element_class);
+    request.kernel = "lines/edge_samples.comp";
+    request.precision = data.precision();
+    request.instances = {data.instance(element_class)};
+    request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
+    request.push_constant_bytes = sizeof(Parameters);
+    const ComposedKernel kernel(device, request);
+    const Buffer output(device, 3 * block * n_points * real_bytes), input(device, 3 * block * n_points * real_bytes),
+        elements(device, block * sizeof(std::uint32_t));
+    const std::array<const Buffer*, 3> bindings = {&output, &input, &elements};
+    std::vector<double> positions, points;
+    std::vector<std::uint32_t> local;
+    for (std::size_t first = 0; first < edges.size(); first += block) {
+        const std::span<const LocalEdge> own = edges.subspan(first, std::min<std::size_t>(block, edges.size() - first));
+        points.clear();
+        local.clear();
+        for (const LocalEdge& edge : own) {
+            local.push_back(edge.element);
+            for (std::uint32_t k = 0; k < n_points; ++k) {
+                const double s = 0.5 - 0.5 * std::cos(std::numbers::pi * k / order);
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    points.push_back(edge.from[axis] + s * (edge.to[axis] - edge.from[axis]));
+                }
+            }
+        }
+        elements.write_items(std::span<const std::uint32_t>(local));
+        const auto n = static_cast<std::uint32_t>(own.size() * n_points);
+        const Parameters parameters{static_cast<std::uint32_t>(own.size()), n_points};
+        if (is_double) {
+            input.write_items(std::span<const double>(points));
+        } else {
+            const std::vector<float> rounded(points.begin(), points.end());
+            input.write_items(std::span<const float>(rounded));
+        }
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + group_size - 1) / group_size);
+        const auto take = [&](const auto& read) { positions.insert(positions.end(), read.begin(), read.end()); };
+        if (is_double) {
+            take(output.read_items<double>(std::size_t{3} * n));
+        } else {
+            take(output.read_items<float>(std::size_t{3} * n));
+        }
+    }
+    return positions;
+}
+
+/** What turns positions at Chebyshev-Lobatto points into coefficients (discrete cosine transform). */
+std::vector<double> transform(std::uint32_t order) {
+    const std::size_t size = std::size_t{order} + 1;
+    std::vector<double> matrix(size * size);
+    for (std::size_t m = 0; m < size; ++m) {
+        for (std::size_t k = 0; k < size; ++k) {
+            // The points run from -1 to 1.
+            const double angle = std::numbers::pi * static_cast<double>(m * (order - k)) / order;
+            const double ends = (k == 0 || k == order ? 0.5 : 1.0) * (m == 0 || m == order ? 0.5 : 1.0);
+            matrix[m * size + k] = 2.0 / order * ends * std::cos(angle);
+        }
+    }
+    return matrix;
+}
+
+} // namespace
+
+EdgeSet::EdgeSet(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                 std::span<const ElementFace> faces, const TaskControl* control) {
+    const std::array<double, 6>& bounds = data.bounds();
+    double size = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        size = std::max(size, bounds[axis + 3] - bounds[axis]);
+    }
+    m_rounding = (data.precision() == Precision::float64 ? 1e-15 : 1e-6) * size;
+    // Middles of edges: those of neighbours are the same but for rounding. One at the border between two cells of this lattice
+    // is drawn twice, which does no harm.
+    std::set<std::array<std::int64_t, 3>> known;
+    std::size_t first = 0;
+    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+        const ClassInfo& info = volume.classes()[index];
+        std::size_t end = first;
+        while (end < faces.size() && faces[end].element < info.first_element + info.n_elements) {
+            ++end;
+        }
+        if (end == first) {
+            continue;
+        }
+        if (control) {
+            control->check();
+        }
+        const std::vector<LocalEdge> edges = local_edges(info, volume, data, faces.subspan(first, end - first));
+        first = end;
+        const std::uint32_t given = std::max({info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]});
+        // Twice the order: the plugin's geometry may be no polynomial.
+        const std::uint32_t order = info.is_affine ? 1 : 2 * std::max(given, 1u);
+        const std::vector<double> positions = sample(device, data, index, order, edges);
+        const std::vector<double> matrix = transform(order);
+        const std::size_t n_points = std::size_t{order} + 1;
+        for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+            const std::size_t begin = m_coefficients.size();
+            std::array<std::int64_t, 3> cell{};
+            bool is_finite = true;
+            for (std::size_t m = 0; m < n_points; ++m) {
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    double sum = m == 0 ? edges[edge].origin[axis] : 0.0;
+                    for (std::size_t k = 0; k < n_points; ++k) {
+                        sum += matrix[m * n_points + k] * positions[3 * (edge * n_points + k) + axis];
+                    }
+                    is_finite = is_finite && std::isfinite(sum);
+                    m_coefficients.push_back(sum);
+                }
+            }
+            const std::vector<double> middle = chebyshev_values(static_cast<int>(order), 0.0);
+            for (std::size_t axis = 0; axis < 3 && is_finite; ++axis) {
+                double x = 0;
+                for (std::size_t m = 0; m < n_points; ++m) {
+                    x += middle[m] * m_coefficients[begin + 3 * m + axis];
+                }
+                cell[axis] = std::llround((x - bounds[axis]) / (same_point * size));
+            }
+            if (is_finite && known.insert(cell).second) {
+                m_edges.push_back({edges[edge].number, begin, order});
+            } else {
+                m_coefficients.resize(begin);
+            }
+        }
+    }
+}
+
+} // namespace elvis

@@ -1,0 +1,178 @@
+#include <core/volume/field/derivative_bounds.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t group_size = 32;
+/** Elements at once: bounds memory, and the time of a dispatch. */
+constexpr std::uint64_t block = 16384;
+
+/** Samples miss the largest values; second derivatives, which vary most, by more. */
+constexpr double bend_safety = 2;
+constexpr double safety = 1.25;
+
+/** Stands for everything that is not finite. */
+constexpr double beyond = 3e38;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/** shaders/field/derivative_bounds.comp, which stops where a shape has fewer. */
+constexpr std::uint32_t most_points = 64, points_a_dispatch = 4;
+
+struct Parameters {
+    std::uint32_t first, n_elements, component;
+    std::uint32_t first_point, end_point;
+};
+
+/** A row of the record. */
+struct Row {
+    double second = unknown, first = unknown, value = unknown, certainty = 0;
+
+    bool is_complete() const { return std::isfinite(second) && std::isfinite(first) && std::isfinite(value); }
+};
+static_assert(sizeof(Row) == 4 * sizeof(double));
+
+/** What the plugin tells of a block of elements; the rest stays unknown. */
+class FromPlugin {
+public:
+    FromPlugin(const RuntimeVolume& volume, const BoundedField& field) : m_volume(volume), m_field(field) {}
+
+    void read(std::uint64_t first, std::uint64_t count, std::vector<Row>& rows) {
+        const std::size_t n_components = m_field.offset.size();
+        if (m_volume.has_derivative_bounds()) {
+            m_bounds.resize(rows.size());
+            const auto certainty = m_volume.derivative_bounds(m_field.field, m_field.time_step, first, count, m_bounds);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                rows[i].second = m_bounds[i].second;
+                rows[i].first = m_bounds[i].first;
+                rows[i].certainty = certainty == ELVIS_CERTIFIED ? 0 : 1;
+            }
+        }
+        if (m_volume.has_field_ranges()) {
+            m_ranges.resize(rows.size());
+            const auto certainty = m_volume.field_ranges(m_field.field, m_field.time_step, first, count, m_ranges);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                const double offset = m_field.offset[i % n_components];
+                // The subtraction rounds: by 2^-53 of its result, twice at most.
+                const double widening = certainty == ELVIS_CERTIFIED ? 1 + 1e-15 : safety;
+                rows[i].value = std::max(std::abs(m_ranges[i].lower - offset), std::abs(m_ranges[i].upper - offset)) * widening;
+                rows[i].certainty = certainty == ELVIS_CERTIFIED ? rows[i].certainty : 1;
+            }
+        }
+    }
+
+private:
+    const RuntimeVolume& m_volume;
+    const BoundedField& m_field;
+    std::vector<DerivativeBounds> m_bounds;
+    std::vector<FieldRange> m_ranges;
+};
+
+/** The kernel that samples, made when it is first needed. */
+class Sampler {
+public:
+    Sampler(const Device& device, const SnippetInstance& instance, Precision precision, const std::string& name)
+        : m_kernel(device, request_for(instance, precision, name)), m_output(device, 3 * block * sizeof(double)),
+          m_precision(precision) {}
+
+    /** Fills what the rows of one component lack. */
+    void complete(std::uint64_t first, std::uint64_t count, std::uint32_t component, std::uint32_t n_components,
+                  std::vector<Row>& rows) const {
+        const std::array<const Buffer*, 1> bindings = {&m_output};
+        for (std::uint32_t point = 0; point < most_points; point += points_a_dispatch) {
+            const Parameters parameters{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), component, point,
+                                        point + points_a_dispatch};
+            m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                              (parameters.n_elements + group_size - 1) / group_size);
+        }
+        const auto take = [&](const auto& numbers) {
+            for (std::uint64_t element = 0; element < count; ++element) {
+                Row& row = rows[element * n_components + component];
+                if (row.is_complete()) {
+                    continue;
+                }
+                const auto replace = [](double& bound, double sampled) { bound = std::isfinite(bound) ? bound : sampled; };
+                replace(row.second, bend_safety * static_cast<double>(numbers[3 * element]));
+                replace(row.first, safety * static_cast<double>(numbers[3 * element + 1]));
+                replace(row.value, safety * static_cast<double>(numbers[3 * element + 2]));
+                row.certainty = 1;
+            }
+        };
+        if (m_precision == Precision::float64) {
+            take(m_output.read_items<double>(3 * count));
+        } else {
+            take(m_output.read_items<float>(3 * count));
+        }
+    }
+
+private:
+    static KernelRequest request_for(const SnippetInstance& instance, Precision precision, const std::string& name) {
+        KernelRequest request;
+        request.name = name;
+        request.kernel = "field/derivative_bounds.comp";
+        request.watches_loops = true;
+        request.precision = precision;
+        request.instances = {instance};
+        request.bindings = {{0, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(Parameters);
+        return request;
+    }
+
+    ComposedKernel m_kernel;
+    Buffer m_output;
+    Precision m_precision;
+};
+
+/** A number that is no smaller after rounding to single precision, and finite there. */
+double widened(double bound) { return bound < beyond ? bound * (1 + 1.2e-7) + std::numeric_limits<float>::min() : beyond; }
+
+} // namespace
+
+std::unique_ptr<RecordBuffer> make_derivative_bounds(const Device& device, const RuntimeVolume& volume,
+                                                     std::uint32_t element_class, const BoundedField& field,
+                                                     const SnippetInstance& instance, Precision precision,
+                                                     const TaskControl* control) {
+    const ClassInfo& info = volume.classes()[element_class];
+    const auto n_components = static_cast<std::uint32_t>(field.offset.size());
+    auto records = std::make_unique<RecordBuffer>(device, RecordKind::real, precision, info.n_elements, 4 * n_components);
+    FromPlugin plugin(volume, field);
+    std::optional<Sampler> sampler;
+    std::vector<Row> rows;
+    std::vector<double> numbers;
+    for (std::uint64_t first = 0; first < info.n_elements; first += block) {
+        if (control) {
+            control->check();
+        }
+        const std::uint64_t count = std::min(block, info.n_elements - first);
+        rows.assign(count * n_components, Row{});
+        plugin.read(info.first_element + first, count, rows);
+        for (std::uint32_t component = 0; component < n_components; ++component) {
+            bool is_complete = true;
+            for (std::size_t row = component; row < rows.size(); row += n_components) {
+                is_complete = is_complete && rows[row].is_complete();
+            }
+            if (!is_complete) {
+                if (!sampler) {
+                    sampler.emplace(device, instance, precision,
+                                    "derivative_bounds of element class " + std::to_string(element_class));
+                }
+                sampler->complete(first, count, component, n_components, rows);
+            }
+        }
+        numbers.clear();
+        for (const Row& row : rows) {
+            numbers.insert(numbers.end(), {widened(row.second), widened(row.first), widened(row.value), row.certainty});
+        }
+        records->write_reals(first, numbers);
+    }
+    return records;
+}
+
+} // namespace elvis

@@ -1,0 +1,334 @@
+#include <core/hierarchy/hierarchy.hpp>
+#include <core/volume/isosurface/isovalue_set.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace elvis {
+
+namespace {
+
+/** Elements of one dispatch, or asked for at once: bounds time and memory. */
+constexpr std::uint64_t block = 65536;
+constexpr std::uint32_t group_size = 32;
+/** Of a node. */
+constexpr std::uint32_t record_size = 8;
+constexpr std::size_t child_word = 3;
+/** Words of an octant on the device, and of what the kernel says of it: range and box, too. */
+constexpr std::uint32_t octant_size = 24, octant_words = 32;
+constexpr std::size_t octant_slope = 12, octant_error = 16, octant_scale = 17, octant_element = 18, octant_code = 19,
+                      octant_curvature = 20, octant_range = 24, octant_box = 26;
+/** shaders/isosurface/octant.glsl */
+constexpr std::uint32_t octant_place_bits = 6, octant_is_estimated = 0x80000000u;
+constexpr std::uint32_t most_levels = 3;
+/** Octants for which there is room where there are fewer elements, and octants of one level that are looked at for them. */
+constexpr std::uint64_t most_octants = 1u << 17, most_looked_at = 1u << 18;
+/**
+ * Elements are divided where their error is more than this part of how much the field varies in them, octants where it is more
+ * than that: many small octants cost more to look through than they spare evaluations.
+ */
+constexpr double wanted_error = 0.05, wanted_octant_error = 0.5;
+/** Elements that are bent so much that there is no linear model are divided, unless octants are, too. */
+constexpr double most_curvature = 32;
+
+struct OctantParameters {
+    std::uint32_t n_octants;
+    std::uint32_t first_component, end_component;
+};
+
+bool holds_any(double lower, double upper, std::span<const double> isovalues) {
+    const auto first = std::lower_bound(isovalues.begin(), isovalues.end(), lower);
+    // A range that is no number, as of an element with such values, says nothing.
+    return !(lower <= upper) || (first != isovalues.end() && *first <= upper);
+}
+
+std::vector<std::uint32_t> node_words(const Hierarchy& hierarchy) {
+    std::vector<std::uint32_t> words(record_size * hierarchy.nodes().size());
+    std::memcpy(words.data(), hierarchy.nodes().data(), hierarchy.nodes().size() * sizeof(HierarchyNode));
+    return words;
+}
+
+/** Whether an octant with this lower corner shares more than an edge with the shape. */
+bool is_in_shape(elvis_shape shape, const std::array<double, 3>& corner) {
+    switch (shape) {
+    case ELVIS_SHAPE_TETRAHEDRON:
+        return corner[0] + corner[1] + corner[2] < -1;
+    case ELVIS_SHAPE_PRISM:
+        return corner[0] + corner[2] < 0;
+    case ELVIS_SHAPE_PYRAMID:
+        return std::max(corner[0], corner[1]) + corner[2] < 0;
+    default:
+        return true;
+    }
+}
+
+void add_octants(std::vector<std::uint32_t>& elements_and_codes, std::uint32_t element, std::uint32_t code, elvis_shape shape) {
+    const std::uint32_t level = (code & 7u) + 1;
+    const double side = 2.0 / (1u << level);
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        std::uint32_t its_code = level;
+        std::array<double, 3> corner{};
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t shift = 3 + k * octant_place_bits;
+            const std::uint32_t place = 2 * ((code >> shift) & ((1u << octant_place_bits) - 1)) + (octant >> k & 1u);
+            its_code |= place << shift;
+            corner[k] = -1 + side * place;
+        }
+        if (is_in_shape(shape, corner)) {
+            elements_and_codes.insert(elements_and_codes.end(), {element, its_code});
+        }
+    }
+}
+
+} // namespace
+
+/** As the kernel gives them. */
+struct IsovalueSet::Octants {
+    std::vector<std::uint32_t> words;
+
+    std::size_t size() const { return words.size() / octant_words; }
+    std::uint32_t word(std::size_t octant, std::size_t index) const { return words[octant * octant_words + index]; }
+    float number(std::size_t octant, std::size_t index) const { return std::bit_cast<float>(word(octant, index)); }
+    bool holds_any(std::size_t octant, std::span<const double> isovalues) const {
+        return elvis::holds_any(number(octant, octant_range), number(octant, octant_range + 1), isovalues);
+    }
+    bool is_rough(std::size_t octant) const {
+        double slope = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            slope += std::abs(double{number(octant, octant_slope + k)});
+        }
+        const bool is_octant = (word(octant, octant_code) & 7u) != 0;
+        const double wanted = is_octant ? wanted_octant_error : wanted_error;
+        const bool is_linear = number(octant, octant_scale) > 0;
+        return is_linear ? number(octant, octant_error) > wanted * slope : number(octant, octant_curvature) < most_curvature;
+    }
+    void add(const Octants& other, std::size_t octant) {
+        const auto begin = other.words.begin() + static_cast<std::ptrdiff_t>(octant * octant_words);
+        words.insert(words.end(), begin, begin + octant_words);
+    }
+    void append(const Octants& other) { words.insert(words.end(), other.words.begin(), other.words.end()); }
+};
+
+IsovalueSet::IsovalueSet(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_device(device), m_volume(volume), m_precision(data.precision()), m_centre(data.centre()),
+      m_models(device, volume, data), m_classes(volume.classes().size()) {
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        const std::uint64_t n_elements = volume.classes()[index].n_elements;
+        if (n_elements == 0) {
+            continue;
+        }
+        ClassOctants& of_class = m_classes[index];
+        // Room for all elements, so that kernels composed with it stay valid.
+        of_class.nodes =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_elements - 1, record_size);
+        const std::uint64_t n_octants = std::max(n_elements, most_octants);
+        of_class.octant_nodes =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_octants - 1, record_size);
+        of_class.octants = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_octants, octant_size);
+        KernelRequest request;
+        request.name = "octants of element class " + std::to_string(index);
+        request.kernel = "isosurface/octants.comp";
+        request.watches_loops = true;
+        request.precision = data.precision();
+        data.add_field(request, index, true);
+        for (std::uint32_t binding = 0; binding <= 2; ++binding) {
+            request.bindings.push_back({binding, BindingType::storage_buffer});
+        }
+        request.push_constant_bytes = sizeof(OctantParameters);
+        of_class.octant_kernel = std::make_unique<ComposedKernel>(device, request);
+    }
+}
+
+void IsovalueSet::choose(std::span<const double> isovalues, const ScalarComponent& component, bool skips_by_range) {
+    if (component != m_component) {
+        m_component = {0, 0};
+        m_is_chosen = false;
+        std::vector<std::vector<ModelRange>> ranges;
+        m_models.provide(component, &ranges);
+        for (std::size_t index = 0; index < m_classes.size(); ++index) {
+            m_classes[index].ranges = std::move(ranges[index]);
+        }
+        m_component = component;
+    }
+    Choice choice{std::vector<double>(isovalues.begin(), isovalues.end()), skips_by_range};
+    if (m_is_chosen && choice == m_choice) {
+        return;
+    }
+    m_is_chosen = false;
+    m_choice = std::move(choice);
+    std::vector<double> all;
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        const ClassInfo& info = m_volume.classes()[index];
+        ClassOctants& of_class = m_classes[index];
+        of_class.chosen.clear();
+        of_class.boxes.clear();
+        of_class.has_element_nodes = false;
+        of_class.n_octants = 0;
+        for (std::uint64_t first = 0; first < info.n_elements; first += block) {
+            const std::uint64_t count = std::min(block, info.n_elements - first);
+            all.resize(6 * count);
+            m_volume.bounds(info.first_element + first, count, all);
+            for (std::uint64_t i = 0; i < count; ++i) {
+                const ModelRange& range = of_class.ranges[first + i];
+                if (!may_skip(range) || holds_any(range.lower, range.upper, m_choice.isovalues)) {
+                    of_class.chosen.push_back(static_cast<std::uint32_t>(first + i));
+                    const auto box = all.begin() + static_cast<std::ptrdiff_t>(6 * i);
+                    of_class.boxes.insert(of_class.boxes.end(), box, box + 6);
+                }
+            }
+        }
+        if (!of_class.chosen.empty()) {
+            make_octants(of_class, info.shape);
+        }
+    }
+    m_is_chosen = true;
+}
+
+bool IsovalueSet::may_skip(const ModelRange& range) const {
+    return m_choice.skips_by_range && (rests_on_estimates() || !range.is_estimated);
+}
+
+IsovalueSet::Octants IsovalueSet::evaluate(const ClassOctants& of_class, std::span<const std::uint32_t> elements_and_codes) {
+    Octants octants;
+    const std::size_t n_octants = elements_and_codes.size() / 2;
+    const std::size_t at_once = std::min<std::size_t>(n_octants, block);
+    const Buffer input(m_device, at_once * 2 * sizeof(std::uint32_t));
+    const Buffer output(m_device, at_once * octant_words * sizeof(std::uint32_t));
+    const Buffer centre(m_device, sizeof(m_centre));
+    if (m_precision == Precision::float64) {
+        centre.write_items(std::span<const double>(m_centre));
+    } else {
+        const std::array<float, 3> rounded{static_cast<float>(m_centre[0]), static_cast<float>(m_centre[1]),
+                                           static_cast<float>(m_centre[2])};
+        centre.write_items(std::span<const float>(rounded));
+    }
+    const std::array<const Buffer*, 3> bindings = {&input, &output, &centre};
+    octants.words.reserve(n_octants * octant_words);
+    for (std::size_t first = 0; first < n_octants; first += at_once) {
+        const std::size_t count = std::min(at_once, n_octants - first);
+        input.write_items(elements_and_codes.subspan(2 * first, 2 * count));
+        const OctantParameters parameters{static_cast<std::uint32_t>(count), m_component.first, m_component.end};
+        of_class.octant_kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                         static_cast<std::uint32_t>((count + group_size - 1) / group_size));
+        const auto words = output.read_items<std::uint32_t>(count * octant_words);
+        octants.words.insert(octants.words.end(), words.begin(), words.end());
+    }
+    return octants;
+}
+
+void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape) {
+    // Index into what is chosen, by local element.
+    std::vector<std::uint32_t> place(of_class.ranges.size());
+    std::vector<std::uint32_t> wanted;
+    for (std::size_t i = 0; i < of_class.chosen.size(); ++i) {
+        place[of_class.chosen[i]] = static_cast<std::uint32_t>(i);
+        wanted.insert(wanted.end(), {of_class.chosen[i], 0});
+    }
+    Octants octants = evaluate(of_class, wanted);
+    Octants done;
+    for (std::uint32_t level = 1; m_choice.skips_by_range; ++level) {
+        wanted.clear();
+        Octants undivided;
+        for (std::size_t i = 0; i < octants.size(); ++i) {
+            if (level <= most_levels && octants.is_rough(i)) {
+                add_octants(wanted, octants.word(i, octant_element), octants.word(i, octant_code), shape);
+            } else {
+                undivided.add(octants, i);
+            }
+        }
+        if (wanted.empty() || wanted.size() / 2 > most_looked_at) {
+            break;
+        }
+        const Octants candidates = evaluate(of_class, wanted);
+        Octants divided;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (!may_skip(of_class.ranges[candidates.word(i, octant_element)]) || candidates.holds_any(i, m_choice.isovalues)) {
+                divided.add(candidates, i);
+            }
+        }
+        if (done.size() + undivided.size() + divided.size() > most_octants) {
+            break;
+        }
+        done.append(undivided);
+        octants = std::move(divided);
+    }
+    done.append(octants);
+    write_octants(of_class, place, done);
+}
+
+void IsovalueSet::write_octants(ClassOctants& of_class, std::span<const std::uint32_t> place, const Octants& octants) {
+    std::vector<std::uint32_t> records;
+    std::vector<double> boxes;
+    records.reserve(octants.size() * octant_size);
+    boxes.reserve(octants.size() * 6);
+    for (std::size_t i = 0; i < octants.size(); ++i) {
+        const std::uint32_t element = octants.word(i, octant_element);
+        const double* whole = &of_class.boxes[6 * std::size_t{place[element]}];
+        std::array<double, 6> box{};
+        std::copy(whole, whole + 6, box.begin());
+        const bool is_linear = octants.number(i, octant_scale) > 0;
+        for (std::size_t k = 0; is_linear && k < 3; ++k) {
+            const double least = m_centre[k] + double{octants.number(i, octant_box + k)};
+            const double most = m_centre[k] + double{octants.number(i, octant_box + 3 + k)};
+            box[k] = std::clamp(least, whole[k], whole[3 + k]);
+            box[3 + k] = std::clamp(most, box[k], whole[3 + k]);
+        }
+        boxes.insert(boxes.end(), box.begin(), box.end());
+        const auto begin = octants.words.begin() + static_cast<std::ptrdiff_t>(i * octant_words);
+        records.insert(records.end(), begin, begin + octant_size);
+        std::uint32_t* record = &records[records.size() - octant_size];
+        if (of_class.ranges[element].is_estimated && !rests_on_estimates()) {
+            record[octant_code] |= octant_is_estimated;
+        }
+        if (!is_linear) {
+            write_box(record, whole);
+        }
+    }
+    of_class.n_octants = octants.size();
+    if (octants.size() == 0) {
+        return;
+    }
+    of_class.octants->write_uints(0, records);
+    const Hierarchy hierarchy(boxes, m_centre);
+    of_class.octant_nodes->write_uints(0, node_words(hierarchy));
+}
+
+void IsovalueSet::write_box(std::uint32_t* record, const double* box) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double middle = 0.5 * (box[k] + box[3 + k]) - m_centre[k];
+        // The middle is rounded, and so is all that is computed from it.
+        const double half = 0.5 * (box[3 + k] - box[k]) + 1e-6 * (std::abs(middle) + box[3 + k] - box[k]) + 1e-30;
+        for (std::size_t j = 0; j < 3; ++j) {
+            record[4 * k + j] = std::bit_cast<std::uint32_t>(j == k ? static_cast<float>(1 / half) : 0.0f);
+        }
+        record[4 * k + 3] = std::bit_cast<std::uint32_t>(static_cast<float>(middle));
+        record[octant_slope + k] = 0;
+    }
+}
+
+void IsovalueSet::provide_element_nodes(std::uint32_t element_class) {
+    ClassOctants& of_class = m_classes[element_class];
+    if (!of_class.has_element_nodes && !of_class.chosen.empty()) {
+        const Hierarchy hierarchy(of_class.boxes, m_centre);
+        std::vector<std::uint32_t> words = node_words(hierarchy);
+        for (std::size_t i = 0; i < hierarchy.nodes().size(); ++i) {
+            std::uint32_t& child = words[record_size * i + child_word];
+            child = hierarchy.nodes()[i].is_leaf() ? of_class.chosen[child] : child;
+        }
+        of_class.nodes->write_uints(0, words);
+        of_class.has_element_nodes = true;
+    }
+}
+
+std::vector<FetchBuffer> IsovalueSet::element_buffers(std::uint32_t element_class) const {
+    return {{"core_nodes", m_classes[element_class].nodes.get()}, m_models.host_buffer(element_class)};
+}
+
+std::vector<FetchBuffer> IsovalueSet::octant_buffers(std::uint32_t element_class) const {
+    return {{"core_nodes", m_classes[element_class].octant_nodes.get()},
+            {"core_octants", m_classes[element_class].octants.get()}};
+}
+
+} // namespace elvis

@@ -1,0 +1,93 @@
+#include <core/volume/isosurface/linear_models.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace elvis {
+
+namespace {
+
+/** Elements of one dispatch: bounds time and memory. */
+constexpr std::uint64_t block = 65536;
+constexpr std::uint32_t group_size = 32;
+/** Words of a record: model and range, and whether that is estimated. */
+constexpr std::uint32_t record_size = 8;
+constexpr std::size_t lower = 5, upper = 6, estimated = 7;
+
+struct Parameters {
+    std::uint32_t first, n_elements;
+    std::uint32_t first_component, end_component;
+};
+
+} // namespace
+
+LinearModels::LinearModels(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
+    : m_device(device), m_volume(volume), m_classes(volume.classes().size()) {
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        const std::uint64_t n_elements = volume.classes()[index].n_elements;
+        if (n_elements == 0) {
+            continue;
+        }
+        m_classes[index].models =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, record_size);
+        KernelRequest request;
+        request.name = "linear models of element class " + std::to_string(index);
+        request.kernel = "isosurface/linear_models.comp";
+        request.watches_loops = true;
+        request.precision = data.precision();
+        data.add_field(request, index, true);
+        request.bindings = {{0, BindingType::storage_buffer}};
+        request.push_constant_bytes = sizeof(Parameters);
+        m_classes[index].kernel = std::make_unique<ComposedKernel>(device, request);
+    }
+}
+
+void LinearModels::provide(const ScalarComponent& component, std::vector<std::vector<ModelRange>>* ranges) {
+    if (component == m_component) {
+        return;
+    }
+    // Until all are made: that may be cancelled.
+    m_component = {0, 0};
+    m_is_all_estimated = true;
+    std::vector<std::vector<std::uint32_t>> models(m_classes.size());
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        const std::uint64_t n_elements = m_volume.classes()[index].n_elements;
+        const Buffer output(m_device, std::max<std::uint64_t>(std::min(block, n_elements), 1) * record_size * sizeof(float));
+        const std::array<const Buffer*, 1> bindings = {&output};
+        for (std::uint64_t first = 0; first < n_elements; first += block) {
+            const auto count = static_cast<std::uint32_t>(std::min(block, n_elements - first));
+            const Parameters parameters{static_cast<std::uint32_t>(first), count, component.first, component.end};
+            m_classes[index].kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                              (count + group_size - 1) / group_size);
+            const auto words = output.read_items<std::uint32_t>(std::size_t{count} * record_size);
+            models[index].insert(models[index].end(), words.begin(), words.end());
+        }
+        for (std::size_t at = estimated; at < models[index].size(); at += record_size) {
+            m_is_all_estimated = m_is_all_estimated && models[index][at] != 0;
+        }
+    }
+    if (ranges != nullptr) {
+        ranges->assign(m_classes.size(), {});
+    }
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        for (std::size_t at = 0; at < models[index].size(); at += record_size) {
+            std::uint32_t* record = &models[index][at];
+            if (ranges != nullptr) {
+                (*ranges)[index].push_back(
+                    {std::bit_cast<float>(record[lower]), std::bit_cast<float>(record[upper]), record[estimated] != 0});
+            }
+            record[estimated] = m_is_all_estimated ? 0 : record[estimated];
+        }
+        if (!models[index].empty()) {
+            m_classes[index].models->write_uints(0, models[index]);
+        }
+    }
+    m_component = component;
+}
+
+FetchBuffer LinearModels::host_buffer(std::uint32_t element_class) const {
+    return {"core_models", m_classes[element_class].models.get()};
+}
+
+} // namespace elvis

@@ -1,0 +1,46 @@
+#include <core/shader/composer.hpp>
+#include <core/volume/segments/face_cones.hpp>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::uint32_t group_size = 32, words_an_element = 8;
+/** Elements of one dispatch: bounds its time and the memory for its results. */
+constexpr std::uint64_t block = 65536;
+
+struct Parameters {
+    std::uint32_t first, n_elements;
+};
+
+} // namespace
+
+std::unique_ptr<RecordBuffer> measure_face_cones(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                                                 std::uint32_t element_class) {
+    const std::uint64_t n_elements = volume.classes()[element_class].n_elements;
+    KernelRequest request;
+    request.name = "face_cones of element class " + std::to_string(element_class);
+    request.kernel = "segments/face_cones.comp";
+    request.watches_loops = true;
+    request.precision = data.precision();
+    request.instances = {data.instance(element_class)};
+    request.bindings = {{0, BindingType::storage_buffer}};
+    request.push_constant_bytes = sizeof(Parameters);
+    const ComposedKernel kernel(device, request);
+    const Buffer output(device, std::min(block, n_elements) * words_an_element * sizeof(std::uint32_t));
+    const std::array<const Buffer*, 1> bindings = {&output};
+    auto cones = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, words_an_element);
+    for (std::uint64_t first = 0; first < n_elements; first += block) {
+        const auto count = static_cast<std::uint32_t>(std::min(block, n_elements - first));
+        const Parameters parameters{static_cast<std::uint32_t>(first), count};
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
+        cones->write_uints(first, output.read_items<std::uint32_t>(std::size_t{count} * words_an_element));
+    }
+    return cones;
+}
+
+} // namespace elvis
