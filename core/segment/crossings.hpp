@@ -27,26 +27,26 @@ template <class Real> struct Crossing {
     /** In the list of values. */
     std::uint32_t index = 0;
     Real t = 0;
-    /** Of the cell in which it lies: no other crossing of this value is in there, unless it is a touch. */
+    /** Of the interval in which it lies: no other crossing of this value is in there, unless it is a touch. */
     Real lower = 0, upper = 0;
 };
 
-/** The cell at hand, [part, part + 1] / 2^level, and how many of its crossings have been found before. */
-struct Walk {
-    std::uint32_t level = 0, part = 0, rank = 0;
+/** The interval at hand, [place, place + 1] / 2^level, and how many of its crossings have been found before. */
+struct Isolation {
+    std::uint32_t level = 0, place = 0, rank = 0;
 
-    bool is_over() const { return level == 0 && part != 0; }
-    /** The next cell of the same size, or that of which it is the left end. */
+    bool is_over() const { return level == 0 && place != 0; }
+    /** The next interval of the same size, or that of which it is the left end. */
     void go_on() {
-        const int up = std::countr_zero(part + 1);
-        part = (part + 1) >> up;
+        const int up = std::countr_zero(place + 1);
+        place = (place + 1) >> up;
         level -= static_cast<std::uint32_t>(up);
         rank = 0;
     }
 };
 
 /** A double root takes as many levels as half the digits. What is left at the last is taken as settled. */
-template <class Real> constexpr std::uint32_t walk_levels = sizeof(Real) == 8 ? 30 : 16;
+template <class Real> constexpr std::uint32_t isolation_levels = sizeof(Real) == 8 ? 30 : 16;
 
 /** Root of p - value in [0, 1], which has different signs at the ends (or zero at the second). */
 template <class Real> Real polish(const Polynomial<Real>& p, Real value) {
@@ -56,17 +56,17 @@ template <class Real> Real polish(const Polynomial<Real>& p, Real value) {
         return fa == 0 ? a : b;
     }
     Real x = b;
-    for (int turn = 0; turn < n_steps; ++turn) {
+    for (int step = 0; step < n_steps; ++step) {
         const Real last = x;
         x = a + (b - a) * (fa / (fa - fb));
         const Real fx = bernstein_value(p, x) - value;
         // The end that stays for a second time counts half.
         if ((fx < 0) == (fb < 0)) {
-            fa *= turn > 0 && last == b ? Real(0.5) : Real(1);
+            fa *= step > 0 && last == b ? Real(0.5) : Real(1);
             b = x;
             fb = fx;
         } else {
-            fb *= turn > 0 && last == a ? Real(0.5) : Real(1);
+            fb *= step > 0 && last == a ? Real(0.5) : Real(1);
             a = x;
             fa = fx;
         }
@@ -77,53 +77,54 @@ template <class Real> Real polish(const Polynomial<Real>& p, Real value) {
     return x;
 }
 
-/** The first crossing from `walk` on, of any of the ascending `values`; `error` is at least bernstein_rounding. */
+/** The first crossing from `isolation` on, of any of the ascending `values`; `error` is at least bernstein_rounding. */
 template <class Real>
-Crossing<Real> next_crossing(const Polynomial<Real>& bernstein, Real error, std::span<const Real> values, Walk& walk) {
-    while (!walk.is_over()) {
-        const Walk here = walk;
-        const Polynomial<Real> cell = cell_of(bernstein, here.level, here.part);
-        const Real first = cell[0], last = cell[cell.degree];
-        const std::array<Real, 2> bounds = range(cell); // A structured binding, captured below, is beyond clang 14.
+Crossing<Real> next_crossing(const Polynomial<Real>& bernstein, Real error, std::span<const Real> values,
+                             Isolation& isolation) {
+    while (!isolation.is_over()) {
+        const Isolation here = isolation;
+        const Polynomial<Real> interval = restricted(bernstein, here.level, here.place);
+        const Real first = interval[0], last = interval[interval.degree];
+        const std::array<Real, 2> bounds = range(interval); // A structured binding, captured below, is beyond clang 14.
         // NaN has no value below.
         const auto below = std::partition_point(values.begin(), values.end(), [&](Real v) { return v < bounds[0] - error; });
         const auto above = std::partition_point(values.begin(), values.end(), [&](Real v) { return v <= bounds[1] + error; });
         const auto n_below = static_cast<std::uint32_t>(below - values.begin());
         const auto n_reached = static_cast<std::uint32_t>(above - below);
         if (here.rank >= n_reached) {
-            walk.go_on();
+            isolation.go_on();
             continue;
         }
         const bool rises = first < last;
         const std::uint32_t index = rises ? n_below + here.rank : n_below + n_reached - 1 - here.rank;
         const Real value = values[index], from = first - value, to = last - value;
         const bool is_clear = std::abs(from) > error && std::abs(to) > error;
-        const bool is_small = bounds[1] - bounds[0] <= 2 * error || here.level == walk_levels<Real>;
-        const bool is_isolated = n_reached == 1 && is_clear && variations(cell, value) == 1;
-        if (!is_small && !is_isolated && !is_monotone(cell)) {
-            walk = {here.level + 1, here.part * 2, 0};
+        const bool is_small = bounds[1] - bounds[0] <= 2 * error || here.level == isolation_levels<Real>;
+        const bool is_isolated = n_reached == 1 && is_clear && variations(interval, value) == 1;
+        if (!is_small && !is_isolated && !is_monotone(interval)) {
+            isolation = {here.level + 1, here.place * 2, 0};
             continue;
         }
         if (here.rank + 1 < n_reached) {
-            walk.rank += 1;
+            isolation.rank += 1;
         } else {
-            walk.go_on();
+            isolation.go_on();
         }
-        // A value met at the beginning of a cell belongs to the cell before.
-        const bool crosses = (from < 0 && to >= 0) || (from > 0 && to <= 0) || (from == 0 && to != 0 && here.part == 0);
+        // A value met at the beginning of an interval belongs to the interval before.
+        const bool crosses = (from < 0 && to >= 0) || (from > 0 && to <= 0) || (from == 0 && to != 0 && here.place == 0);
         // Monotone, and stops within the error of the value, or starts there: the end of the segment, or where it may turn
         // round.
         const bool stops = rises ? to < 0 : to > 0;
-        if (!crosses && !is_small && !stops && here.part != 0) {
+        if (!crosses && !is_small && !stops && here.place != 0) {
             continue;
         }
-        const Real in_cell = crosses ? polish(cell, value) : is_small ? Real(0.5) : stops ? Real(1) : Real(0);
+        const Real in_interval = crosses ? polish(interval, value) : is_small ? Real(0.5) : stops ? Real(1) : Real(0);
         const Real size = 1 / static_cast<Real>(1u << here.level);
         return {!crosses   ? CrossingKind::touch
                 : is_clear ? CrossingKind::verified
                            : CrossingKind::probable,
-                index, (static_cast<Real>(here.part) + in_cell) * size, static_cast<Real>(here.part) * size,
-                static_cast<Real>(here.part + 1) * size};
+                index, (static_cast<Real>(here.place) + in_interval) * size, static_cast<Real>(here.place) * size,
+                static_cast<Real>(here.place + 1) * size};
     }
     return {};
 }

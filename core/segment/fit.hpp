@@ -30,11 +30,11 @@ template <class Real> struct Fit {
     int degree = 0;
 };
 
-template <class Real> class Segment {
+template <class Real> class FitSamples {
 public:
     /** The plan must outlive it. */
-    explicit Segment(SamplePlan&&) = delete;
-    explicit Segment(const SamplePlan& plan) : m_plan(&plan) { m_samples.resize(plan.parameters.size()); }
+    explicit FitSamples(SamplePlan&&) = delete;
+    explicit FitSamples(const SamplePlan& plan) : m_plan(&plan) { m_samples.resize(plan.parameters.size()); }
 
     FitStatus status() const { return m_status; }
     std::size_t n_samples() const { return m_n_samples; }
@@ -70,13 +70,13 @@ public:
     }
 
     /** One half (0 or 1), with the samples at its ends; the third sample must be at 1/2. */
-    Segment half(int which) const {
-        Segment part(*m_plan);
-        part.m_samples[0] = m_samples[which == 0 ? 0 : 2];
-        part.m_samples[1] = m_samples[which == 0 ? 2 : 1];
-        part.m_n_samples = 2;
-        part.m_sample_error = m_sample_error;
-        return part;
+    FitSamples half(int which) const {
+        FitSamples half(*m_plan);
+        half.m_samples[0] = m_samples[which == 0 ? 0 : 2];
+        half.m_samples[1] = m_samples[which == 0 ? 2 : 1];
+        half.m_n_samples = 2;
+        half.m_sample_error = m_sample_error;
+        return half;
     }
 
 private:

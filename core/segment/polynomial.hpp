@@ -123,10 +123,10 @@ template <class Real> Polynomial<Real> after(Polynomial<Real> p, Real t) {
     return p;
 }
 
-/** On [part, part + 1] / 2^level. */
-template <class Real> Polynomial<Real> cell_of(const Polynomial<Real>& p, std::uint32_t level, std::uint32_t part) {
-    const Real end = static_cast<Real>(part + 1);
-    return after(before(p, end / static_cast<Real>(1u << level)), static_cast<Real>(part) / end);
+/** On [place, place + 1] / 2^level. */
+template <class Real> Polynomial<Real> restricted(const Polynomial<Real>& p, std::uint32_t level, std::uint32_t place) {
+    const Real end = static_cast<Real>(place + 1);
+    return after(before(p, end / static_cast<Real>(1u << level)), static_cast<Real>(place) / end);
 }
 
 template <class Real> Real bernstein_value(const Polynomial<Real>& p, Real t) {

@@ -13,7 +13,7 @@ namespace {
 
 /** Directions are this far apart: about 0.28, of which a half turns a sphere's outline inwards by a percent. */
 constexpr std::size_t n_spread = 162;
-/** Bounds that reach less far beyond what is known, as a part of the diagonal, are not worth a look at their element. */
+/** Bounds that reach less far beyond what is known, as a share of the diagonal, are not worth a look at their element. */
 constexpr double worth_a_look = 0.01;
 /** Fewer elements than this may be large and strongly bent. */
 constexpr std::uint64_t few_elements = 128;

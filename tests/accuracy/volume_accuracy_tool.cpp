@@ -119,7 +119,7 @@ private:
         m_oracle_rays += one.exact.pixels.size();
         for (const VolumeLight& light : one.exact.answers) {
             m_oracle_error = std::max(m_oracle_error, light.error);
-            m_oracle_pieces += light.n_pieces;
+            m_oracle_pieces += light.n_smooth_intervals;
             m_oracle_touched += light.transmittance < 1;
         }
         nlohmann::json row{{"scene", scene.description}};

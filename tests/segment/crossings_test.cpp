@@ -16,9 +16,9 @@ constexpr double error = 1e-12;
 template <class Real>
 std::vector<Crossing<Real>> all_crossings(const Polynomial<Real>& p, Real tolerance, const std::vector<Real>& values) {
     std::vector<Crossing<Real>> found;
-    Walk walk;
-    while (!walk.is_over()) {
-        const Crossing<Real> crossing = next_crossing<Real>(p, tolerance, values, walk);
+    Isolation isolation;
+    while (!isolation.is_over()) {
+        const Crossing<Real> crossing = next_crossing<Real>(p, tolerance, values, isolation);
         if (crossing.kind != CrossingKind::none) {
             found.push_back(crossing);
         }
@@ -89,7 +89,7 @@ TEST_CASE("Two roots closer than single precision are still two in double precis
     CHECK(found[1].t == Approx(0.4 + 1e-5).margin(1e-9));
 }
 
-TEST_CASE("Roots at the ends are found, on a cell's end once") {
+TEST_CASE("Roots at the ends are found, on an interval's end once") {
     for (const double root : {0.0, 1.0, 0.5, 0.25}) {
         const auto found = all_crossings(test::from_roots({root}, 6), error, {0.0});
         REQUIRE(found.size() == 1);

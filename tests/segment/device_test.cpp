@@ -57,17 +57,17 @@ void main() {
     }
     const elvis_real t = given[at + size];
     const core_polynomial p = core_to_bernstein(chebyshev);
-    const core_polynomial cell = core_restricted(p, uint(given[at + size + 1u]), uint(given[at + size + 2u]));
+    const core_polynomial interval = core_restricted(p, uint(given[at + size + 1u]), uint(given[at + size + 2u]));
     for (int k = 0; k < CORE_FIT_SIZE; ++k) {
         results[to + uint(k)] = p.c[k];
-        results[to + size + uint(k)] = cell.c[k];
+        results[to + size + uint(k)] = interval.c[k];
     }
     results[to + 2u * size] = core_bernstein_rounding(chebyshev);
-    results[to + 2u * size + 1u] = core_least(cell);
-    results[to + 2u * size + 2u] = core_most(cell);
+    results[to + 2u * size + 1u] = core_least(interval);
+    results[to + 2u * size + 2u] = core_most(interval);
     results[to + 2u * size + 3u] = core_bernstein_value(p, t);
-    results[to + 2u * size + 4u] = core_is_monotone(cell) ? elvis_real(1) : elvis_real(0);
-    results[to + 2u * size + 5u] = elvis_real(core_variations(cell, elvis_real(0.0625LF)));
+    results[to + 2u * size + 4u] = core_is_monotone(interval) ? elvis_real(1) : elvis_real(0);
+    results[to + 2u * size + 5u] = elvis_real(core_variations(interval, elvis_real(0.0625LF)));
 }
 )";
 
@@ -138,8 +138,8 @@ TEMPLATE_TEST_CASE("The Bernstein form on the device is that on the CPU", "", fl
             const TestType* const result = &results[i * n_results];
             const TestType* const more = &given[i * n_given + size];
             const Polynomial<TestType> p = to_bernstein(polynomials[i]);
-            const Polynomial<TestType> cell =
-                cell_of(p, static_cast<std::uint32_t>(more[1]), static_cast<std::uint32_t>(more[2]));
+            const Polynomial<TestType> interval =
+                restricted(p, static_cast<std::uint32_t>(more[1]), static_cast<std::uint32_t>(more[2]));
             const TestType rounding = bernstein_rounding(polynomials[i]);
             const auto differ = [&](TestType a, TestType b) {
                 worst = std::max(worst, static_cast<double>(std::abs(a - b) / rounding));
@@ -147,20 +147,20 @@ TEMPLATE_TEST_CASE("The Bernstein form on the device is that on the CPU", "", fl
             TestType nearest = 1, flattest = 1;
             for (int k = 0; k <= degree; ++k) {
                 differ(result[k], p[k]);
-                differ(result[degree + 1 + k], cell[k]);
-                nearest = std::min(nearest, std::abs(cell[k] - TestType(0.0625)));
-                flattest = k == 0 ? flattest : std::min(flattest, std::abs(cell[k] - cell[k - 1]));
+                differ(result[degree + 1 + k], interval[k]);
+                nearest = std::min(nearest, std::abs(interval[k] - TestType(0.0625)));
+                flattest = k == 0 ? flattest : std::min(flattest, std::abs(interval[k] - interval[k - 1]));
             }
             const TestType* const rest = result + 2 * size;
             CHECK(rest[0] == Approx(rounding).epsilon(1e-5));
-            differ(rest[1], range(cell)[0]);
-            differ(rest[2], range(cell)[1]);
+            differ(rest[1], range(interval)[0]);
+            differ(rest[2], range(interval)[1]);
             differ(rest[3], bernstein_value(p, more[0]));
             // Where rounding does not decide.
             if (std::min(nearest, flattest) > rounding) {
                 n_decided += 1;
-                CHECK((rest[4] != 0) == is_monotone(cell));
-                CHECK(static_cast<std::uint32_t>(rest[5]) == variations(cell, TestType(0.0625)));
+                CHECK((rest[4] != 0) == is_monotone(interval));
+                CHECK(static_cast<std::uint32_t>(rest[5]) == variations(interval, TestType(0.0625)));
             }
         }
         CHECK(n_decided > n_trials / 10);
@@ -210,7 +210,7 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
         CHECK(results[4 * n_results + 2] == 0);
         for (std::uint32_t i = 1; i < n_trials; ++i) {
             const Polynomial<TestType> p = to_bernstein(polynomials[i]);
-            Walk isolation;
+            Isolation isolation;
             bool differs = false;
             double largest = 0;
             for (std::size_t k = 0; k < n_crossings; ++k) {
@@ -242,7 +242,7 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
         }
     }
     std::cout << "crossings, device and CPU, " << name<TestType>() << ": " << n_found << ", " << n_differing
-              << " polynomials of other cells or kinds; largest difference " << worst
+              << " polynomials of other intervals or kinds; largest difference " << worst
               << " of the stated rounding, in the polynomial's value; colleague matrix: " << n_roots
               << " roots, largest residual " << worst_root << '\n';
     CHECK(n_found > n_trials);
@@ -272,7 +272,7 @@ TEMPLATE_TEST_CASE("Fits on the device are those on the CPU", "", float, double)
     std::array<std::size_t, 4> n_status{};
     for (std::uint32_t i = 0; i < n_trials; ++i) {
         const TestType* const parameters = &given[4 * i];
-        Segment<TestType> segment(plan);
+        FitSamples<TestType> segment(plan);
         while (segment.status() == FitStatus::wants) {
             const TestType t = segment.parameter();
             const TestType value = std::exp(parameters[0] * t) * std::sin(parameters[1] * t + parameters[2]);

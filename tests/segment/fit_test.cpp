@@ -16,7 +16,8 @@ namespace {
 
 using Field = std::function<double(double)>;
 
-template <class Real> Segment<Real> sampled(Segment<Real> segment, const Field& field, Real sample_error, Real tolerance) {
+template <class Real>
+FitSamples<Real> sampled(FitSamples<Real> segment, const Field& field, Real sample_error, Real tolerance) {
     while (segment.status() == FitStatus::wants) {
         segment.add(static_cast<Real>(field(static_cast<double>(segment.parameter()))), sample_error, tolerance);
     }
@@ -48,7 +49,7 @@ TEST_CASE("A plan's degree is reproduced exactly, and no further degree is asked
     for (int degree = 0; degree <= max_degree; ++degree) {
         const Field field = [&](double t) { return std::cos(degree * std::acos(2 * t - 1)) + 0.25; };
         const SamplePlan plan = degree <= 8 ? nested_plan() : fixed_plan(degree);
-        const auto segment = sampled<double>(Segment<double>(plan), field, 0, 1e-9);
+        const auto segment = sampled<double>(FitSamples<double>(plan), field, 0, 1e-9);
         CHECK(segment.status() == FitStatus::done);
         CHECK(segment.n_samples() == (degree <= 2   ? 5u
                                       : degree <= 4 ? 7u
@@ -68,7 +69,7 @@ TEST_CASE("Every fixed degree reproduces polynomials of that degree") {
         const auto p = random.chebyshev<double>(degree);
         const SamplePlan plan = fixed_plan(degree);
         const auto segment = sampled<double>(
-            Segment<double>(plan), [&](double t) { return chebyshev_value(p, t); }, 0, 1e-9);
+            FitSamples<double>(plan), [&](double t) { return chebyshev_value(p, t); }, 0, 1e-9);
         CHECK(segment.status() == FitStatus::done);
         for (int k = 0; k <= degree; ++k) {
             CHECK(segment.fit().chebyshev[k] == Approx(p[k]).margin(1e-14));
@@ -79,7 +80,7 @@ TEST_CASE("Every fixed degree reproduces polynomials of that degree") {
 TEST_CASE("NaN and infinite samples end the sampling") {
     const SamplePlan plan = nested_plan();
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-        Segment<double> segment(plan);
+        FitSamples<double> segment(plan);
         segment.add(1, 0, 1);
         segment.add(bad, 0, 1);
         CHECK(segment.status() == FitStatus::not_finite);
@@ -89,12 +90,12 @@ TEST_CASE("NaN and infinite samples end the sampling") {
 TEST_CASE("Halves take over the samples at their ends and in the middle") {
     const SamplePlan plan = nested_plan();
     const Field field = [](double t) { return std::sin(30 * t); };
-    const auto whole = sampled<double>(Segment<double>(plan), field, 0, 1e-12);
+    const auto whole = sampled<double>(FitSamples<double>(plan), field, 0, 1e-12);
     REQUIRE(whole.status() == FitStatus::split);
     for (const int which : {0, 1}) {
         const Field half = [&](double t) { return field((which + t) / 2); };
         const auto taken = sampled<double>(whole.half(which), half, 0, 1e-12);
-        const auto fresh = sampled<double>(Segment<double>(plan), half, 0, 1e-12);
+        const auto fresh = sampled<double>(FitSamples<double>(plan), half, 0, 1e-12);
         for (int k = 0; k <= 8; ++k) {
             CHECK(taken.fit().chebyshev[k] == Approx(fresh.fit().chebyshev[k]).margin(1e-14));
         }
@@ -167,10 +168,10 @@ template <class Real> Estimates judge(const Family& family, const SamplePlan& pl
         const auto tolerance = static_cast<Real>(std::pow(10, random.between(sizeof(Real) == 8 ? -7 : -4, -1)));
         // Fields are of size 1, and rounded.
         const Real sample_error = roundoff<Real>;
-        // The part of the segment that recursion ends in at a random point.
+        // The place of the segment that recursion ends in at a random point.
         const double point = random.between(0, 1);
         double lower = 0, upper = 1;
-        auto segment = sampled<Real>(Segment<Real>(plan), field, sample_error, tolerance);
+        auto segment = sampled<Real>(FitSamples<Real>(plan), field, sample_error, tolerance);
         for (int level = 0; level < 12 && segment.status() == FitStatus::split; ++level) {
             const double middle = (lower + upper) / 2;
             (point < middle ? upper : lower) = middle;

@@ -26,14 +26,14 @@ TEMPLATE_TEST_CASE("Bases agree within the stated rounding", "", float, double) 
             Polynomial<long double> exact{degree, {}};
             std::copy(chebyshev.c.begin(), chebyshev.c.end(), exact.c.begin());
             const auto level = static_cast<std::uint32_t>(random.between(0, 8));
-            const auto part = static_cast<std::uint32_t>(random.between(0, 1u << level));
-            const Polynomial<TestType> cell = cell_of(p, level, part);
+            const auto place = static_cast<std::uint32_t>(random.between(0, 1u << level));
+            const Polynomial<TestType> interval = restricted(p, level, place);
             for (const double s : {0.0, 0.1, 0.5, 0.77, 1.0}) {
                 const auto x = static_cast<TestType>(s);
-                const auto in_cell = (part + static_cast<long double>(x)) / (1u << level);
+                const auto in_interval = (place + static_cast<long double>(x)) / (1u << level);
                 const auto error =
                     std::max(std::abs(bernstein_value(p, x) - chebyshev_value(exact, static_cast<long double>(x))),
-                             std::abs(bernstein_value(cell, x) - chebyshev_value(exact, in_cell)));
+                             std::abs(bernstein_value(interval, x) - chebyshev_value(exact, in_interval)));
                 worst = std::max(worst, static_cast<double>(error) / rounding);
             }
         }
@@ -50,12 +50,12 @@ TEST_CASE("Coefficients contain the range, and tighten with subdivision") {
         const Polynomial<double> p = to_bernstein(random.chebyshev<double>(2 + trial % 12));
         const auto widths = [&](std::uint32_t level) {
             double excess = 0;
-            for (std::uint32_t part = 0; part < 1u << level; ++part) {
-                const Polynomial<double> cell = cell_of(p, level, part);
-                const auto [least, most] = range(cell);
-                double lowest = cell[0], highest = cell[0];
+            for (std::uint32_t place = 0; place < 1u << level; ++place) {
+                const Polynomial<double> interval = restricted(p, level, place);
+                const auto [least, most] = range(interval);
+                double lowest = interval[0], highest = interval[0];
                 for (int i = 0; i <= 64; ++i) {
-                    const double value = bernstein_value(cell, i / 64.0);
+                    const double value = bernstein_value(interval, i / 64.0);
                     REQUIRE(value >= least - 1e-12);
                     REQUIRE(value <= most + 1e-12);
                     lowest = std::min(lowest, value);

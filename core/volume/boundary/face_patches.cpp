@@ -143,10 +143,10 @@ void append(const Square& square, const FaceShape& shape, std::uint32_t face, in
     const Model model = model_of(shape, square);
     if (model.turn() > largest_turn && square.level < max_level) {
         for (std::uint32_t k = 0; k < 4; ++k) {
-            const Square part{square.level + 1, 2 * square.i + (k & 1u), 2 * square.j + (k >> 1u),
-                              square.is_diagonal && (k == 1 || k == 2)};
+            const Square quarter{square.level + 1, 2 * square.i + (k & 1u), 2 * square.j + (k >> 1u),
+                                 square.is_diagonal && (k == 1 || k == 2)};
             if (!(square.is_diagonal && k == 3)) {
-                append(part, shape, face, max_level, centre, patches);
+                append(quarter, shape, face, max_level, centre, patches);
             }
         }
         return;

@@ -66,7 +66,7 @@ private:
     void read_facts();
     void look_at_corners();
     FieldExtremum largest(int sign);
-    std::vector<Box> parts_of(const Box& box, int sign);
+    std::vector<Box> octants_of(const Box& box, int sign);
     std::vector<Point> lattice(const Point& middle, double half, int n) const;
     void sample(std::uint64_t element, int sign);
     void look(std::uint64_t element, std::span<const Point> etas, bool with_gradients);
@@ -235,15 +235,15 @@ double Search::enclosure(std::uint64_t element, int sign) const {
 }
 
 /** The box halved in all directions. */
-std::vector<Box> Search::parts_of(const Box& box, int sign) {
-    std::vector<Box> parts;
+std::vector<Box> Search::octants_of(const Box& box, int sign) {
+    std::vector<Box> octants;
     const std::vector<Point> middles = lattice(box.middle, 0.5 * box.half, 2);
     look(box.element, middles, true);
-    for (std::size_t part = 0; part < middles.size(); ++part) {
-        parts.push_back({box.bound, box.element, middles[part], 0.5 * box.half});
-        parts[part].bound = std::min(box.bound, sign * value(part) + reach(box.element, part, parts[part]));
+    for (std::size_t which = 0; which < middles.size(); ++which) {
+        octants.push_back({box.bound, box.element, middles[which], 0.5 * box.half});
+        octants[which].bound = std::min(box.bound, sign * value(which) + reach(box.element, which, octants[which]));
     }
-    return parts;
+    return octants;
 }
 
 /** Points of [-half, half] around the middle, the ends among them, n along each direction; none outside of the cube. */
@@ -308,11 +308,11 @@ FieldExtremum Search::largest(int sign) {
             sample(box.element, sign);
             continue;
         }
-        for (const Box& part : parts_of(box, sign)) {
-            if (part.bound > enough) {
-                boxes.push(part);
+        for (const Box& octant : octants_of(box, sign)) {
+            if (octant.bound > enough) {
+                boxes.push(octant);
             } else {
-                bound = std::max(bound, part.bound);
+                bound = std::max(bound, octant.bound);
             }
         }
     }

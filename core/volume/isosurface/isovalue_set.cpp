@@ -26,7 +26,7 @@ constexpr std::uint32_t most_levels = 3;
 /** Octants for which there is room where there are fewer elements, and octants of one level that are looked at for them. */
 constexpr std::uint64_t most_octants = 1u << 17, most_looked_at = 1u << 18;
 /**
- * Elements are divided where their error is more than this part of how much the field varies in them, octants where it is more
+ * Elements are divided where their error is more than this share of how much the field varies in them, octants where it is more
  * than that: many small octants cost more to look through than they spare evaluations.
  */
 constexpr double wanted_error = 0.05, wanted_octant_error = 0.5;
