@@ -9,8 +9,7 @@ namespace elvis {
 
 void RuntimeVolume::Impl::read_info() {
     info = sized<elvis_volume_info>();
-    services->begin("get_info");
-    check(table->get_info(volume, &info), "get_info");
+    call("get_info", table->get_info, &info);
     if (info.dimension != 2 && info.dimension != 3) {
         refuse("get_info", "dimension " + std::to_string(info.dimension));
     }
@@ -40,8 +39,7 @@ void RuntimeVolume::Impl::read_classes() {
     std::uint64_t n_elements = 0;
     for (std::uint32_t index = 0; index < info.n_classes; ++index) {
         auto theirs = sized<elvis_element_class>();
-        services->begin("get_class");
-        check(table->get_class(volume, index, &theirs), "get_class");
+        call("get_class", table->get_class, index, &theirs);
         if (theirs.shape > ELVIS_SHAPE_TRIANGLE || (theirs.shape >= ELVIS_SHAPE_QUADRILATERAL) != (info.dimension == 2)) {
             refuse("get_class", "shape " + std::to_string(theirs.shape) + " for class " + std::to_string(index));
         }
@@ -67,8 +65,7 @@ void RuntimeVolume::Impl::read_fields() {
     for (std::uint32_t index = 0; index < info.n_fields; ++index) {
         auto theirs = sized<elvis_field>();
         theirs.max_jump = std::nan("");
-        services->begin("get_field");
-        check(table->get_field(volume, index, &theirs), "get_field");
+        call("get_field", table->get_field, index, &theirs);
         if (!theirs.name || !*theirs.name || theirs.n_components == 0 || theirs.n_components > 1024) {
             refuse("get_field", "a field without name or with " + std::to_string(theirs.n_components) + " components");
         }
@@ -88,16 +85,14 @@ void RuntimeVolume::Impl::read_fields() {
 void RuntimeVolume::Impl::read_texts() {
     times.assign(info.n_time_steps, 0.0);
     for (std::uint32_t step = 0; step < info.n_time_steps; ++step) {
-        services->begin("get_time");
-        check(table->get_time(volume, step, &times[step]), "get_time");
+        call("get_time", table->get_time, step, &times[step]);
     }
     if (info.n_boundary_groups > 0 && !table->get_boundary_group) {
         refuse("get_info", "boundary groups, but get_boundary_group is missing");
     }
     for (std::uint32_t group = 0; group < info.n_boundary_groups; ++group) {
         elvis_string name = nullptr;
-        services->begin("get_boundary_group");
-        check(table->get_boundary_group(volume, group, &name), "get_boundary_group");
+        call("get_boundary_group", table->get_boundary_group, group, &name);
         groups.emplace_back(name ? name : "");
     }
     if (info.n_notes > 0 && !table->get_note) {
@@ -106,8 +101,7 @@ void RuntimeVolume::Impl::read_texts() {
     for (std::uint32_t note = 0; note < info.n_notes; ++note) {
         elvis_string key = nullptr;
         elvis_string value = nullptr;
-        services->begin("get_note");
-        check(table->get_note(volume, note, &key, &value), "get_note");
+        call("get_note", table->get_note, note, &key, &value);
         notes.emplace_back(key ? key : "", value ? value : "");
     }
 }

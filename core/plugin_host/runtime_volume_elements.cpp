@@ -11,8 +11,7 @@ namespace elvis {
 elvis_certainty RuntimeVolume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> out) const {
     assert(out.size() == 6 * count && first + count <= n_elements());
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    m_impl->services->begin("get_bounds");
-    m_impl->check(m_impl->table->get_bounds(m_impl->volume, first, count, out.data(), &certainty), "get_bounds");
+    m_impl->call("get_bounds", m_impl->table->get_bounds, first, count, out.data(), &certainty);
     m_impl->check_certainty(certainty, "get_bounds");
     for (std::uint64_t element = 0; element < count; ++element) {
         for (std::uint64_t axis = 0; axis < 3; ++axis) {
@@ -37,8 +36,7 @@ void RuntimeVolume::element_numbers(std::uint64_t first, std::uint64_t count, st
         }
         return;
     }
-    m_impl->services->begin("get_element_numbers");
-    m_impl->check(m_impl->table->get_element_numbers(m_impl->volume, first, count, out.data()), "get_element_numbers");
+    m_impl->call("get_element_numbers", m_impl->table->get_element_numbers, first, count, out.data());
     for (const std::int64_t number : out) {
         if (number < 0 || number >= 0xffffffffll) {
             m_impl->refuse("get_element_numbers", "the number " + std::to_string(number));
@@ -51,8 +49,7 @@ void RuntimeVolume::faces(std::uint64_t first, std::uint64_t count, std::span<el
     for (elvis_face& face : out) {
         face = sized<elvis_face>();
     }
-    m_impl->services->begin("get_faces");
-    m_impl->check(m_impl->table->get_faces(m_impl->volume, first, count, out.data()), "get_faces");
+    m_impl->call("get_faces", m_impl->table->get_faces, first, count, out.data());
     const auto n = static_cast<std::int64_t>(n_elements());
     for (const elvis_face& face : out) {
         if (face.element < 0 || face.element >= n || face.neighbour >= n || face.neighbour < ELVIS_NEIGHBOUR_UNKNOWN ||
@@ -70,10 +67,8 @@ elvis_certainty RuntimeVolume::field_ranges(std::uint32_t field, std::uint32_t t
     static_assert(sizeof(FieldRange) == 2 * sizeof(double));
     assert(has_field_ranges() && out.size() == count * m_impl->fields[field].n_components);
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    m_impl->services->begin("get_field_ranges");
-    m_impl->check(m_impl->table->get_field_ranges(m_impl->volume, field, time_step, first, count,
-                                                  reinterpret_cast<double*>(out.data()), &certainty),
-                  "get_field_ranges");
+    m_impl->call("get_field_ranges", m_impl->table->get_field_ranges, field, time_step, first, count,
+                 reinterpret_cast<double*>(out.data()), &certainty);
     m_impl->check_certainty(certainty, "get_field_ranges");
     for (const FieldRange& range : out) {
         if (!(range.lower <= range.upper)) {
@@ -91,11 +86,9 @@ std::optional<FieldExtrema> RuntimeVolume::extrema(std::uint32_t field, int comp
     constexpr const char* function = "get_field_extrema";
     auto minimum = sized<elvis_extremum>(), maximum = sized<elvis_extremum>();
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    m_impl->services->begin(function);
-    m_impl->check(table->get_field_extrema(m_impl->volume, field,
-                                           component < 0 ? ELVIS_MAGNITUDE : static_cast<std::uint32_t>(component), time_step,
-                                           &minimum, &maximum, &certainty),
-                  function);
+    m_impl->call(function, table->get_field_extrema, field,
+                 component < 0 ? ELVIS_MAGNITUDE : static_cast<std::uint32_t>(component), time_step, &minimum, &maximum,
+                 &certainty);
     m_impl->check_certainty(certainty, function);
     if (certainty != ELVIS_CERTIFIED) {
         return {};
@@ -121,10 +114,8 @@ elvis_certainty RuntimeVolume::derivative_bounds(std::uint32_t field, std::uint3
     assert(has_derivative_bounds() && out.size() == count * m_impl->fields[field].n_components);
     constexpr const char* function = "get_field_derivative_bounds";
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    m_impl->services->begin("get_field_derivative_bounds");
-    m_impl->check(m_impl->table->get_field_derivative_bounds(m_impl->volume, field, time_step, first, count,
-                                                             reinterpret_cast<double*>(out.data()), &certainty),
-                  function);
+    m_impl->call(function, m_impl->table->get_field_derivative_bounds, field, time_step, first, count,
+                 reinterpret_cast<double*>(out.data()), &certainty);
     m_impl->check_certainty(certainty, function);
     for (std::size_t index = 0; index < out.size(); ++index) {
         for (const double bound : {out[index].first, out[index].second}) {
@@ -144,11 +135,8 @@ void RuntimeVolume::evaluate_mapping(std::uint64_t element, std::span<const doub
     const std::size_t n_points = xi.size() / 3;
     assert(positions.empty() || positions.size() == 3 * n_points);
     assert(jacobians.empty() || jacobians.size() == 9 * n_points);
-    m_impl->services->begin("evaluate_mapping");
-    m_impl->check(m_impl->table->evaluate_mapping(m_impl->volume, element, n_points, xi.data(),
-                                                  positions.empty() ? nullptr : positions.data(),
-                                                  jacobians.empty() ? nullptr : jacobians.data()),
-                  "evaluate_mapping");
+    m_impl->call("evaluate_mapping", m_impl->table->evaluate_mapping, element, n_points, xi.data(),
+                 positions.empty() ? nullptr : positions.data(), jacobians.empty() ? nullptr : jacobians.data());
 }
 
 void RuntimeVolume::evaluate_field(std::uint32_t field, std::uint32_t time_step, std::uint64_t element,
@@ -156,11 +144,8 @@ void RuntimeVolume::evaluate_field(std::uint32_t field, std::uint32_t time_step,
     [[maybe_unused]] const std::size_t n_numbers = xi.size() / 3 * m_impl->fields[field].n_components;
     assert(values.empty() || values.size() == n_numbers);
     assert(gradients.empty() || gradients.size() == 3 * n_numbers);
-    m_impl->services->begin("evaluate_field");
-    m_impl->check(m_impl->table->evaluate_field(m_impl->volume, field, time_step, element, xi.size() / 3, xi.data(),
-                                                values.empty() ? nullptr : values.data(),
-                                                gradients.empty() ? nullptr : gradients.data()),
-                  "evaluate_field");
+    m_impl->call("evaluate_field", m_impl->table->evaluate_field, field, time_step, element, xi.size() / 3, xi.data(),
+                 values.empty() ? nullptr : values.data(), gradients.empty() ? nullptr : gradients.data());
 }
 
 bool RuntimeVolume::has_jacobian_checks() const { return m_impl->table->check_jacobians != nullptr; }
@@ -172,9 +157,7 @@ elvis_certainty RuntimeVolume::check_jacobians(std::uint64_t first, double toler
     unknown.lower = -std::numeric_limits<double>::infinity();
     std::vector<elvis_jacobian_check> theirs(out.size(), unknown);
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    m_impl->services->begin("check_jacobians");
-    m_impl->check(m_impl->table->check_jacobians(m_impl->volume, first, out.size(), tolerance, theirs.data(), &certainty),
-                  "check_jacobians");
+    m_impl->call("check_jacobians", m_impl->table->check_jacobians, first, out.size(), tolerance, theirs.data(), &certainty);
     m_impl->check_certainty(certainty, "check_jacobians");
     for (std::size_t index = 0; index < out.size(); ++index) {
         const elvis_jacobian_check& check = theirs[index];

@@ -34,6 +34,11 @@ struct RuntimeVolume::Impl {
     }
 
     void check(elvis_result result, const char* function) const { services->check(result, function, path); }
+    /** Calls a function of the table by its name; throws what comes of it. */
+    template <class Function, class... Arguments> void call(const char* name, Function function, Arguments... arguments) const {
+        services->begin(name);
+        check(function(volume, arguments...), name);
+    }
     [[noreturn]] void refuse(const char* function, const std::string& what) const { services->refuse(function, path, what); }
 
     /** What this version cannot pass over: the picture would be wrong. */

@@ -37,8 +37,7 @@ bool is_identifier(const std::string& name, bool upper_case) {
 
 ClassFieldInfo RuntimeVolume::class_field(std::uint32_t element_class, std::uint32_t field) const {
     auto theirs = sized<elvis_class_field>();
-    m_impl->services->begin("get_class_field");
-    m_impl->check(m_impl->table->get_class_field(m_impl->volume, element_class, field, &theirs), "get_class_field");
+    m_impl->call("get_class_field", m_impl->table->get_class_field, element_class, field, &theirs);
     if (theirs.n_constants > 4096 || (theirs.n_constants > 0 && !theirs.constants)) {
         m_impl->refuse("get_class_field", std::to_string(theirs.n_constants) + " constants or no array of them");
     }
@@ -56,8 +55,7 @@ ClassFieldInfo RuntimeVolume::class_field(std::uint32_t element_class, std::uint
 
 BufferInfo RuntimeVolume::buffer(std::uint32_t buffer, std::uint32_t field) const {
     auto theirs = sized<elvis_buffer>();
-    m_impl->services->begin("get_buffer");
-    m_impl->check(m_impl->table->get_buffer(m_impl->volume, buffer, field, &theirs), "get_buffer");
+    m_impl->call("get_buffer", m_impl->table->get_buffer, buffer, field, &theirs);
     if (!theirs.name || !is_identifier(theirs.name, false)) {
         m_impl->refuse("get_buffer", "a name that is not a lower-case identifier");
     }
@@ -77,8 +75,7 @@ BufferInfo RuntimeVolume::buffer(std::uint32_t buffer, std::uint32_t field) cons
 
 Snippet RuntimeVolume::snippet(std::uint32_t element_class) const {
     auto theirs = sized<elvis_snippet>();
-    m_impl->services->begin("get_snippet");
-    m_impl->check(m_impl->table->get_snippet(m_impl->volume, element_class, &theirs), "get_snippet");
+    m_impl->call("get_snippet", m_impl->table->get_snippet, element_class, &theirs);
     if (!theirs.prefix || !is_identifier(theirs.prefix, false)) {
         m_impl->refuse("get_snippet", "a prefix that is not a lower-case identifier");
     }
@@ -118,8 +115,7 @@ bool RuntimeVolume::is_cut() const {
 void RuntimeVolume::fill_buffer(const elvis_fill_request& request, void* destination) const {
     elvis_fill_request copy = request;
     copy.struct_size = sizeof copy;
-    m_impl->services->begin("fill_buffer");
-    m_impl->check(m_impl->table->fill_buffer(m_impl->volume, &copy, destination), "fill_buffer");
+    m_impl->call("fill_buffer", m_impl->table->fill_buffer, &copy, destination);
 }
 
 } // namespace elvis
