@@ -2,9 +2,22 @@
 
 #include <core/expression/glsl_text.hpp>
 
+#include <array>
 #include <cassert>
 
 namespace elvis::expression_glsl {
+
+namespace {
+
+/** Functions of enclosures, in the order of operations. */
+constexpr std::array enclosure_names{"negate", "whole_power", "power_to", "sqrt",       "abs",   "sign",   "sin",
+                                     "cos",    "tan",         "asin",     "acos",       "atan",  "exp",    "log",
+                                     "add",    "subtract",    "multiply", "divide",     "power", "min",    "max",
+                                     "atan",   "over_length", "less",     "less_equal", "equal", "length", "select"};
+static_assert(enclosure_names.size() ==
+              static_cast<std::size_t>(Operation::select) - static_cast<std::size_t>(Operation::negate) + 1);
+
+} // namespace
 
 std::string real_operation(const Node& node, const Operands& operands) {
     const auto& [a, b, c] = operands;
@@ -76,76 +89,20 @@ std::string real_operation(const Node& node, const Operands& operands) {
 
 std::string enclosure_operation(const Node& node, const Operands& operands, const std::string& prefix,
                                 const std::string& last) {
-    const auto operand = [&](std::size_t i) { return operands[i]; };
-    const auto of = [&](const char* function, std::initializer_list<std::string> more) {
-        std::string text = prefix + function + "(" + operand(0);
-        for (const std::string& one : more) {
-            text += ", " + one;
-        }
-        return text + last + ")";
-    };
-    const std::string b = operand(1), c = operand(2);
-    switch (node.operation) {
-    case Operation::negate:
-        return prefix + "negate(" + operand(0) + ")";
-    case Operation::whole_power:
-        return node.number == 2 ? of("square", {}) : of("whole_power", {std::to_string(static_cast<int>(node.number)) + "u"});
-    case Operation::power_to:
-        return of("power_to", {literal(node.number)});
-    case Operation::square_root:
-        return of("sqrt", {});
-    case Operation::absolute:
-        return of("abs", {});
-    case Operation::sign:
-        return of("sign", {});
-    case Operation::sine:
-        return of("sin", {});
-    case Operation::cosine:
-        return of("cos", {});
-    case Operation::tangent:
-        return of("tan", {});
-    case Operation::arcsine:
-        return of("asin", {});
-    case Operation::arccosine:
-        return of("acos", {});
-    case Operation::arctangent:
-        return of("atan", {});
-    case Operation::exponential:
-        return of("exp", {});
-    case Operation::logarithm:
-        return of("log", {});
-    case Operation::add:
-        return of("add", {b});
-    case Operation::subtract:
-        return of("subtract", {b});
-    case Operation::multiply:
-        return of("multiply", {b});
-    case Operation::divide:
-        return of("divide", {b});
-    case Operation::power:
-        return of("power", {b});
-    case Operation::minimum:
-        return of("min", {b});
-    case Operation::maximum:
-        return of("max", {b});
-    case Operation::arctangent2:
-        return of("atan", {b});
-    case Operation::over_length:
-        return of("over_length", {b});
-    case Operation::less:
-        return of("less", {b});
-    case Operation::less_equal:
-        return of("less_equal", {b});
-    case Operation::equal:
-        return of("equal", {b});
-    case Operation::length:
-        return of("length", {b, c});
-    case Operation::select:
-        return of("select", {b, c});
-    default:
-        assert(false && "a leaf is no operation");
-        return {};
+    const auto index = static_cast<std::size_t>(node.operation) - static_cast<std::size_t>(Operation::negate);
+    assert(node.operation >= Operation::negate && "a leaf is no operation");
+    const bool is_square = node.operation == Operation::whole_power && node.number == 2;
+    std::string text = prefix + (is_square ? "square" : enclosure_names[index]) + "(" + operands[0];
+    for (std::size_t i = 1; i < n_operands(node.operation); ++i) {
+        text += ", " + operands[i];
     }
+    if (node.operation == Operation::power_to) {
+        text += ", " + literal(node.number);
+    } else if (node.operation == Operation::whole_power && !is_square) {
+        text += ", " + std::to_string(static_cast<int>(node.number)) + "u";
+    }
+    // A change of sign rounds nothing.
+    return text + (node.operation == Operation::negate ? "" : last) + ")";
 }
 
 std::string error_operation(const Node& node, const std::string& v, const Operands& operands, const Operands& errors) {
