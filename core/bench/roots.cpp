@@ -90,10 +90,10 @@ template <class Real> Answers bernstein_on_cpu(const std::vector<Polynomial<doub
         const Polynomial<Real> bernstein = segment::to_bernstein(chebyshev);
         const Real error = segment::bernstein_rounding(chebyshev);
         const std::array<Real, 1> zero{};
-        segment::Walk walk;
+        segment::Isolation isolation;
         Answer answer;
-        while (answer.crossing == no_root && !walk.is_over()) {
-            const auto crossing = segment::next_crossing<Real>(bernstein, error, zero, walk);
+        while (answer.crossing == no_root && !isolation.is_over()) {
+            const auto crossing = segment::next_crossing<Real>(bernstein, error, zero, isolation);
             const bool is_touch = crossing.kind == segment::CrossingKind::touch;
             if (is_touch) {
                 answer.touch_from = std::min(answer.touch_from, static_cast<double>(crossing.lower));

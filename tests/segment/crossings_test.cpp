@@ -16,9 +16,9 @@ constexpr double error = 1e-12;
 template <class Real>
 std::vector<Crossing<Real>> all_crossings(const Polynomial<Real>& p, Real tolerance, const std::vector<Real>& values) {
     std::vector<Crossing<Real>> found;
-    Walk walk;
-    while (!walk.is_over()) {
-        const Crossing<Real> crossing = next_crossing<Real>(p, tolerance, values, walk);
+    Isolation isolation;
+    while (!isolation.is_over()) {
+        const Crossing<Real> crossing = next_crossing<Real>(p, tolerance, values, isolation);
         if (crossing.kind != CrossingKind::none) {
             found.push_back(crossing);
         }

@@ -143,7 +143,7 @@ struct CrossingDifferences {
 
     template <class Real> void add(const Polynomial<Real>& bernstein, Real rounding, const Real* found) {
         const std::vector<Real> values{Real(-0.25), 0, Real(0.5)};
-        Walk isolation;
+        Isolation isolation;
         bool differs = false;
         double largest = 0;
         for (std::size_t k = 0; k < n_crossings; ++k, found += 4) {
