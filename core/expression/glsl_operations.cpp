@@ -2,8 +2,10 @@
 
 #include <core/expression/glsl_text.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <utility>
 
 namespace elvis::expression_glsl {
 
@@ -16,6 +18,29 @@ constexpr std::array enclosure_names{"negate", "whole_power", "power_to", "sqrt"
                                      "atan",   "over_length", "less",     "less_equal", "equal", "length", "select"};
 static_assert(enclosure_names.size() ==
               static_cast<std::size_t>(Operation::select) - static_cast<std::size_t>(Operation::negate) + 1);
+
+/** Of operations that GLSL or our library writes as a call. */
+const char* real_function(Operation operation) {
+    constexpr std::pair<Operation, const char*> functions[] = {{Operation::square_root, "sqrt"},
+                                                               {Operation::absolute, "abs"},
+                                                               {Operation::sign, "sign"},
+                                                               {Operation::sine, "elvis_sin"},
+                                                               {Operation::cosine, "elvis_cos"},
+                                                               {Operation::arcsine, "elvis_asin"},
+                                                               {Operation::arccosine, "elvis_acos"},
+                                                               {Operation::arctangent, "elvis_atan"},
+                                                               {Operation::exponential, "elvis_exp"},
+                                                               {Operation::logarithm, "elvis_log"},
+                                                               {Operation::power, "elvis_pow"},
+                                                               {Operation::minimum, "min"},
+                                                               {Operation::maximum, "max"},
+                                                               {Operation::arctangent2, "elvis_atan"},
+                                                               {Operation::over_length, "core_over_length"}};
+    const auto found =
+        std::find_if(std::begin(functions), std::end(functions), [&](const auto& one) { return one.first == operation; });
+    assert(found != std::end(functions) && "a leaf is no operation");
+    return found->second;
+}
 
 } // namespace
 
@@ -31,28 +56,8 @@ std::string real_operation(const Node& node, const Operands& operands) {
                                   : call("core_whole_power", {a, std::to_string(static_cast<int>(node.number)) + "u"});
     case Operation::power_to:
         return call("elvis_pow", {a, literal(node.number)});
-    case Operation::square_root:
-        return call("sqrt", {a});
-    case Operation::absolute:
-        return call("abs", {a});
-    case Operation::sign:
-        return call("sign", {a});
-    case Operation::sine:
-        return call("elvis_sin", {a});
-    case Operation::cosine:
-        return call("elvis_cos", {a});
     case Operation::tangent:
         return call("elvis_sin", {a}) + " / " + call("elvis_cos", {a});
-    case Operation::arcsine:
-        return call("elvis_asin", {a});
-    case Operation::arccosine:
-        return call("elvis_acos", {a});
-    case Operation::arctangent:
-        return call("elvis_atan", {a});
-    case Operation::exponential:
-        return call("elvis_exp", {a});
-    case Operation::logarithm:
-        return call("elvis_log", {a});
     case Operation::add:
         return a + " + " + b;
     case Operation::subtract:
@@ -61,16 +66,6 @@ std::string real_operation(const Node& node, const Operands& operands) {
         return a + " * " + b;
     case Operation::divide:
         return a + " / " + b;
-    case Operation::power:
-        return call("elvis_pow", {a, b});
-    case Operation::minimum:
-        return call("min", {a, b});
-    case Operation::maximum:
-        return call("max", {a, b});
-    case Operation::arctangent2:
-        return call("elvis_atan", {a, b});
-    case Operation::over_length:
-        return call("core_over_length", {a, b});
     case Operation::less:
         return truth(a + " < " + b);
     case Operation::less_equal:
@@ -82,8 +77,8 @@ std::string real_operation(const Node& node, const Operands& operands) {
     case Operation::select:
         return a + " != elvis_real(0) ? " + b + " : " + c;
     default:
-        assert(false && "a leaf is no operation");
-        return {};
+        return n_operands(node.operation) == 1 ? call(real_function(node.operation), {a})
+                                               : call(real_function(node.operation), {a, b});
     }
 }
 

@@ -127,13 +127,25 @@ struct Presenter::Impl {
     template <class Record> void submit_and_wait(const Record& record) {
         begin_commands();
         record(commands);
+        submit();
+    }
+
+    /** What has been recorded, after one semaphore and before another; waits until it is done. */
+    void submit(const VkSemaphore* awaited = nullptr, const VkSemaphore* signalled = nullptr) {
         check_vulkan(vkEndCommandBuffer(commands), place, "recording");
-        VkSubmitInfo submit{};
-        submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-        submit.commandBufferCount = 1;
-        submit.pCommandBuffers = &commands;
-        check_vulkan(vkQueueSubmit(target.queue, 1, &submit, fence), place, "submitting");
-        wait();
+        const VkPipelineStageFlags wait_stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
+        VkSubmitInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+        info.waitSemaphoreCount = awaited != nullptr ? 1 : 0;
+        info.pWaitSemaphores = awaited;
+        info.pWaitDstStageMask = &wait_stage;
+        info.commandBufferCount = 1;
+        info.pCommandBuffers = &commands;
+        info.signalSemaphoreCount = signalled != nullptr ? 1 : 0;
+        info.pSignalSemaphores = signalled;
+        check_vulkan(vkQueueSubmit(target.queue, 1, &info, fence), place, "submitting");
+        check_vulkan(vkWaitForFences(target.device, 1, &fence, VK_TRUE, UINT64_MAX), place, "waiting for its device");
+        check_vulkan(vkResetFences(target.device, 1, &fence), place, "resetting its fence");
     }
 
     void begin_commands() {
@@ -142,11 +154,6 @@ struct Presenter::Impl {
         begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
         begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
         check_vulkan(vkBeginCommandBuffer(commands, &begin), place, "recording");
-    }
-
-    void wait() {
-        check_vulkan(vkWaitForFences(target.device, 1, &fence, VK_TRUE, UINT64_MAX), place, "waiting for its device");
-        check_vulkan(vkResetFences(target.device, 1, &fence), place, "resetting its fence");
     }
 
     /** Background and picture, into an image that is then ready for the render pass. */
@@ -189,23 +196,6 @@ struct Presenter::Impl {
         vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
         ImGui_ImplVulkan_RenderDrawData(panels, commands);
         vkCmdEndRenderPass(commands);
-        check_vulkan(vkEndCommandBuffer(commands), place, "recording");
-    }
-
-    /** What was recorded, once the image has been acquired; waits until it is drawn. */
-    void submit_drawing(const Swapchain::Image& image) {
-        const VkPipelineStageFlags wait_stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
-        VkSubmitInfo submit{};
-        submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-        submit.waitSemaphoreCount = 1;
-        submit.pWaitSemaphores = &acquired;
-        submit.pWaitDstStageMask = &wait_stage;
-        submit.commandBufferCount = 1;
-        submit.pCommandBuffers = &commands;
-        submit.signalSemaphoreCount = 1;
-        submit.pSignalSemaphores = &image.drawn;
-        check_vulkan(vkQueueSubmit(target.queue, 1, &submit, fence), place, "submitting");
-        wait();
     }
 
     VkResult show(std::uint32_t index) {
@@ -242,7 +232,7 @@ struct Presenter::Impl {
         }
         const Swapchain::Image& image = swapchain->images()[index];
         record(image, panels, box, background);
-        submit_drawing(image);
+        submit(&acquired, &image.drawn);
         result = show(index);
         const bool is_size_old = swapchain->size().width != static_cast<std::uint32_t>(width) ||
                                  swapchain->size().height != static_cast<std::uint32_t>(height);
