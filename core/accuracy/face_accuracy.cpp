@@ -14,8 +14,9 @@ std::vector<elvis_face> faces_of(const RuntimeVolume& volume) {
     return faces;
 }
 
-FaceAccuracy measure_faces(const Device& device, const RuntimeVolume& volume, const Boundary& boundary, Precision precision,
-                           std::uint32_t size, std::size_t n_pixels, std::size_t n_edge_rays) {
+namespace {
+
+FrameRequest request_of(const Boundary& boundary, std::uint32_t size) {
     FrameRequest request;
     request.width = request.height = size;
     const Vector eye = boundary.centre() + 0.9 * boundary.size() * Vector(0.8, 0.55, 0.5).normalized();
@@ -27,6 +28,34 @@ FaceAccuracy measure_faces(const Device& device, const RuntimeVolume& volume, co
     surface.geometry = BoundaryFaces{};
     surface.colors.points = {{0, {0, 0, 0}}};
     request.surfaces = {surface};
+    return request;
+}
+
+/** Rays through points of edges: none may see what is behind. */
+void measure_edges(Renderer& renderer, FrameRequest request, const Boundary& boundary, std::mt19937& random,
+                   std::size_t n_edge_rays, double allowed, FaceAccuracy& result) {
+    const Vector eye(request.camera.eye[0], request.camera.eye[1], request.camera.eye[2]);
+    request.width = request.height = 1;
+    for (std::size_t k = 0; k < n_edge_rays; ++k) {
+        const Boundary::EdgePoint point = boundary.edge_point(random, k % 2 == 1);
+        const Vector towards = point.position - eye;
+        const double distance = towards.norm(), facing = std::abs(point.normal.dot(towards)) / distance;
+        if (facing < 0.01)
+            continue;
+        ++result.n_edge_rays;
+        request.camera.look_at = {point.position.x(), point.position.y(), point.position.z()};
+        const Frame one = renderer.render(request);
+        const double behind = one.element[0] < 0 ? 1 : (one.depth[0] - distance) * facing / boundary.size();
+        result.n_leaks += behind > allowed;
+        result.leak_depth_error = std::max(result.leak_depth_error, behind);
+    }
+}
+
+} // namespace
+
+FaceAccuracy measure_faces(const Device& device, const RuntimeVolume& volume, const Boundary& boundary, Precision precision,
+                           std::uint32_t size, std::size_t n_pixels, std::size_t n_edge_rays) {
+    const FrameRequest request = request_of(boundary, size);
     Renderer renderer(device, volume, precision);
     const Frame frame = renderer.render(request);
     FaceAccuracy result;
@@ -67,21 +96,7 @@ FaceAccuracy measure_faces(const Device& device, const RuntimeVolume& volume, co
         }
     }
 
-    request.width = request.height = 1;
-    for (std::size_t k = 0; k < n_edge_rays; ++k) {
-        const Boundary::EdgePoint point = boundary.edge_point(random, k % 2 == 1);
-        const Vector towards = point.position - eye;
-        const double distance = towards.norm(), facing = std::abs(point.normal.dot(towards)) / distance;
-        if (facing < 0.01)
-            continue;
-        ++result.n_edge_rays;
-        request.camera.look_at = {point.position.x(), point.position.y(), point.position.z()};
-        const Frame one = renderer.render(request);
-        const double behind = one.element[0] < 0 ? 1 : (one.depth[0] - distance) * facing / boundary.size();
-        const double allowed = precision == Precision::float64 ? 1e-12 : 1e-6;
-        result.n_leaks += behind > allowed;
-        result.leak_depth_error = std::max(result.leak_depth_error, behind);
-    }
+    measure_edges(renderer, request, boundary, random, n_edge_rays, precision == Precision::float64 ? 1e-12 : 1e-6, result);
     return result;
 }
 

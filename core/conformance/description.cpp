@@ -108,6 +108,36 @@ std::vector<double> read_buffer(const RuntimeVolume& volume, std::uint32_t buffe
     return {integers.begin(), integers.end()};
 }
 
+/** Values and gradients at some points of each element. */
+std::vector<double> evaluated_field(const RuntimeVolume& volume, std::uint32_t field, std::uint64_t first,
+                                    std::uint64_t count) {
+    const std::uint32_t n_components = volume.fields()[field].n_components;
+    std::vector<double> numbers;
+    for (std::uint64_t element = first; element < first + count; ++element) {
+        const std::vector<double> xi = flat(points_in(shape_of(volume, element), 6, element));
+        std::vector<double> values(xi.size() / 3 * n_components);
+        std::vector<double> gradients(xi.size() * n_components);
+        volume.evaluate_field(field, 0, element, xi, values, gradients);
+        numbers.insert(numbers.end(), values.begin(), values.end());
+        numbers.insert(numbers.end(), gradients.begin(), gradients.end());
+    }
+    return numbers;
+}
+
+/** Positions and Jacobians likewise. */
+std::vector<double> evaluated_mapping(const RuntimeVolume& volume, std::uint64_t first, std::uint64_t count) {
+    std::vector<double> numbers;
+    for (std::uint64_t element = first; element < first + count; ++element) {
+        const std::vector<double> xi = flat(points_in(shape_of(volume, element), 6, element));
+        std::vector<double> positions(xi.size());
+        std::vector<double> jacobians(3 * xi.size());
+        volume.evaluate_mapping(element, xi, positions, jacobians);
+        numbers.insert(numbers.end(), positions.begin(), positions.end());
+        numbers.insert(numbers.end(), jacobians.begin(), jacobians.end());
+    }
+    return numbers;
+}
+
 std::vector<Query> queries(const RuntimeVolume& volume, std::uint64_t max_items) {
     std::vector<Query> all;
     const std::uint64_t n_elements = std::min(volume.n_elements(), max_items);
@@ -153,31 +183,13 @@ std::vector<Query> queries(const RuntimeVolume& volume, std::uint64_t max_items)
         }
         if (volume.has_evaluation()) {
             all.push_back({"evaluate_field of " + name, n_elements, [=, &volume](std::uint64_t first, std::uint64_t count) {
-                               std::vector<double> numbers;
-                               for (std::uint64_t element = first; element < first + count; ++element) {
-                                   const std::vector<double> xi = flat(points_in(shape_of(volume, element), 6, element));
-                                   std::vector<double> values(xi.size() / 3 * n_components);
-                                   std::vector<double> gradients(xi.size() * n_components);
-                                   volume.evaluate_field(field, 0, element, xi, values, gradients);
-                                   numbers.insert(numbers.end(), values.begin(), values.end());
-                                   numbers.insert(numbers.end(), gradients.begin(), gradients.end());
-                               }
-                               return numbers;
+                               return evaluated_field(volume, field, first, count);
                            }});
         }
     }
     if (volume.has_evaluation()) {
         all.push_back({"evaluate_mapping", n_elements, [&volume](std::uint64_t first, std::uint64_t count) {
-                           std::vector<double> numbers;
-                           for (std::uint64_t element = first; element < first + count; ++element) {
-                               const std::vector<double> xi = flat(points_in(shape_of(volume, element), 6, element));
-                               std::vector<double> positions(xi.size());
-                               std::vector<double> jacobians(3 * xi.size());
-                               volume.evaluate_mapping(element, xi, positions, jacobians);
-                               numbers.insert(numbers.end(), positions.begin(), positions.end());
-                               numbers.insert(numbers.end(), jacobians.begin(), jacobians.end());
-                           }
-                           return numbers;
+                           return evaluated_mapping(volume, first, count);
                        }});
     }
     return all;

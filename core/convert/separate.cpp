@@ -155,14 +155,9 @@ Error crash(const ConvertRequest& request, const Answer& answer, int status, int
     return Error(request.inputs.front(), what);
 }
 
-} // namespace
-
-ConvertReport convert_separately(const ConvertRequest& request, const TaskControl& control, const ConvertProcess& options) {
-    control.check();
-    const OutputFolder folder(request.output);
+/** Until the process ends, which is asked to stop or ended where it has to be. */
+Answer listen(ChildProcess& process, const ConvertRequest& request, const TaskControl& control, const ConvertProcess& options) {
     const std::uint64_t most_bytes = options.most_bytes != 0 ? options.most_bytes : available_bytes() / 16 * 15;
-    ChildProcess process({arguments_of(request, folder.file()), environment_without({}), options.output, true, true},
-                         request.inputs.front());
     Answer answer;
     std::optional<Clock::time_point> stop_since;
     Clock::time_point next_look = Clock::now() + look;
@@ -170,7 +165,7 @@ ConvertReport convert_separately(const ConvertRequest& request, const TaskContro
         std::string line;
         const ChildProcess::Read read = process.read_line(line, next_look);
         if (read == ChildProcess::Read::end) {
-            break;
+            return answer;
         }
         if (read == ChildProcess::Read::line) {
             answer.take(line, control);
@@ -196,6 +191,16 @@ ConvertReport convert_separately(const ConvertRequest& request, const TaskContro
                                                     " that it may; its process was ended, nothing was written");
         }
     }
+}
+
+} // namespace
+
+ConvertReport convert_separately(const ConvertRequest& request, const TaskControl& control, const ConvertProcess& options) {
+    control.check();
+    const OutputFolder folder(request.output);
+    ChildProcess process({arguments_of(request, folder.file()), environment_without({}), options.output, true, true},
+                         request.inputs.front());
+    const Answer answer = listen(process, request, control, options);
     // What plugins do when the process ends must not take for ever, either.
     const int status = process.wait_until(Clock::now() + options.patience);
     if (answer.was_cancelled) {

@@ -2,9 +2,47 @@
 
 #include <core/expression/glsl_text.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cassert>
+#include <utility>
 
 namespace elvis::expression_glsl {
+
+namespace {
+
+/** Functions of enclosures, in the order of operations. */
+constexpr std::array enclosure_names{"negate", "whole_power", "power_to", "sqrt",       "abs",   "sign",   "sin",
+                                     "cos",    "tan",         "asin",     "acos",       "atan",  "exp",    "log",
+                                     "add",    "subtract",    "multiply", "divide",     "power", "min",    "max",
+                                     "atan",   "over_length", "less",     "less_equal", "equal", "length", "select"};
+static_assert(enclosure_names.size() ==
+              static_cast<std::size_t>(Operation::select) - static_cast<std::size_t>(Operation::negate) + 1);
+
+/** Of operations that GLSL or our library writes as a call. */
+const char* real_function(Operation operation) {
+    constexpr std::pair<Operation, const char*> functions[] = {{Operation::square_root, "sqrt"},
+                                                               {Operation::absolute, "abs"},
+                                                               {Operation::sign, "sign"},
+                                                               {Operation::sine, "elvis_sin"},
+                                                               {Operation::cosine, "elvis_cos"},
+                                                               {Operation::arcsine, "elvis_asin"},
+                                                               {Operation::arccosine, "elvis_acos"},
+                                                               {Operation::arctangent, "elvis_atan"},
+                                                               {Operation::exponential, "elvis_exp"},
+                                                               {Operation::logarithm, "elvis_log"},
+                                                               {Operation::power, "elvis_pow"},
+                                                               {Operation::minimum, "min"},
+                                                               {Operation::maximum, "max"},
+                                                               {Operation::arctangent2, "elvis_atan"},
+                                                               {Operation::over_length, "core_over_length"}};
+    const auto found =
+        std::find_if(std::begin(functions), std::end(functions), [&](const auto& one) { return one.first == operation; });
+    assert(found != std::end(functions) && "a leaf is no operation");
+    return found->second;
+}
+
+} // namespace
 
 std::string real_operation(const Node& node, const Operands& operands) {
     const auto& [a, b, c] = operands;
@@ -18,28 +56,8 @@ std::string real_operation(const Node& node, const Operands& operands) {
                                   : call("core_whole_power", {a, std::to_string(static_cast<int>(node.number)) + "u"});
     case Operation::power_to:
         return call("elvis_pow", {a, literal(node.number)});
-    case Operation::square_root:
-        return call("sqrt", {a});
-    case Operation::absolute:
-        return call("abs", {a});
-    case Operation::sign:
-        return call("sign", {a});
-    case Operation::sine:
-        return call("elvis_sin", {a});
-    case Operation::cosine:
-        return call("elvis_cos", {a});
     case Operation::tangent:
         return call("elvis_sin", {a}) + " / " + call("elvis_cos", {a});
-    case Operation::arcsine:
-        return call("elvis_asin", {a});
-    case Operation::arccosine:
-        return call("elvis_acos", {a});
-    case Operation::arctangent:
-        return call("elvis_atan", {a});
-    case Operation::exponential:
-        return call("elvis_exp", {a});
-    case Operation::logarithm:
-        return call("elvis_log", {a});
     case Operation::add:
         return a + " + " + b;
     case Operation::subtract:
@@ -48,16 +66,6 @@ std::string real_operation(const Node& node, const Operands& operands) {
         return a + " * " + b;
     case Operation::divide:
         return a + " / " + b;
-    case Operation::power:
-        return call("elvis_pow", {a, b});
-    case Operation::minimum:
-        return call("min", {a, b});
-    case Operation::maximum:
-        return call("max", {a, b});
-    case Operation::arctangent2:
-        return call("elvis_atan", {a, b});
-    case Operation::over_length:
-        return call("core_over_length", {a, b});
     case Operation::less:
         return truth(a + " < " + b);
     case Operation::less_equal:
@@ -69,83 +77,27 @@ std::string real_operation(const Node& node, const Operands& operands) {
     case Operation::select:
         return a + " != elvis_real(0) ? " + b + " : " + c;
     default:
-        assert(false && "a leaf is no operation");
-        return {};
+        return n_operands(node.operation) == 1 ? call(real_function(node.operation), {a})
+                                               : call(real_function(node.operation), {a, b});
     }
 }
 
 std::string enclosure_operation(const Node& node, const Operands& operands, const std::string& prefix,
                                 const std::string& last) {
-    const auto operand = [&](std::size_t i) { return operands[i]; };
-    const auto of = [&](const char* function, std::initializer_list<std::string> more) {
-        std::string text = prefix + function + "(" + operand(0);
-        for (const std::string& one : more) {
-            text += ", " + one;
-        }
-        return text + last + ")";
-    };
-    const std::string b = operand(1), c = operand(2);
-    switch (node.operation) {
-    case Operation::negate:
-        return prefix + "negate(" + operand(0) + ")";
-    case Operation::whole_power:
-        return node.number == 2 ? of("square", {}) : of("whole_power", {std::to_string(static_cast<int>(node.number)) + "u"});
-    case Operation::power_to:
-        return of("power_to", {literal(node.number)});
-    case Operation::square_root:
-        return of("sqrt", {});
-    case Operation::absolute:
-        return of("abs", {});
-    case Operation::sign:
-        return of("sign", {});
-    case Operation::sine:
-        return of("sin", {});
-    case Operation::cosine:
-        return of("cos", {});
-    case Operation::tangent:
-        return of("tan", {});
-    case Operation::arcsine:
-        return of("asin", {});
-    case Operation::arccosine:
-        return of("acos", {});
-    case Operation::arctangent:
-        return of("atan", {});
-    case Operation::exponential:
-        return of("exp", {});
-    case Operation::logarithm:
-        return of("log", {});
-    case Operation::add:
-        return of("add", {b});
-    case Operation::subtract:
-        return of("subtract", {b});
-    case Operation::multiply:
-        return of("multiply", {b});
-    case Operation::divide:
-        return of("divide", {b});
-    case Operation::power:
-        return of("power", {b});
-    case Operation::minimum:
-        return of("min", {b});
-    case Operation::maximum:
-        return of("max", {b});
-    case Operation::arctangent2:
-        return of("atan", {b});
-    case Operation::over_length:
-        return of("over_length", {b});
-    case Operation::less:
-        return of("less", {b});
-    case Operation::less_equal:
-        return of("less_equal", {b});
-    case Operation::equal:
-        return of("equal", {b});
-    case Operation::length:
-        return of("length", {b, c});
-    case Operation::select:
-        return of("select", {b, c});
-    default:
-        assert(false && "a leaf is no operation");
-        return {};
+    const auto index = static_cast<std::size_t>(node.operation) - static_cast<std::size_t>(Operation::negate);
+    assert(node.operation >= Operation::negate && "a leaf is no operation");
+    const bool is_square = node.operation == Operation::whole_power && node.number == 2;
+    std::string text = prefix + (is_square ? "square" : enclosure_names[index]) + "(" + operands[0];
+    for (std::size_t i = 1; i < n_operands(node.operation); ++i) {
+        text += ", " + operands[i];
     }
+    if (node.operation == Operation::power_to) {
+        text += ", " + literal(node.number);
+    } else if (node.operation == Operation::whole_power && !is_square) {
+        text += ", " + std::to_string(static_cast<int>(node.number)) + "u";
+    }
+    // A change of sign rounds nothing.
+    return text + (node.operation == Operation::negate ? "" : last) + ")";
 }
 
 std::string error_operation(const Node& node, const std::string& v, const Operands& operands, const Operands& errors) {

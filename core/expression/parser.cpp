@@ -99,23 +99,15 @@ private:
         const Value yes = choice();
         expect(':', place, "the '?'");
         const Value no = choice();
-        const NodeId decides = m_values.truth(condition);
-        if (yes.rank > 0 && yes.rank == no.rank && yes.entries.size() == no.entries.size()) {
-            Value result{yes.rank, {}, condition.place, {}, -1, false};
-            for (std::size_t i = 0; i < yes.entries.size(); ++i) {
-                result.entries.push_back(m_graph.select(decides, yes.entries[i], no.entries[i]));
-            }
-            return result;
-        }
-        return m_values.number_value(m_graph.select(decides, m_values.number(yes), m_values.number(no)), condition.place);
+        return m_values.choose(condition, yes, no);
     }
-    Value truth_value(NodeId id, std::size_t place) const { return {0, {id}, place, {}, -1, true}; }
 
     Value either() {
         Value left = both();
         while (take("||")) {
             const Value right = both();
-            left = truth_value(m_graph.select(m_values.truth(left), m_graph.constant(1), m_values.truth(right)), left.place);
+            left = m_values.truth_value(m_graph.select(m_values.truth(left), m_graph.constant(1), m_values.truth(right)),
+                                        left.place);
         }
         return left;
     }
@@ -123,7 +115,8 @@ private:
         Value left = comparison();
         while (take("&&")) {
             const Value right = comparison();
-            left = truth_value(m_graph.select(m_values.truth(left), m_values.truth(right), m_graph.constant(0)), left.place);
+            left = m_values.truth_value(m_graph.select(m_values.truth(left), m_values.truth(right), m_graph.constant(0)),
+                                        left.place);
         }
         return left;
     }
@@ -149,7 +142,7 @@ private:
             if (m_at < m_text.size() && (m_text[m_at] == '<' || m_text[m_at] == '>')) {
                 m_values.fail(m_at, "comparisons do not chain; join them with &&");
             }
-            return truth_value(result, left.place);
+            return m_values.truth_value(result, left.place);
         }
         return left;
     }
@@ -190,7 +183,7 @@ private:
             return sign();
         }
         if (m_text.compare(m_at, 2, "!=") != 0 && take("!")) {
-            return truth_value(m_graph.binary(Operation::equal, m_values.number(sign()), m_graph.constant(0)), place);
+            return m_values.truth_value(m_graph.binary(Operation::equal, m_values.number(sign()), m_graph.constant(0)), place);
         }
         return power();
     }
@@ -216,26 +209,7 @@ private:
             }
             m_at += static_cast<std::size_t>(after - first);
             expect(']', place, "the '['");
-            // A field of one component may be written with it.
-            const bool has_components = value.rank == 1 || (value.field && value.component < 0);
-            const std::size_t n = value.rank == 2 ? value.entries.size() / 3 : has_components ? value.entries.size() : 0;
-            if (n == 0) {
-                m_values.fail(place, "a number has no components");
-            }
-            if (index >= n) {
-                m_values.fail(place, "there is no component " + std::to_string(index) + "; components are counted from 0 to " +
-                                         std::to_string(n - 1));
-            }
-            if (value.rank == 2) {
-                const auto row = value.entries.begin() + 3 * static_cast<std::ptrdiff_t>(index);
-                value = m_values.vector_value({row, row + 3}, value.place);
-            } else {
-                const bool is_whole_field = value.field && value.component < 0;
-                const std::optional<std::uint32_t> field = is_whole_field ? value.field : std::nullopt;
-                value = m_values.number_value(value.entries[index], value.place);
-                value.field = field;
-                value.component = static_cast<std::int32_t>(index);
-            }
+            value = m_values.component(value, index, place);
         }
         return value;
     }

@@ -94,6 +94,41 @@ Value ValueBuilder::combine(Operation operation, const Value& a, const Value& b)
     return number_value(m_graph.binary(operation, number(a), number(b)), a.place);
 }
 
+Value ValueBuilder::choose(const Value& condition, const Value& yes, const Value& no) {
+    const NodeId decides = truth(condition);
+    if (yes.rank > 0 && yes.rank == no.rank && yes.entries.size() == no.entries.size()) {
+        Value result{yes.rank, {}, condition.place, {}, -1, false};
+        for (std::size_t i = 0; i < yes.entries.size(); ++i) {
+            result.entries.push_back(m_graph.select(decides, yes.entries[i], no.entries[i]));
+        }
+        return result;
+    }
+    return number_value(m_graph.select(decides, number(yes), number(no)), condition.place);
+}
+
+Value ValueBuilder::component(const Value& value, std::uint32_t index, std::size_t place) const {
+    // A field of one component may be written with it.
+    const bool is_whole_field = value.field && value.component < 0;
+    const std::size_t n = value.rank == 2                     ? value.entries.size() / 3
+                          : value.rank == 1 || is_whole_field ? value.entries.size()
+                                                              : 0;
+    if (n == 0) {
+        fail(place, "a number has no components");
+    }
+    if (index >= n) {
+        fail(place,
+             "there is no component " + std::to_string(index) + "; components are counted from 0 to " + std::to_string(n - 1));
+    }
+    if (value.rank == 2) {
+        const auto row = value.entries.begin() + 3 * static_cast<std::ptrdiff_t>(index);
+        return vector_value({row, row + 3}, value.place);
+    }
+    Value result = number_value(value.entries[index], value.place);
+    result.field = is_whole_field ? value.field : std::nullopt;
+    result.component = static_cast<std::int32_t>(index);
+    return result;
+}
+
 NodeId ValueBuilder::truth(const Value& value) {
     const NodeId zero = m_graph.constant(0), one = m_graph.constant(1);
     return value.is_truth ? value.entries[0] : m_graph.select(m_graph.binary(Operation::equal, number(value), zero), zero, one);

@@ -54,6 +54,7 @@ public:
     static Value vector_value(std::vector<NodeId> entries, std::size_t place) {
         return {1, std::move(entries), place, {}, -1, false};
     }
+    static Value truth_value(NodeId id, std::size_t place) { return {0, {id}, place, {}, -1, true}; }
     /** Of the same rank, `function` applied to every entry. */
     static Value each(const Value& value, const auto& function) {
         Value result{value.rank, {}, value.place, {}, -1, false};
@@ -70,6 +71,10 @@ public:
     NodeId truth(const Value& value);
     /** Sum, difference, product, quotient and others of two values. */
     Value combine(Operation operation, const Value& a, const Value& b);
+    /** Entry by entry, where both have the same; else of their numbers. */
+    Value choose(const Value& condition, const Value& yes, const Value& no);
+    /** What an index, which stands at `place`, takes of a value. */
+    Value component(const Value& value, std::uint32_t index, std::size_t place) const;
 
     Value field(const std::string& word, std::size_t place);
     /** Coordinates, what elements have, constants. */

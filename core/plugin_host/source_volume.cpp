@@ -38,6 +38,11 @@ struct SourceVolume::Impl {
     }
 
     void check(elvis_result result, const char* function) const { services->check(result, function, paths.front()); }
+    /** Calls a function of the table by its name; throws what comes of it. */
+    template <class Function, class... Arguments> void call(const char* name, Function function, Arguments... arguments) const {
+        services->begin(name);
+        check(function(source, arguments...), name);
+    }
     [[noreturn]] void refuse(const char* function, const std::string& what) const {
         services->refuse(function, paths.front(), what);
     }
@@ -47,8 +52,7 @@ struct SourceVolume::Impl {
 
 void SourceVolume::Impl::read_description() {
     info = sized<elvis_source_info>();
-    services->begin("get_info");
-    check(table->get_info(source, &info), "get_info");
+    call("get_info", table->get_info, &info);
     if (info.dimension != 2 && info.dimension != 3) {
         refuse("get_info", "dimension " + std::to_string(info.dimension));
     }
@@ -63,8 +67,7 @@ void SourceVolume::Impl::read_description() {
     }
     for (std::uint32_t index = 0; index < info.n_fields; ++index) {
         auto field = sized<elvis_source_field>();
-        services->begin("get_field");
-        check(table->get_field(source, index, &field), "get_field");
+        call("get_field", table->get_field, index, &field);
         if (!field.name || !*field.name || field.n_components == 0 || field.n_components > 1024) {
             refuse("get_field", "a field without name or with " + std::to_string(field.n_components) + " components");
         }
@@ -84,16 +87,14 @@ void SourceVolume::Impl::read_description() {
         refuse("get_info", "several time steps, but get_time is missing");
     }
     for (std::uint32_t step = 0; table->get_time && step < info.n_time_steps; ++step) {
-        services->begin("get_time");
-        check(table->get_time(source, step, &times[step]), "get_time");
+        call("get_time", table->get_time, step, &times[step]);
     }
     if (info.n_boundary_groups > 0 && !table->get_boundary_group) {
         refuse("get_info", "boundary groups, but get_boundary_group is missing");
     }
     for (std::uint32_t group = 0; group < info.n_boundary_groups; ++group) {
         elvis_string name = nullptr;
-        services->begin("get_boundary_group");
-        check(table->get_boundary_group(source, group, &name), "get_boundary_group");
+        call("get_boundary_group", table->get_boundary_group, group, &name);
         groups.emplace_back(name ? name : "");
     }
 }
@@ -142,8 +143,7 @@ void SourceVolume::elements(std::uint64_t first, std::uint64_t count, std::span<
     for (elvis_source_element& element : out) {
         element = sized<elvis_source_element>();
     }
-    m_impl->services->begin("get_elements");
-    m_impl->check(m_impl->table->get_elements(m_impl->source, first, count, out.data()), "get_elements");
+    m_impl->call("get_elements", m_impl->table->get_elements, first, count, out.data());
     for (std::uint64_t index = 0; index < count; ++index) {
         const elvis_source_element& element = out[index];
         const std::string which = " for element " + std::to_string(first + index);
@@ -177,8 +177,7 @@ void SourceVolume::spaces(std::uint32_t field, std::uint64_t first, std::uint64_
     for (elvis_source_space& space : out) {
         space = sized<elvis_source_space>();
     }
-    m_impl->services->begin("get_spaces");
-    m_impl->check(m_impl->table->get_spaces(m_impl->source, field, first, count, out.data()), "get_spaces");
+    m_impl->call("get_spaces", m_impl->table->get_spaces, field, first, count, out.data());
     for (std::uint64_t index = 0; index < count; ++index) {
         for (const std::uint32_t order : out[index].order) {
             if (order > max_order) {
@@ -192,9 +191,7 @@ void SourceVolume::spaces(std::uint32_t field, std::uint64_t first, std::uint64_
 
 void SourceVolume::evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions) const {
     assert(xi.size() % 3 == 0 && positions.size() == xi.size());
-    m_impl->services->begin("evaluate_mapping");
-    m_impl->check(m_impl->table->evaluate_mapping(m_impl->source, element, xi.size() / 3, xi.data(), positions.data()),
-                  "evaluate_mapping");
+    m_impl->call("evaluate_mapping", m_impl->table->evaluate_mapping, element, xi.size() / 3, xi.data(), positions.data());
     for (const double coordinate : positions) {
         if (!std::isfinite(coordinate)) {
             m_impl->refuse("evaluate_mapping", "a position that is not finite in element " + std::to_string(element));
@@ -207,15 +204,12 @@ void SourceVolume::sample(std::uint32_t time_step, std::uint64_t element, std::s
     const std::size_t n_points = xi.size() / 3;
     assert(values.size() == n_points * m_impl->n_values);
     if (m_impl->table->sample) {
-        m_impl->services->begin("sample");
-        m_impl->check(m_impl->table->sample(m_impl->source, time_step, element, n_points, xi.data(), values.data()), "sample");
+        m_impl->call("sample", m_impl->table->sample, time_step, element, n_points, xi.data(), values.data());
         return;
     }
     std::vector<double> positions(xi.size());
     evaluate_mapping(element, xi, positions);
-    m_impl->services->begin("sample_world");
-    m_impl->check(m_impl->table->sample_world(m_impl->source, time_step, element, n_points, positions.data(), values.data()),
-                  "sample_world");
+    m_impl->call("sample_world", m_impl->table->sample_world, time_step, element, n_points, positions.data(), values.data());
 }
 
 } // namespace elvis

@@ -39,6 +39,33 @@ SceneCamera read_camera(const JsonObject& object) {
     return camera;
 }
 
+void read_volume(const JsonObject& volume, const std::string& path, Scene& scene) {
+    scene.volume = beside(path, volume.text("path"));
+    if (volume.has("plugin")) {
+        scene.plugin = volume.text("plugin");
+    }
+    if (volume.has("options")) {
+        scene.plugin_options = volume.raw("options").dump();
+    }
+    if (volume.has("time_step")) {
+        scene.time_step = volume.integer("time_step");
+    }
+}
+
+void read_image(const JsonObject& image, const std::string& path, Scene& scene) {
+    if (image.has("size")) {
+        const std::vector<double> size = image.numbers("size");
+        scene.size = {static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1])};
+    }
+    if (image.has("background")) {
+        const std::vector<double> color = image.numbers("background");
+        std::copy(color.begin(), color.end(), scene.background.begin());
+    }
+    if (image.has("annotation")) {
+        scene.annotation = read_annotation(image, path);
+    }
+}
+
 } // namespace
 
 /** A path of the scene, seen from the working directory. */
@@ -65,17 +92,7 @@ Scene read_scene(const std::string& path) {
     root.integer("version");
     Scene scene;
     if (root.has("volume")) {
-        const JsonObject volume = root.object("volume");
-        scene.volume = beside(path, volume.text("path"));
-        if (volume.has("plugin")) {
-            scene.plugin = volume.text("plugin");
-        }
-        if (volume.has("options")) {
-            scene.plugin_options = volume.raw("options").dump();
-        }
-        if (volume.has("time_step")) {
-            scene.time_step = volume.integer("time_step");
-        }
+        read_volume(root.object("volume"), path, scene);
     }
     if (root.has("field")) {
         scene.field = root.text("field");
@@ -92,18 +109,7 @@ Scene read_scene(const std::string& path) {
         }
     }
     if (root.has("image")) {
-        const JsonObject image = root.object("image");
-        if (image.has("size")) {
-            const std::vector<double> size = image.numbers("size");
-            scene.size = {static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1])};
-        }
-        if (image.has("background")) {
-            const std::vector<double> color = image.numbers("background");
-            std::copy(color.begin(), color.end(), scene.background.begin());
-        }
-        if (image.has("annotation")) {
-            scene.annotation = read_annotation(image, path);
-        }
+        read_image(root.object("image"), path, scene);
     }
     if (root.has("color_map")) {
         scene.color_map = read_color_map(root.object("color_map"), path);

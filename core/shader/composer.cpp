@@ -7,6 +7,7 @@
 #include <core/shader/includes.hpp>
 #include <core/shader/index_checks.hpp>
 #include <core/shader/poison.hpp>
+#include <core/shader/request_records.hpp>
 #include <core/shader/snippet_check.hpp>
 
 #include <algorithm>
@@ -64,40 +65,6 @@ std::string suffix(std::size_t instance) {
     return instance == 0 ? std::string() : std::string("_").append(std::to_string(instance));
 }
 
-/** The record buffers of a request, each once, numbered as they are met. */
-class Records {
-public:
-    explicit Records(const KernelRequest& request) {
-        add_all(request.buffers);
-        for (const SnippetInstance& instance : request.instances) {
-            add_all(instance.buffers);
-            if (instance.origins != nullptr) {
-                add(instance.origins);
-            }
-        }
-    }
-
-    const std::vector<const RecordBuffer*>& all() const { return m_records; }
-
-    std::uint32_t number(const RecordBuffer* records) const {
-        return static_cast<std::uint32_t>(std::find(m_records.begin(), m_records.end(), records) - m_records.begin());
-    }
-
-private:
-    void add(const RecordBuffer* records) {
-        if (std::find(m_records.begin(), m_records.end(), records) == m_records.end()) {
-            m_records.push_back(records);
-        }
-    }
-    void add_all(const std::vector<FetchBuffer>& buffers) {
-        for (const FetchBuffer& buffer : buffers) {
-            add(buffer.records);
-        }
-    }
-
-    std::vector<const RecordBuffer*> m_records;
-};
-
 std::string header(const KernelRequest& request) {
     // Extensions must be named before the first declaration, so the kernel cannot ask for them itself. GL_GOOGLE_...: see
     // expand_includes.
@@ -136,7 +103,7 @@ IncludeResolver resolver(const Snippet& snippet) {
 /** The text of one instance and what its names need. */
 class InstanceWriter {
 public:
-    InstanceWriter(const KernelRequest& request, std::size_t index, const Records& records)
+    InstanceWriter(const KernelRequest& request, std::size_t index, const RequestRecords& records)
         : m_instance(request.instances[index]), m_host_buffers(request.buffers), m_suffix(suffix(index)),
           m_is_debug_build(request.is_debug_build), m_records(records) {
         const Snippet& snippet = m_instance.snippet;
@@ -292,14 +259,14 @@ private:
     const std::vector<FetchBuffer>& m_host_buffers;
     std::string m_suffix;
     bool m_is_debug_build;
-    const Records& m_records;
+    const RequestRecords& m_records;
     std::string m_snippet_text;
     GlslNames m_snippet_names;
     std::string m_default_text;
     GlslNames m_default_names;
 };
 
-std::string instances_text(const KernelRequest& request, const Records& records) {
+std::string instances_text(const KernelRequest& request, const RequestRecords& records) {
     std::vector<InstanceWriter> writers;
     for (std::size_t index = 0; index < request.instances.size(); ++index) {
         writers.emplace_back(request, index, records);
@@ -315,16 +282,7 @@ std::string instances_text(const KernelRequest& request, const Records& records)
     return text;
 }
 
-/** Behind the kernel's own bindings and those of the records. */
-std::uint32_t watch_binding(const KernelRequest& request, const Records& records) {
-    auto binding = static_cast<std::uint32_t>(request.bindings.size());
-    for (const RecordBuffer* buffer : records.all()) {
-        binding += buffer->n_parts();
-    }
-    return binding;
-}
-
-std::string compose(const Device* device, const KernelRequest& request, const Records& records) {
+std::string compose(const Device* device, const KernelRequest& request, const RequestRecords& records) {
     assert(device || records.all().empty());
     std::string text = header(request);
     for (const std::string_view file : common_files) {
@@ -355,112 +313,16 @@ std::string compose(const Device* device, const KernelRequest& request, const Re
     }
     constexpr const char* watched_main = "arithmetic/watched_main.glsl";
     return text + "#define main core_kernel_main\n" + expand_includes(kernel, request.kernel, shader_source) +
-           "\n#undef main\n" + "#define CORE_WATCH_BINDING " + std::to_string(watch_binding(request, records)) + "\n" +
+           "\n#undef main\n" + "#define CORE_WATCH_BINDING " + std::to_string(records.watch_binding()) + "\n" +
            expand_includes(shader_source(watched_main), watched_main, shader_source);
-}
-
-/** Descriptors of the record buffers: all parts of all buffers, behind the kernel's own bindings. */
-std::vector<BoundBuffer> record_bindings(const KernelRequest& request, const Records& records) {
-    std::vector<BoundBuffer> bound;
-    auto binding = static_cast<std::uint32_t>(request.bindings.size());
-    for (const RecordBuffer* buffer : records.all()) {
-        for (std::uint32_t part = 0; part < buffer->n_parts(); ++part) {
-            bound.push_back({binding++, nullptr, buffer, part});
-        }
-    }
-    return bound;
-}
-
-Kernel make_kernel(const Device& device, const KernelRequest& request) {
-    if (request.precision == Precision::float64 && !device.summary().has_float64) {
-        throw Error("device '" + device.summary().name + "'", "it has no double precision; use --precision float32");
-    }
-    const Records records(request);
-    std::vector<BindingLayout> layout = request.bindings;
-    for (const BoundBuffer& bound : record_bindings(request, records)) {
-        layout.push_back(
-            {bound.binding, device.uses_texel_buffers() ? BindingType::texel_buffer : BindingType::storage_buffer});
-    }
-    if (request.watches_loops) {
-        layout.push_back({watch_binding(request, records), BindingType::storage_buffer});
-    }
-    const auto spirv = compile_shader(compose(&device, request, records), request.name);
-    return Kernel(device, spirv, std::move(layout), request.push_constant_bytes, request.name);
-}
-
-/** Each once: "snippet 'my_solver' (hexahedron.glsl)". */
-std::string snippet_names(const KernelRequest& request) {
-    std::string names;
-    for (const SnippetInstance& instance : request.instances) {
-        const std::string name = "snippet '" + instance.snippet.prefix + "' (" + instance.snippet.sources.front().name + ")";
-        if (names.find(name) == std::string::npos) {
-            names += (names.empty() ? "" : ", ") + name;
-        }
-    }
-    return names;
 }
 
 } // namespace
 
-ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request)
-    : m_kernel(make_kernel(device, request)), m_name(request.name), m_snippets(snippet_names(request)),
-      m_records(record_bindings(request, Records(request))), m_n_bindings(request.bindings.size()) {
-    if (request.watches_loops) {
-        m_watch.emplace(Watch{watch_binding(request, Records(request)), Buffer(device, sizeof(std::uint32_t))});
-        m_watch->is_cut_short.fill(0);
-    }
-}
-
-template <class Call> void ComposedKernel::watched(const Call& call) const {
-    const std::string evaluates = m_snippets.empty() ? "" : " [the kernel evaluates the plugin's " + m_snippets + "; ";
-    try {
-        call();
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        // A lost device is most often a snippet's endless loop or a fetch beyond a record.
-        if (m_snippets.empty()) {
-            throw;
-        }
-        throw Error(error.place(), error.cause() + evaluates + "elvis check-plugin looks for endless loops there]");
-    }
-    if (m_watch && m_watch->is_cut_short.read_items<std::uint32_t>(1).front() != 0) {
-        m_watch->is_cut_short.fill(0);
-        throw Error("kernel '" + m_name + "'",
-                    "the driver has ended its loops early: nothing of it is to be trusted" +
-                        (m_snippets.empty() ? ""
-                                            : evaluates + "drivers may grant all loops of an invocation "
-                                                          "65535 iterations, which high orders use up]"));
-    }
-}
-
-void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
-                              std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
-    watched([&] { m_kernel.dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
-}
-
-void ComposedKernel::dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings,
-                                   std::span<const std::byte> push_constants, std::uint32_t groups_x,
-                                   std::uint32_t groups_y) const {
-    watched([&] { m_kernel.dispatch_from({first[0], first[1], 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
-}
-
-std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {
-    assert(bindings.size() == m_n_bindings);
-    std::vector<BoundBuffer> all = m_records;
-    for (std::uint32_t binding = 0; binding < bindings.size(); ++binding) {
-        all.push_back({binding, bindings[binding], nullptr, 0});
-    }
-    if (m_watch) {
-        all.push_back({m_watch->binding, &m_watch->is_cut_short, nullptr, 0});
-    }
-    return all;
-}
-
 std::string compose_text(const Device& device, const KernelRequest& request) {
-    return compose(&device, request, Records(request));
+    return compose(&device, request, RequestRecords(request));
 }
 
-std::string compose_text(const KernelRequest& request) { return compose(nullptr, request, Records(request)); }
+std::string compose_text(const KernelRequest& request) { return compose(nullptr, request, RequestRecords(request)); }
 
 } // namespace elvis

@@ -153,6 +153,23 @@ std::vector<FieldParameters> read_fields(const JsonObject& root) {
     return fields;
 }
 
+void read_box(const JsonObject& root, Parameters& p) {
+    const json& box = root.take("box");
+    bool valid = box.is_array() && box.size() == 2;
+    for (std::size_t end = 0; valid && end < 2; ++end) {
+        valid = box[end].is_array() && box[end].size() == 3;
+        for (std::size_t d = 0; valid && d < 3; ++d) {
+            valid = box[end][d].is_number();
+            if (valid)
+                p.box[end][d] = box[end][d].get<double>();
+        }
+    }
+    for (std::size_t d = 0; valid && d < 3; ++d)
+        valid = std::isfinite(p.box[0][d]) && std::isfinite(p.box[1][d]) && p.box[0][d] < p.box[1][d];
+    if (!valid)
+        root.fail("box", "must be [[x0, y0, z0], [x1, y1, z1]] with x0 < x1, y0 < y1, z0 < z1");
+}
+
 void read_mesh(const JsonObject& root, Parameters& p) {
     p.mesh = root.choice("mesh", meshes);
     const bool twisted = p.mesh == MeshKind::twisted_tetrahedron;
@@ -166,20 +183,7 @@ void read_mesh(const JsonObject& root, Parameters& p) {
     if (root.has("box")) {
         if (!boxed)
             root.fail("box", "belongs to the meshes box and waves only");
-        const json& box = root.take("box");
-        bool valid = box.is_array() && box.size() == 2;
-        for (std::size_t end = 0; valid && end < 2; ++end) {
-            valid = box[end].is_array() && box[end].size() == 3;
-            for (std::size_t d = 0; valid && d < 3; ++d) {
-                valid = box[end][d].is_number();
-                if (valid)
-                    p.box[end][d] = box[end][d].get<double>();
-            }
-        }
-        for (std::size_t d = 0; valid && d < 3; ++d)
-            valid = std::isfinite(p.box[0][d]) && std::isfinite(p.box[1][d]) && p.box[0][d] < p.box[1][d];
-        if (!valid)
-            root.fail("box", "must be [[x0, y0, z0], [x1, y1, z1]] with x0 < x1, y0 < y1, z0 < z1");
+        read_box(root, p);
     }
 
     if (twisted)

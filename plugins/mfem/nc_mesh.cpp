@@ -252,6 +252,38 @@ std::vector<Point> positions(const Text& text, const Tree& tree) {
     return result;
 }
 
+/** `vertex_of` a node, or -1. */
+void add_boundary(const Tree& tree, std::span<const std::int32_t> vertex_of, Mesh& mesh) {
+    for (BoundaryElement element : tree.boundary) {
+        bool is_known = true;
+        for (std::int32_t& vertex : element.vertices) {
+            if (vertex >= 0) {
+                const auto node = static_cast<std::size_t>(vertex);
+                vertex = node < vertex_of.size() ? vertex_of[node] : -1;
+                is_known = is_known && vertex >= 0;
+            }
+        }
+        // Faces of refined elements may be listed beside those of their children.
+        if (is_known) {
+            mesh.boundary.push_back(element);
+        }
+    }
+}
+
+void add_coordinates(const Text& text, const Tree& tree, std::span<const std::int32_t> vertex_of, Mesh& mesh) {
+    const std::vector<Point> at = positions(text, tree);
+    mesh.coordinates.resize(3 * mesh.n_vertices);
+    for (std::size_t node = 0; node < vertex_of.size(); ++node) {
+        if (vertex_of[node] < 0) {
+            continue;
+        }
+        if (node >= at.size() || !std::isfinite(at[node][0] + at[node][1] + at[node][2])) {
+            text.fail("vertex " + std::to_string(node) + " has neither coordinates nor parents");
+        }
+        std::ranges::copy(at[node], mesh.coordinates.begin() + 3 * static_cast<std::ptrdiff_t>(vertex_of[node]));
+    }
+}
+
 /** The mesh of the leaves: vertices that the files give coordinates come first, others as the leaves meet them. */
 Mesh flatten(const Text& text, const Tree& tree) {
     Mesh mesh;
@@ -291,33 +323,9 @@ Mesh flatten(const Text& text, const Tree& tree) {
         mesh.elements.push_back(element);
     }
     mesh.n_vertices = static_cast<std::size_t>(n_vertices);
-    for (BoundaryElement element : tree.boundary) {
-        bool is_known = true;
-        for (std::int32_t& vertex : element.vertices) {
-            if (vertex >= 0) {
-                const auto node = static_cast<std::size_t>(vertex);
-                vertex = node < n_nodes ? vertex_of[node] : -1;
-                is_known = is_known && vertex >= 0;
-            }
-        }
-        // Faces of refined elements may be listed beside those of their children.
-        if (is_known) {
-            mesh.boundary.push_back(element);
-        }
-    }
-    if (tree.coordinates.empty()) {
-        return mesh;
-    }
-    const std::vector<Point> at = positions(text, tree);
-    mesh.coordinates.resize(3 * mesh.n_vertices);
-    for (std::size_t node = 0; node < vertex_of.size(); ++node) {
-        if (vertex_of[node] < 0) {
-            continue;
-        }
-        if (node >= at.size() || !std::isfinite(at[node][0] + at[node][1] + at[node][2])) {
-            text.fail("vertex " + std::to_string(node) + " has neither coordinates nor parents");
-        }
-        std::ranges::copy(at[node], mesh.coordinates.begin() + 3 * static_cast<std::ptrdiff_t>(vertex_of[node]));
+    add_boundary(tree, vertex_of, mesh);
+    if (!tree.coordinates.empty()) {
+        add_coordinates(text, tree, vertex_of, mesh);
     }
     return mesh;
 }

@@ -233,20 +233,26 @@ std::vector<LatticePoint> nodes_of(const CellKind& kind) {
     }
 }
 
+/** r, s, t of VTK in [0,1]. */
+std::array<double, 3> vtk_coordinates(const CellKind& kind, const double* xi) {
+    const std::array<double, 3> r{0.5 * (1 + xi[0]), 0.5 * (1 + xi[1]), 0.5 * (1 + xi[2])};
+    if (kind.shape == ELVIS_SHAPE_PRISM) {
+        return kind.is_mirrored ? std::array<double, 3>{r[2], r[0], r[1]} : std::array<double, 3>{r[0], r[2], r[1]};
+    }
+    if (kind.shape == ELVIS_SHAPE_PYRAMID) {
+        // Collapsed coordinates; at the apex all functions but the apex's own vanish, whatever r and s.
+        const double width = 1 - r[2];
+        return width > 0 ? std::array<double, 3>{r[0] / width, r[1] / width, r[2]} : std::array<double, 3>{0, 0, 1};
+    }
+    return r;
+}
+
 } // namespace
 
 Basis::Basis(const CellKind& kind) : m_kind(kind), m_size(n_nodes(kind)), m_nodes(nodes_of(kind)) {}
 
 void Basis::evaluate(const double* xi, std::span<double> values) const {
-    // r, s, t of VTK in [0,1].
-    std::array<double, 3> r{0.5 * (1 + xi[0]), 0.5 * (1 + xi[1]), 0.5 * (1 + xi[2])};
-    if (m_kind.shape == ELVIS_SHAPE_PRISM) {
-        r = m_kind.is_mirrored ? std::array<double, 3>{r[2], r[0], r[1]} : std::array<double, 3>{r[0], r[2], r[1]};
-    } else if (m_kind.shape == ELVIS_SHAPE_PYRAMID) {
-        // Collapsed coordinates; at the apex all functions but the apex's own vanish, whatever r and s.
-        const double width = 1 - r[2];
-        r = width > 0 ? std::array<double, 3>{r[0] / width, r[1] / width, r[2]} : std::array<double, 3>{0, 0, 1};
-    }
+    const std::array<double, 3> r = vtk_coordinates(m_kind, xi);
     const std::array<double, 3> x{2 * r[0] - 1, 2 * r[1] - 1, 2 * r[2] - 1};
     const std::array<double, 3> in_triangle{1 - r[0] - r[1], r[0], r[1]};
     switch (m_kind.family) {

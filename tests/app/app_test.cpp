@@ -264,8 +264,10 @@ TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with
     CHECK(hits(R"({"type": "isosurface", "values": [50]})") == 0);
 }
 
-TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
-    const Workplace place;
+namespace {
+
+/** Scenes, transfer functions and volumes, most with a mistake. */
+void write_bad_input(const Workplace& place) {
     place.write("unknown_key.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "colour_map": {"name": "viridis"}})");
     const auto annotation = [&](const std::string& name, const std::string& value) {
         place.write(name, R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"annotation": )" + value + "}}");
@@ -295,62 +297,71 @@ TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
     place.write("broken.json", "{\"version\": 1,\n \"volume\": }");
     place.write("bad_field.json", R"({"generator": 1, "mesh": "box", "fields": "sphere", "shpae": "prism"})");
     place.write("not_a_volume.h5", "this is no HDF5 file");
-    const struct {
-        const char* arguments;
-        int status;
-        const char* says;
-    } cases[] = {
-        {"rendr ball.h5 -o x.png", 2, "render"},
-        {"render ball.h5 --boundary lid -o x.png", 1, "sphere"},
-        {"render ball.h5 --boundary all -o x.png", 1, "Without a name, the whole boundary is drawn"},
-        {"render missing.h5 -o x.png", 1, "missing.h5"},
-        {"render not_a_volume.h5 -o x.png", 1, "not_a_volume.h5"},
-        {"render ball.json -o x.png", 1, "elvis convert"},
-        {"render ball.h5 --field temperature -o x.png", 1, "sphere"},
-        {"render ball.h5 --field 'sphere[3]' -o x.png", 1, "components"},
-        {"render ball.h5 --field 'norm(curl(velocty))' -o x.png", 1,
-         "column 11: 'velocty' is unknown; the nearest name is 'velocity'"},
-        {"probe ball.h5 --point 0,0,0 --field 'sphere +'", 1, "column 9: the text ends where a value is expected"},
-        {"render unknown_key.json -o x.png", 1, "color_map"},
-        {"render annotation_key.json -o x.png", 1, "'image.annotation.titel' is unknown; the nearest known key is 'title'"},
-        {"render annotation_word.json -o x.png", 1, "'image.annotation' is \"all\"; allowed are"},
-        {"render annotation_number.json -o x.png", 1, "image.annotation"},
-        {"render annotation_flag.json -o x.png", 1, "true or false"},
-        {"render annotation_font.json -o x.png", 1, "missing.ttf"},
-        {"render ball.h5 --annotation some -o x.png", 2, "--annotation"},
-        {"render light_key.json -o x.png", 1, "'lighting.ambiant' is unknown; the nearest known key is 'ambient'"},
-        {"render light_kind.json -o x.png", 1, "'lighting.lights[0].direction' means nothing"},
-        {"render light_nowhere.json -o x.png", 1, "'lighting.lights[0].direction' has length zero"},
-        {"render light_negative.json -o x.png", 1, "'lighting.headlight' is -0.5; it must be at least 0"},
-        {"render volume_key.json -o x.png", 1, "'volume_rendering.desnity' is unknown; the nearest known key is 'density'"},
-        {"render volume_both.json -o x.png", 1, "'volume_rendering.density' means nothing beside 'transfer'"},
-        {"render volume_field.json -o x.png", 1, "velocty"},
-        {"render volume_file.json -o x.png", 1, "missing.json"},
-        {"render ball.h5 --volume levels.json -o x.png", 1, "levels.json: 'density[1]' is -2; it must be at least 0"},
-        {"render ball.h5 --volume preset.json -o x.png", 1, "preset.json: has no list Points"},
-        {"render ball.h5 --volume missing.json -o x.png", 1, "missing.json: cannot be read"},
-        {"render ball.h5 --integrator exact -o x.png", 2, "--integrator: means nothing without --volume"},
-        {"render ball.h5 --volume default --integrator simpson -o x.png", 2, "adaptive-trapezoid"},
-        {"render ball.h5 --volume default --volume-step 0.1 -o x.png", 2, "--volume-step: is of the integrators riemann"},
-        {"render ball.h5 --volume default --volume-step 0 --integrator riemann -o x.png", 2, "--volume-step"},
-        {"render ball.h5 --volume good_levels.json --volume-tolerance 0.1 --integrator riemann -o x.png", 2,
-         "--volume-tolerance"},
-        {"render broken.json -o x.png", 1, "broken.json:2"},
-        {"render ball.h5 --size 0x10 -o x.png", 2, "--size"},
-        {"render ball.h5 --cut-plane 0,0,0,1 -o x.png", 2, "--cut-plane"},
-        {"render ball.h5 --cut-plane 1,0,x,1 -o x.png", 2, "--cut-plane"},
-        {"render ball.h5 --device nonsense -o x.png", 1, "nonsense"},
-        {"render ball.h5 --time-step 7 -o x.png", 1, "time step"},
-        {"render ball.h5 --color-map nonsense -o x.png", 1, "viridis"},
-        {"render ball.h5 --size 16x16 -o no/such/folder/x.png", 1, "no/such/folder/x.png"},
-        {"convert missing.dat -o x.h5", 1, "missing.dat"},
-        {"convert bad_field.json -o x.h5", 1, "shape"},
-        {"convert ball.json -o no/such/folder/x.h5", 1, "no/such/folder/x.h5"},
-        {"convert ball.json -o x.h5 --fields nothing", 1, "nothing"},
-        {"info not_a_volume.h5", 1, "not_a_volume.h5"},
-        {"nonsense", 2, ""},
-    };
-    for (const auto& bad : cases) {
+}
+
+struct BadCommand {
+    const char* arguments;
+    int status;
+    const char* says;
+};
+
+constexpr BadCommand bad_commands[] = {
+    {"rendr ball.h5 -o x.png", 2, "render"},
+    {"render ball.h5 --boundary lid -o x.png", 1, "sphere"},
+    {"render ball.h5 --boundary all -o x.png", 1, "Without a name, the whole boundary is drawn"},
+    {"render missing.h5 -o x.png", 1, "missing.h5"},
+    {"render not_a_volume.h5 -o x.png", 1, "not_a_volume.h5"},
+    {"render ball.json -o x.png", 1, "elvis convert"},
+    {"render ball.h5 --field temperature -o x.png", 1, "sphere"},
+    {"render ball.h5 --field 'sphere[3]' -o x.png", 1, "components"},
+    {"render ball.h5 --field 'norm(curl(velocty))' -o x.png", 1,
+     "column 11: 'velocty' is unknown; the nearest name is 'velocity'"},
+    {"probe ball.h5 --point 0,0,0 --field 'sphere +'", 1, "column 9: the text ends where a value is expected"},
+    {"render unknown_key.json -o x.png", 1, "color_map"},
+    {"render annotation_key.json -o x.png", 1, "'image.annotation.titel' is unknown; the nearest known key is 'title'"},
+    {"render annotation_word.json -o x.png", 1, "'image.annotation' is \"all\"; allowed are"},
+    {"render annotation_number.json -o x.png", 1, "image.annotation"},
+    {"render annotation_flag.json -o x.png", 1, "true or false"},
+    {"render annotation_font.json -o x.png", 1, "missing.ttf"},
+    {"render ball.h5 --annotation some -o x.png", 2, "--annotation"},
+    {"render light_key.json -o x.png", 1, "'lighting.ambiant' is unknown; the nearest known key is 'ambient'"},
+    {"render light_kind.json -o x.png", 1, "'lighting.lights[0].direction' means nothing"},
+    {"render light_nowhere.json -o x.png", 1, "'lighting.lights[0].direction' has length zero"},
+    {"render light_negative.json -o x.png", 1, "'lighting.headlight' is -0.5; it must be at least 0"},
+    {"render volume_key.json -o x.png", 1, "'volume_rendering.desnity' is unknown; the nearest known key is 'density'"},
+    {"render volume_both.json -o x.png", 1, "'volume_rendering.density' means nothing beside 'transfer'"},
+    {"render volume_field.json -o x.png", 1, "velocty"},
+    {"render volume_file.json -o x.png", 1, "missing.json"},
+    {"render ball.h5 --volume levels.json -o x.png", 1, "levels.json: 'density[1]' is -2; it must be at least 0"},
+    {"render ball.h5 --volume preset.json -o x.png", 1, "preset.json: has no list Points"},
+    {"render ball.h5 --volume missing.json -o x.png", 1, "missing.json: cannot be read"},
+    {"render ball.h5 --integrator exact -o x.png", 2, "--integrator: means nothing without --volume"},
+    {"render ball.h5 --volume default --integrator simpson -o x.png", 2, "adaptive-trapezoid"},
+    {"render ball.h5 --volume default --volume-step 0.1 -o x.png", 2, "--volume-step: is of the integrators riemann"},
+    {"render ball.h5 --volume default --volume-step 0 --integrator riemann -o x.png", 2, "--volume-step"},
+    {"render ball.h5 --volume good_levels.json --volume-tolerance 0.1 --integrator riemann -o x.png", 2, "--volume-tolerance"},
+    {"render broken.json -o x.png", 1, "broken.json:2"},
+    {"render ball.h5 --size 0x10 -o x.png", 2, "--size"},
+    {"render ball.h5 --cut-plane 0,0,0,1 -o x.png", 2, "--cut-plane"},
+    {"render ball.h5 --cut-plane 1,0,x,1 -o x.png", 2, "--cut-plane"},
+    {"render ball.h5 --device nonsense -o x.png", 1, "nonsense"},
+    {"render ball.h5 --time-step 7 -o x.png", 1, "time step"},
+    {"render ball.h5 --color-map nonsense -o x.png", 1, "viridis"},
+    {"render ball.h5 --size 16x16 -o no/such/folder/x.png", 1, "no/such/folder/x.png"},
+    {"convert missing.dat -o x.h5", 1, "missing.dat"},
+    {"convert bad_field.json -o x.h5", 1, "shape"},
+    {"convert ball.json -o no/such/folder/x.h5", 1, "no/such/folder/x.h5"},
+    {"convert ball.json -o x.h5 --fields nothing", 1, "nothing"},
+    {"info not_a_volume.h5", 1, "not_a_volume.h5"},
+    {"nonsense", 2, ""},
+};
+
+} // namespace
+
+TEST_CASE("Bad input gets one clear line, a non-zero status and no file") {
+    const Workplace place;
+    write_bad_input(place);
+    for (const BadCommand& bad : bad_commands) {
         INFO(bad.arguments);
         const Outcome outcome = place.run(bad.arguments);
         INFO(outcome.err);

@@ -73,4 +73,21 @@ private:
     std::uniform_real_distribution<double> m_uniform{-1.0, 1.0};
 };
 
+/** Three components with coefficients in [-1, 1]; continuous at the apex of tensor pyramids. */
+inline std::vector<double> random_mapping(const Space& space, Points& points) {
+    std::vector<double> result;
+    for (int i = 0; i < 3; ++i) {
+        std::vector<double> part = points.coefficients(space);
+        if (space.basis == Basis::tensor) {
+            const std::size_t n2 = space.order[1] + 1, n3 = space.order[2] + 1;
+            const double apex = part[1];
+            for (std::size_t p = 0; p <= space.order[0]; ++p)
+                for (std::size_t q = 0; q < n2; ++q)
+                    part[(p * n2 + q) * n3 + 1] = p < 2 && q < 2 ? apex : 0;
+        }
+        result.insert(result.end(), part.begin(), part.end());
+    }
+    return result;
+}
+
 } // namespace elvis::native

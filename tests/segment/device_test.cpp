@@ -115,6 +115,51 @@ void main() {
 
 template <class Real> const char* name() { return sizeof(Real) == 8 ? "float64" : "float32"; }
 
+/** Polynomials at the edges of what can be told. */
+template <class Real> std::vector<std::array<Real, max_degree + 1>> special_polynomials() {
+    constexpr Real nan = std::numeric_limits<Real>::quiet_NaN(), small = 4 * roundoff<Real>;
+    return {
+        {nan, nan, nan},
+        // Constant; stops just below a value, just above; starts there; touches in the middle, nearly.
+        {Real(0.5)},
+        {-small, Real(0.5)},
+        {small, Real(0.5)},
+        {1 + small, Real(0.5)},
+        {1 - small, Real(0.5)},
+        {Real(0.125), 0, Real(0.125)},
+        {Real(0.125) + small, 0, Real(0.125)},
+        {Real(0.125) - small, 0, Real(0.125)},
+    };
+}
+
+/** What the device found of crossings, compared with the CPU. */
+struct CrossingDifferences {
+    std::size_t n_found = 0;
+    /** Polynomials of other intervals or kinds. */
+    std::size_t n_differing = 0;
+    /** Of the rest, in the polynomial's value: what rounding moves a root is the more the flatter the polynomial. In units of
+     * the stated rounding. */
+    double worst = 0;
+
+    template <class Real> void add(const Polynomial<Real>& bernstein, Real rounding, const Real* found) {
+        const std::vector<Real> values{Real(-0.25), 0, Real(0.5)};
+        Isolation isolation;
+        bool differs = false;
+        double largest = 0;
+        for (std::size_t k = 0; k < n_crossings; ++k, found += 4) {
+            const auto crossing = next_crossing<Real>(bernstein, rounding, values, isolation);
+            n_found += crossing.kind != CrossingKind::none ? 1 : 0;
+            differs = differs || found[0] != static_cast<Real>(crossing.kind) ||
+                      found[1] != static_cast<Real>(crossing.index) || found[3] != crossing.upper - crossing.lower;
+            const double moved =
+                std::abs(static_cast<double>(bernstein_value(bernstein, found[2]) - bernstein_value(bernstein, crossing.t)));
+            largest = std::max(largest, moved / static_cast<double>(rounding));
+        }
+        n_differing += differs ? 1 : 0;
+        worst = std::max(worst, differs ? 0 : largest);
+    }
+};
+
 } // namespace
 
 TEMPLATE_TEST_CASE("The Bernstein form on the device is that on the CPU", "", float, double) {
@@ -171,23 +216,11 @@ TEMPLATE_TEST_CASE("The Bernstein form on the device is that on the CPU", "", fl
 }
 
 TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, double) {
-    const std::vector<TestType> values{TestType(-0.25), 0, TestType(0.5)};
     const std::size_t n_results = 4 * n_crossings + 1;
-    constexpr TestType nan = std::numeric_limits<TestType>::quiet_NaN(), small = 4 * roundoff<TestType>;
-    const std::vector<std::array<TestType, max_degree + 1>> special{
-        {nan, nan, nan},
-        // Constant; stops just below a value, just above; starts there; touches in the middle, nearly.
-        {TestType(0.5)},
-        {-small, TestType(0.5)},
-        {small, TestType(0.5)},
-        {1 + small, TestType(0.5)},
-        {1 - small, TestType(0.5)},
-        {TestType(0.125), 0, TestType(0.125)},
-        {TestType(0.125) + small, 0, TestType(0.125)},
-        {TestType(0.125) - small, 0, TestType(0.125)},
-    };
-    double worst = 0, worst_root = 0;
-    std::size_t n_found = 0, n_differing = 0, n_roots = 0;
+    const auto special = special_polynomials<TestType>();
+    CrossingDifferences differences;
+    double worst_root = 0;
+    std::size_t n_roots = 0;
     for (const int degree : {2, 5, 8}) {
         test::Random random(9);
         std::vector<TestType> given;
@@ -210,23 +243,7 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
         CHECK(results[4 * n_results + 2] == 0);
         for (std::uint32_t i = 1; i < n_trials; ++i) {
             const Polynomial<TestType> p = to_bernstein(polynomials[i]);
-            Isolation isolation;
-            bool differs = false;
-            double largest = 0;
-            for (std::size_t k = 0; k < n_crossings; ++k) {
-                const TestType* const result = &results[i * n_results + 4 * k];
-                const auto crossing = next_crossing<TestType>(p, bernstein_rounding(polynomials[i]), values, isolation);
-                n_found += crossing.kind != CrossingKind::none ? 1 : 0;
-                differs = differs || result[0] != static_cast<TestType>(crossing.kind) ||
-                          result[1] != static_cast<TestType>(crossing.index) || result[3] != crossing.upper - crossing.lower;
-                // What rounding moves a root is the more the flatter the polynomial: in units of value.
-                const double moved =
-                    std::abs(static_cast<double>(bernstein_value(p, result[2]) - bernstein_value(p, crossing.t)));
-                largest = std::max(largest, moved / static_cast<double>(bernstein_rounding(polynomials[i])));
-            }
-            n_differing += differs ? 1 : 0;
-            worst = std::max(worst, differs ? 0 : largest);
-
+            differences.add(p, bernstein_rounding(polynomials[i]), &results[i * n_results]);
             Polynomial<double> exact{degree, {}};
             std::copy(polynomials[i].c.begin(), polynomials[i].c.end(), exact.c.begin());
             const std::vector<double> roots = roots_by_colleague(exact, 0.5);
@@ -237,17 +254,17 @@ TEMPLATE_TEST_CASE("Crossings on the device are those on the CPU", "", float, do
                 const double value = std::abs(chebyshev_value(exact, root) - 0.5);
                 worst_root = std::max(worst_root, value);
             } else if (i >= special.size()) {
-                n_differing += roots.empty() == (root > 1) ? 0 : 1;
+                differences.n_differing += roots.empty() == (root > 1) ? 0 : 1;
             }
         }
     }
-    std::cout << "crossings, device and CPU, " << name<TestType>() << ": " << n_found << ", " << n_differing
-              << " polynomials of other intervals or kinds; largest difference " << worst
+    std::cout << "crossings, device and CPU, " << name<TestType>() << ": " << differences.n_found << ", "
+              << differences.n_differing << " polynomials of other intervals or kinds; largest difference " << differences.worst
               << " of the stated rounding, in the polynomial's value; colleague matrix: " << n_roots
               << " roots, largest residual " << worst_root << '\n';
-    CHECK(n_found > n_trials);
-    CHECK(n_differing <= 3);
-    CHECK(worst < 1);
+    CHECK(differences.n_found > n_trials);
+    CHECK(differences.n_differing <= 3);
+    CHECK(differences.worst < 1);
     CHECK(n_roots > n_trials / 4);
     CHECK(worst_root < (sizeof(TestType) == 8 ? 1e-12 : 1e-3));
 }

@@ -68,6 +68,39 @@ nlohmann::ordered_json run_combined(const Bench& bench) {
     return list;
 }
 
+namespace {
+
+nlohmann::ordered_json to_json(const ConvergenceRow& row) {
+    return {{"figure", row.figure},
+            {"scene", row.scene},
+            {"curve", row.curve},
+            {"step", row.step},
+            {"tolerance", row.tolerance},
+            {"order", row.order},
+            {"size", row.size},
+            {"samples_a_pixel", row.samples_a_pixel},
+            {"milliseconds", row.milliseconds},
+            {"error", row.error},
+            {"inexact_share", row.inexact_share}};
+}
+
+nlohmann::ordered_json to_json(const ComparisonRow& row) {
+    return {{"scene", row.scene},
+            {"transfer", row.transfer},
+            {"integrator", row.curve},
+            {"step", row.step},
+            {"tolerance", row.tolerance},
+            {"is_missed", row.is_missed},
+            {"error", row.error},
+            {"samples_a_pixel", row.samples_a_pixel},
+            {"milliseconds", row.milliseconds},
+            {"inexact_share", row.inexact_share},
+            {"fewer_samples", row.fewer_samples},
+            {"less_time", row.less_time}};
+}
+
+} // namespace
+
 nlohmann::ordered_json run_volume_convergence(const Bench& bench) {
     const BenchArguments& arguments = bench.arguments;
     VolumeConvergenceOptions options;
@@ -79,17 +112,7 @@ nlohmann::ordered_json run_volume_convergence(const Bench& bench) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array(), orders = rows, comparison = rows;
     VolumeConvergenceReport report;
     report.row = [&](const ConvergenceRow& row) {
-        rows.push_back({{"figure", row.figure},
-                        {"scene", row.scene},
-                        {"curve", row.curve},
-                        {"step", row.step},
-                        {"tolerance", row.tolerance},
-                        {"order", row.order},
-                        {"size", row.size},
-                        {"samples_a_pixel", row.samples_a_pixel},
-                        {"milliseconds", row.milliseconds},
-                        {"error", row.error},
-                        {"inexact_share", row.inexact_share}});
+        rows.push_back(to_json(row));
         if (row.figure != "6.1") {
             say(arguments,
                 "%-4s %-14s %-18s step %-9.3g tolerance %-7.1g p%-2u %4u^2  %8.1f samples a pixel %9.1f ms  error %.3g, "
@@ -104,18 +127,7 @@ nlohmann::ordered_json run_volume_convergence(const Bench& bench) {
             order.order);
     };
     report.comparison = [&](const ComparisonRow& row) {
-        comparison.push_back({{"scene", row.scene},
-                              {"transfer", row.transfer},
-                              {"integrator", row.curve},
-                              {"step", row.step},
-                              {"tolerance", row.tolerance},
-                              {"is_missed", row.is_missed},
-                              {"error", row.error},
-                              {"samples_a_pixel", row.samples_a_pixel},
-                              {"milliseconds", row.milliseconds},
-                              {"inexact_share", row.inexact_share},
-                              {"fewer_samples", row.fewer_samples},
-                              {"less_time", row.less_time}});
+        comparison.push_back(to_json(row));
         say(arguments,
             "to 0.001: %-7s %-6s %-11s %s %-9.3g error %-9.3g%s %8.1f samples a pixel (%.2f times fewer) %9.1f ms (%.2f times "
             "less), inexact %.4f\n",

@@ -88,6 +88,28 @@ void run(const BenchArguments& arguments) {
     }
 }
 
+void add_accuracy(CLI::App& command, BenchArguments::Accuracy& accuracy) {
+    command.add_option("--count", accuracy.count, "Of the suite accuracy: number of random fields")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--seed", accuracy.seed, "Of its first field; the others follow")->capture_default_str();
+    command.add_option("--size", accuracy.size, "Side of its pictures in pixels")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command
+        .add_option("--precision", accuracy.precisions,
+                    "Of its pictures: float32, float64 or both; none: the exact renderer alone")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"float32", "float64", "none"}));
+    command
+        .add_option("--finder-stride", accuracy.finder_stride,
+                    "The exact renderer's ways are compared on every so many rays; 0: not at all")
+        ->capture_default_str();
+    command.add_option("--method", accuracy.method, "How its crossings are found")
+        ->check(CLI::IsMember({"interval", "bernstein", "companion"}))
+        ->capture_default_str();
+}
+
 } // namespace
 
 void say(const BenchArguments& arguments, const char* format, ...) {
@@ -137,26 +159,7 @@ void add_bench(CLI::App& app) {
         ->delimiter(',');
     command->add_option("--output", arguments->output,
                         "Folder for CSV files and plots of the suites surfaces, projection and volume-convergence");
-    BenchArguments::Accuracy& accuracy = arguments->accuracy;
-    command->add_option("--count", accuracy.count, "Of the suite accuracy: number of random fields")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    command->add_option("--seed", accuracy.seed, "Of its first field; the others follow")->capture_default_str();
-    command->add_option("--size", accuracy.size, "Side of its pictures in pixels")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    command
-        ->add_option("--precision", accuracy.precisions,
-                     "Of its pictures: float32, float64 or both; none: the exact renderer alone")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"float32", "float64", "none"}));
-    command
-        ->add_option("--finder-stride", accuracy.finder_stride,
-                     "The exact renderer's ways are compared on every so many rays; 0: not at all")
-        ->capture_default_str();
-    command->add_option("--method", accuracy.method, "How its crossings are found")
-        ->check(CLI::IsMember({"interval", "bernstein", "companion"}))
-        ->capture_default_str();
+    add_accuracy(*command, arguments->accuracy);
     command->callback([arguments, command] {
         arguments->names_elements = command->count("--elements") > 0;
         arguments->names_orders = command->count("--orders") > 0;

@@ -85,9 +85,10 @@ ordered_json to_json(const CheckResult& result) {
         {"seconds", result.seconds}};
 }
 
-void run(const Arguments& arguments) {
+/** All where no names are given. */
+std::vector<const Check*> wanted_checks(const std::vector<std::string>& names) {
     std::vector<const Check*> wanted;
-    for (const std::string& name : arguments.checks) {
+    for (const std::string& name : names) {
         wanted.push_back(&need_check(name));
     }
     if (wanted.empty()) {
@@ -95,6 +96,11 @@ void run(const Arguments& arguments) {
             wanted.push_back(&check);
         }
     }
+    return wanted;
+}
+
+void run(const Arguments& arguments) {
+    const std::vector<const Check*> wanted = wanted_checks(arguments.checks);
     if (!std::filesystem::exists(arguments.subject.library)) {
         throw Error(arguments.subject.library, "there is no such library");
     }

@@ -148,93 +148,118 @@ void run(const RenderArguments& arguments) {
     }
 }
 
+void add_surfaces(CLI::App& command, RenderArguments& a) {
+    command.add_option("input", a.input, "Scene file (JSON) or volume");
+    command.add_option("-o,--output", a.output, "Picture to write (PNG), or folder for those of an animation");
+    command.add_option("--field", a.field,
+                       "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
+    command.add_option("--cut-plane", a.cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
+        ->allow_extra_args(false);
+    command
+        .add_option("--boundary", a.boundary_groups, "The whole boundary; with a name, that group of it only; may be repeated")
+        ->expected(0, 1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--isosurface", a.isovalues, "Value of the field where a surface is drawn; may be repeated")
+        ->allow_extra_args(false);
+}
+
+void add_volume(CLI::App& command, RenderArguments& a) {
+    command.add_option("--volume", a.volume,
+                       "File of a transfer function (JSON, own or ParaView's) for the volume itself; default: the colour map, "
+                       "with density from its lower to its upper end; none");
+    std::vector<std::string> integrators;
+    for (const auto& [name, integrator] : integrator_names()) {
+        integrators.push_back(name);
+    }
+    command.add_option("--integrator", a.integrator, "Along rays through the volume; exact by default")
+        ->check(CLI::IsMember(integrators));
+    command.add_option("--volume-step", a.volume_step, "World length of steps, of riemann, trapezoid and categories")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--volume-tolerance", a.volume_tolerance,
+                    "Of a color channel, of exact and adaptive-trapezoid; by default 0.001")
+        ->check(CLI::PositiveNumber);
+}
+
+void add_lines_and_colors(CLI::App& command, RenderArguments& a) {
+    command.add_option("--contours", a.contours, "V,V,..: values of contour lines; round ones if none are given")
+        ->expected(0, 1);
+    command.add_flag("--mesh-lines", a.mesh_lines, "Draw where boundaries of elements meet the surfaces");
+    std::string maps;
+    for (const std::string& name : color_map_names()) {
+        maps += (maps.empty() ? "" : ", ") + name;
+    }
+    command.add_option("--color-map", a.color_map,
+                       "Built-in name (" + maps +
+                           "; gray is even in lightness, not linear in RGB), or file (ParaView JSON, ElVis XML)");
+    command.add_option(
+        "--range", a.range,
+        "LOW,HIGH: values at the ends of the colour map; 2%,98%: those below which these parts of the volume lie");
+    command.add_flag("--log-scale", a.log_scale,
+                     "Colours by the logarithm of values, which have none of their own where they are not above 0");
+}
+
+void add_camera(CLI::App& command, RenderArguments& a) {
+    command.add_option("--eye", a.eye, "x,y,z of the camera");
+    command.add_option("--look-at", a.look_at, "x,y,z in the middle of the picture");
+    command.add_option("--up", a.up, "x,y,z of the direction that is up in the picture");
+    command.add_option("--fov", a.field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
+    command.add_option("--orthographic", a.orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
+}
+
+void add_picture(CLI::App& command, RenderArguments& a) {
+    command.add_option("--background", a.background, "R,G,B or R,G,B,A from 0 to 1");
+    command
+        .add_option(
+            "--lighting", a.lighting,
+            "none, or default: a headlight on all surfaces; isosurfaces alone of a volume have it unless told otherwise")
+        ->check(CLI::IsMember({"none", "default"}));
+    command.add_option("--annotation", a.annotation, "none, or default: color bars, axes and a title")
+        ->check(CLI::IsMember({"none", "default"}));
+    command.add_option("--size", a.size, "WIDTHxHEIGHT");
+    command.add_option("--precision", a.precision, "float32 or float64")->check(CLI::IsMember({"float32", "float64"}));
+    command.add_option("--device", a.device, "Name (or part of it) or index of the Vulkan device");
+}
+
+void add_animation(CLI::App& command, RenderArguments& a) {
+    command.add_option("--time-step", a.time_step, "Which time step")->check(CLI::NonNegativeNumber);
+    command.add_option("--time-steps", a.time_steps, "all, FIRST:LAST or FIRST:LAST:STRIDE: a picture of each of these steps");
+    command.add_option("--turntable", a.turntable, "That many pictures with the eye once around the point looked at")
+        ->check(CLI::Range(1, 1000000));
+    command.add_option("--turntable-axis", a.turntable_axis, "x,y,z that the eye goes around; by default the camera's up");
+    command.add_option("--film", a.film, "Also make a film of the pictures, such as FILM.mp4; needs ffmpeg");
+    command.add_option("--frames-a-second", a.frames_a_second, "Of the film; 25 by default")->check(CLI::PositiveNumber);
+    command.add_flag("--resume", a.resume, "Keep pictures of the animation that are there already");
+}
+
+void add_output(CLI::App& command, RenderArguments& a) {
+    command.add_option("--buffers", a.buffers, "HDF5 file with what the picture is made of, per pixel");
+    command.add_option("--stats", a.stats, "JSON file with times and counts");
+    command.add_option("--share", a.share,
+                       "What passes take from each other, to compare times: all, none, depths or parts (the default)");
+    command.add_option("--repeat", a.repeat, "Draw the frame that many times more, and put the times into --stats")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--bits", a.bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));
+    command.add_flag("--validation", a.validation, "Run with the Vulkan validation layer; any message is an error");
+    command.add_flag("--schema", a.schema, "Print the JSON Schema of scene files");
+}
+
 } // namespace
 
 void add_render(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("render", "Draw one picture of a volume, or an animation, from a scene file or options");
     auto a = std::make_shared<RenderArguments>();
-    command->add_option("input", a->input, "Scene file (JSON) or volume");
-    command->add_option("-o,--output", a->output, "Picture to write (PNG), or folder for those of an animation");
-    command->add_option("--field", a->field,
-                        "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
-    command->add_option("--cut-plane", a->cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
-        ->allow_extra_args(false);
-    const CLI::Option* boundary = command
-                                      ->add_option("--boundary", a->boundary_groups,
-                                                   "The whole boundary; with a name, that group of it only; may be repeated")
-                                      ->expected(0, 1)
-                                      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--isosurface", a->isovalues, "Value of the field where a surface is drawn; may be repeated")
-        ->allow_extra_args(false);
-    command->add_option("--volume", a->volume,
-                        "File of a transfer function (JSON, own or ParaView's) for the volume itself; default: the colour map, "
-                        "with density from its lower to its upper end; none");
-    std::vector<std::string> integrators;
-    for (const auto& [name, integrator] : integrator_names()) {
-        integrators.push_back(name);
-    }
-    command->add_option("--integrator", a->integrator, "Along rays through the volume; exact by default")
-        ->check(CLI::IsMember(integrators));
-    command->add_option("--volume-step", a->volume_step, "World length of steps, of riemann, trapezoid and categories")
-        ->check(CLI::PositiveNumber);
-    command
-        ->add_option("--volume-tolerance", a->volume_tolerance,
-                     "Of a color channel, of exact and adaptive-trapezoid; by default 0.001")
-        ->check(CLI::PositiveNumber);
-    const CLI::Option* contours =
-        command->add_option("--contours", a->contours, "V,V,..: values of contour lines; round ones if none are given")
-            ->expected(0, 1);
-    command->add_flag("--mesh-lines", a->mesh_lines, "Draw where boundaries of elements meet the surfaces");
-    std::string maps;
-    for (const std::string& name : color_map_names()) {
-        maps += (maps.empty() ? "" : ", ") + name;
-    }
-    command->add_option("--color-map", a->color_map,
-                        "Built-in name (" + maps +
-                            "; gray is even in lightness, not linear in RGB), or file (ParaView JSON, ElVis XML)");
-    command->add_option(
-        "--range", a->range,
-        "LOW,HIGH: values at the ends of the colour map; 2%,98%: those below which these parts of the volume lie");
-    command->add_flag("--log-scale", a->log_scale,
-                      "Colours by the logarithm of values, which have none of their own where they are not above 0");
-    command->add_option("--eye", a->eye, "x,y,z of the camera");
-    command->add_option("--look-at", a->look_at, "x,y,z in the middle of the picture");
-    command->add_option("--up", a->up, "x,y,z of the direction that is up in the picture");
-    command->add_option("--fov", a->field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
-    command->add_option("--orthographic", a->orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
-    command->add_option("--background", a->background, "R,G,B or R,G,B,A from 0 to 1");
-    command
-        ->add_option(
-            "--lighting", a->lighting,
-            "none, or default: a headlight on all surfaces; isosurfaces alone of a volume have it unless told otherwise")
-        ->check(CLI::IsMember({"none", "default"}));
-    command->add_option("--annotation", a->annotation, "none, or default: color bars, axes and a title")
-        ->check(CLI::IsMember({"none", "default"}));
-    command->add_option("--size", a->size, "WIDTHxHEIGHT");
-    command->add_option("--precision", a->precision, "float32 or float64")->check(CLI::IsMember({"float32", "float64"}));
-    command->add_option("--device", a->device, "Name (or part of it) or index of the Vulkan device");
-    command->add_option("--time-step", a->time_step, "Which time step")->check(CLI::NonNegativeNumber);
-    command->add_option("--time-steps", a->time_steps,
-                        "all, FIRST:LAST or FIRST:LAST:STRIDE: a picture of each of these steps");
-    command->add_option("--turntable", a->turntable, "That many pictures with the eye once around the point looked at")
-        ->check(CLI::Range(1, 1000000));
-    command->add_option("--turntable-axis", a->turntable_axis, "x,y,z that the eye goes around; by default the camera's up");
-    command->add_option("--film", a->film, "Also make a film of the pictures, such as FILM.mp4; needs ffmpeg");
-    command->add_option("--frames-a-second", a->frames_a_second, "Of the film; 25 by default")->check(CLI::PositiveNumber);
-    command->add_flag("--resume", a->resume, "Keep pictures of the animation that are there already");
-    command->add_option("--buffers", a->buffers, "HDF5 file with what the picture is made of, per pixel");
-    command->add_option("--stats", a->stats, "JSON file with times and counts");
-    command->add_option("--share", a->share,
-                        "What passes take from each other, to compare times: all, none, depths or parts (the default)");
-    command->add_option("--repeat", a->repeat, "Draw the frame that many times more, and put the times into --stats")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--bits", a->bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));
-    command->add_flag("--validation", a->validation, "Run with the Vulkan validation layer; any message is an error");
-    command->add_flag("--schema", a->schema, "Print the JSON Schema of scene files");
-    command->callback([a, boundary, contours] {
-        a->boundary = boundary->count() > 0;
-        a->has_contours = contours->count() > 0;
+    add_surfaces(*command, *a);
+    add_volume(*command, *a);
+    add_lines_and_colors(*command, *a);
+    add_camera(*command, *a);
+    add_picture(*command, *a);
+    add_animation(*command, *a);
+    add_output(*command, *a);
+    command->callback([a, command] {
+        a->boundary = command->count("--boundary") > 0;
+        a->has_contours = command->count("--contours") > 0;
         if (a->contours == "{}") {
             a->contours.clear(); // What the option's library takes no value for.
         }

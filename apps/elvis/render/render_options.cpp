@@ -191,12 +191,9 @@ std::optional<std::array<double, 2>> percentiles_of(const RenderArguments& argum
     return std::array<double, 2>{list[0] / 100, list[1] / 100};
 }
 
-void apply_options(const RenderArguments& arguments, Scene& scene) {
-    if (!arguments.field.empty()) {
-        scene.field = arguments.field;
-    }
-    apply_surfaces(arguments, scene);
-    apply_volume(arguments, scene);
+namespace {
+
+void apply_color_map(const RenderArguments& arguments, Scene& scene) {
     if (!arguments.color_map.empty()) {
         const bool is_file = std::filesystem::exists(arguments.color_map);
         scene.color_map.name = is_file ? "" : arguments.color_map;
@@ -217,6 +214,9 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
         throw UsageError(arguments.range.empty() ? "--log-scale" : "--range",
                          "the range must be above 0 on a logarithmic scale");
     }
+}
+
+void apply_camera(const RenderArguments& arguments, Scene& scene) {
     if (!arguments.eye.empty()) {
         scene.camera.eye = vector3("--eye", arguments.eye);
     }
@@ -233,6 +233,9 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
         scene.camera.orthographic = true;
         scene.camera.height = arguments.orthographic;
     }
+}
+
+void apply_image(const RenderArguments& arguments, Scene& scene) {
     if (!arguments.background.empty()) {
         const std::vector<double> list = numbers("--background", arguments.background, 3, 4);
         scene.background = {list[0], list[1], list[2], list.size() > 3 ? list[3] : 1.0};
@@ -263,6 +266,19 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
         }
         scene.size = {width, height};
     }
+}
+
+} // namespace
+
+void apply_options(const RenderArguments& arguments, Scene& scene) {
+    if (!arguments.field.empty()) {
+        scene.field = arguments.field;
+    }
+    apply_surfaces(arguments, scene);
+    apply_volume(arguments, scene);
+    apply_color_map(arguments, scene);
+    apply_camera(arguments, scene);
+    apply_image(arguments, scene);
     if (!arguments.precision.empty()) {
         scene.precision = arguments.precision;
     }

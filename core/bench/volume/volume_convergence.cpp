@@ -1,30 +1,22 @@
 #include <core/bench/volume/volume_convergence.hpp>
 
-#include <core/base/bounds.hpp>
 #include <core/bench/volume/composite_rules.hpp>
+#include <core/bench/volume/integrator_comparison.hpp>
 #include <core/bench/volume/volume.hpp>
 #include <core/render/renderer.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <optional>
 
 namespace elvis {
 
 namespace {
 
-/** Of references, in double precision; and of samples of integrators that only have steps, so that these are all of their
- * error. */
-constexpr double reference_tolerance = 1e-9;
-constexpr double largest_reference_tolerance = 1e-5;
 /** Smaller differences are those of the reference. */
 constexpr double least_error = 1e-8;
-/** What the comparison asks for: 8-bit colours, with room. */
-constexpr double wanted_error = 1e-3;
-constexpr double largest_tolerance = 0.25;
+constexpr double reference_tolerance = ConvergenceScene::reference_tolerance;
+constexpr double wanted_error = ConvergenceScene::wanted_error;
 
 constexpr std::array<Integrator, 3> stepped{Integrator::riemann, Integrator::trapezoid, Integrator::categories};
 constexpr std::array<Integrator, 2> tolerant{Integrator::adaptive_trapezoid, Integrator::exact};
@@ -33,86 +25,6 @@ std::string text_of(double number) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", number);
     return text;
-}
-
-/** Of what a plane through the middle shows all but the least and the greatest fiftieth: where something is seen of the volume.
- */
-FieldRange usual_range(Renderer& renderer) {
-    const std::array<double, 6> bounds = renderer.bounds();
-    FrameRequest request = volume_picture(bounds, 64);
-    Surface surface;
-    const Vector3 normal{0.2, 0.9, 0.1};
-    double offset = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        offset -= 0.5 * normal[axis] * (bounds[axis] + bounds[axis + 3]);
-    }
-    surface.geometry = CutPlane{{normal[0], normal[1], normal[2], offset}};
-    surface.colors.points = {{0, {1, 1, 1}}};
-    request.surfaces = {surface};
-    std::vector<double> values = renderer.render(request).value;
-    std::erase_if(values, [](double value) { return std::isnan(value); });
-    if (values.empty()) {
-        return renderer.field_range({}, 0);
-    }
-    std::sort(values.begin(), values.end());
-    return {values[values.size() / 50], values[values.size() - 1 - values.size() / 50]};
-}
-
-/** A volume in one precision with one transfer function, drawn in many ways. */
-class Scene {
-public:
-    Scene(const Device& device, const RuntimeVolume& volume, Precision precision, std::uint32_t size)
-        : m_renderer(device, volume, precision), m_request(volume_picture(m_renderer.bounds(), size)),
-          m_diagonal(diagonal_of(m_renderer.bounds())), m_range(m_renderer.field_range({}, 0)),
-          m_usual_range(usual_range(m_renderer)) {
-        m_request.volume.emplace();
-        rendering().transfer = {{{0, 0.1 / m_diagonal}}, {{0, {1, 1, 1}}}};
-        m_n_pixels = draw(Integrator::trapezoid, m_diagonal, wanted_error).counts.volume_pixels;
-    }
-
-    /** Pixels of rays that meet the volume. */
-    std::uint64_t n_pixels() const { return m_n_pixels; }
-
-    double diagonal() const { return m_diagonal; }
-    const FieldRange& range() const { return m_range; }
-    const FieldRange& usual_range_of_field() const { return m_usual_range; }
-    FrameRequest& request() { return m_request; }
-
-    /** Peaks each 1 % of the field's range wide, where there is something to see of them. */
-    TransferFunction narrow_peaks() const {
-        const double usual = m_usual_range.upper - m_usual_range.lower;
-        return peaks_in(m_usual_range, std::min(0.01 * (m_range.upper - m_range.lower) / usual, 0.24), m_diagonal);
-    }
-    VolumeRendering& rendering() { return *m_request.volume; }
-
-    Frame draw(Integrator integrator, double step, double tolerance) {
-        rendering().integrator = integrator;
-        rendering().step = step;
-        rendering().tolerance = tolerance;
-        return m_renderer.render(m_request);
-    }
-
-    /** As exact as loops of drivers allow; `tolerance` is what that was. */
-    Frame draw_reference(double& tolerance) {
-        tolerance = reference_tolerance;
-        Frame frame = draw(Integrator::exact, 0, tolerance);
-        while (frame.counts.work_limit_pixels > 0 && tolerance < largest_reference_tolerance) {
-            tolerance *= 10;
-            frame = draw(Integrator::exact, 0, tolerance);
-        }
-        return frame;
-    }
-
-private:
-    Renderer m_renderer;
-    FrameRequest m_request;
-    double m_diagonal;
-    FieldRange m_range, m_usual_range;
-    std::uint64_t m_n_pixels = 0;
-};
-
-double a_pixel(std::uint64_t count, std::uint64_t n_pixels) {
-    return static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(n_pixels, 1));
 }
 
 /** Over the finer half of what is not yet rounding; `errors` by intervals. */
@@ -157,7 +69,7 @@ public:
     /** Figure 6.2: two breakpoints close together. Small elements, so that steps may be short. */
     void draw_edges() {
         const RuntimeVolume volume = sphere_volume(m_registry, m_folder, "hexahedron", {16, 16, 24});
-        Scene scene(m_device, volume, Precision::float64, m_options.size);
+        ConvergenceScene scene(m_device, volume, Precision::float64, m_options.size);
         for (const double width : {0.2, 0.02, 0.002}) {
             scene.rendering().transfer = edge_at(4, width);
             double tolerance = 0;
@@ -169,7 +81,7 @@ public:
     /** Figure 6.3: peaks, and a transfer function that is smooth, in one hexahedron. */
     void draw_sphere() {
         const RuntimeVolume volume = sphere_volume(m_registry, m_folder, "hexahedron", {1, 1, 1});
-        Scene scene(m_device, volume, Precision::float64, m_options.size);
+        ConvergenceScene scene(m_device, volume, Precision::float64, m_options.size);
         scene.rendering().transfer = peaks_in(scene.range(), 0.1, scene.diagonal());
         vary_all(scene, "6.3a", "sphere, peaks");
         scene.rendering().transfer = ramp_in(scene.range(), scene.diagonal());
@@ -178,8 +90,8 @@ public:
 
     void draw_volume() {
         const RuntimeVolume volume(m_registry.runtime_for(m_options.volume), m_options.volume);
-        Scene scene(m_device, volume, Precision::float64, m_options.size);
-        scene.rendering().transfer = peaks_in(scene.usual_range_of_field(), 0.24, scene.diagonal());
+        ConvergenceScene scene(m_device, volume, Precision::float64, m_options.size);
+        scene.rendering().transfer = peaks_in(scene.usual_range(), 0.24, scene.diagonal());
         vary_all(scene, "6.3c", "volume, peaks");
     }
 
@@ -220,6 +132,12 @@ public:
     }
 
     void compare() {
+        const auto compare_in = [&](const std::string& name, const RuntimeVolume& volume) {
+            compare_integrators(m_device, name, volume, m_options.time_size, m_unit, [&](const ComparisonRow& row) {
+                result.comparison.push_back(row);
+                m_report.comparison(row);
+            });
+        };
         compare_in("sphere", sphere_volume(m_registry, m_folder, "hexahedron", {4, 4, 6}));
         if (!m_options.volume.empty()) {
             compare_in("volume", RuntimeVolume(m_registry.runtime_for(m_options.volume), m_options.volume));
@@ -259,7 +177,7 @@ private:
     }
 
     /** Steps of the diagonal over 2^from to 2^to; to the end of those that are short enough for loops. */
-    void vary_step(Scene& scene, const Frame& reference, const std::string& figure, const std::string& name,
+    void vary_step(ConvergenceScene& scene, const Frame& reference, const std::string& figure, const std::string& name,
                    Integrator integrator, const std::string& curve, int from, int to) {
         std::vector<RuleError> errors;
         for (int i = from; i <= to; ++i) {
@@ -280,7 +198,7 @@ private:
         add_order(figure, name, curve, finer_order(errors, least_error));
     }
 
-    void vary_all(Scene& scene, const std::string& figure, const std::string& name) {
+    void vary_all(ConvergenceScene& scene, const std::string& figure, const std::string& name) {
         double reference_tolerance_reached = 0;
         const Frame reference = scene.draw_reference(reference_tolerance_reached);
         ConvergenceRow row = row_of(reference, figure, name, "reference", scene.request().width, scene.n_pixels());
@@ -302,109 +220,6 @@ private:
         }
     }
 
-    void compare_in(const std::string& name, const RuntimeVolume& volume) {
-        Scene exact(m_device, volume, Precision::float64, m_options.time_size);
-        Scene scene(m_device, volume, Precision::float32, m_options.time_size);
-        for (const bool has_peaks : {true, false}) {
-            const TransferFunction transfer = has_peaks ? scene.narrow_peaks() : ramp_in(scene.range(), scene.diagonal());
-            exact.rendering().transfer = scene.rendering().transfer = transfer;
-            double tolerance = 0;
-            const Frame reference = exact.draw_reference(tolerance);
-            std::vector<Contender> contenders{exact_contender(wanted_error),
-                                              exact_contender(loosest_tolerance(scene, reference)),
-                                              stepped_contender(scene, reference, Integrator::trapezoid),
-                                              stepped_contender(scene, reference, Integrator::categories)};
-            std::vector<ComparisonRow> rows;
-            for (Contender& contender : contenders) {
-                const Frame frame = scene.draw(contender.integrator, contender.row.step, tolerance_of(contender.row));
-                ComparisonRow& row = contender.row;
-                row.scene = name;
-                row.transfer = has_peaks ? "peaks" : "ramp";
-                row.curve = name_of(contender.integrator);
-                row.error = largest_difference(frame, reference);
-                row.samples_a_pixel = a_pixel(frame.counts.field_evaluations, scene.n_pixels());
-                row.inexact_share = a_pixel(frame.counts.inexact_volume_pixels, scene.n_pixels());
-                row.milliseconds = std::numeric_limits<double>::infinity();
-            }
-            // In turn, so that what else the machine does meets all of them.
-            for (int run = 0; run < n_timed_runs; ++run) {
-                for (Contender& contender : contenders) {
-                    ComparisonRow& row = contender.row;
-                    row.milliseconds = std::min(
-                        row.milliseconds, scene.draw(contender.integrator, row.step, tolerance_of(row)).device_milliseconds);
-                }
-            }
-            for (const Contender& contender : contenders) {
-                rows.push_back(contender.row);
-                rows.back().units = 1e6 * rows.back().milliseconds / m_unit;
-            }
-            const double samples = std::min(rows[2].samples_a_pixel, rows[3].samples_a_pixel);
-            const double time = std::min(rows[2].milliseconds, rows[3].milliseconds);
-            for (ComparisonRow& row : rows) {
-                row.fewer_samples = samples / row.samples_a_pixel;
-                row.less_time = time / row.milliseconds;
-                result.comparison.push_back(row);
-                m_report.comparison(row);
-            }
-        }
-    }
-
-    static constexpr int coarsest = 2, finest = 13;
-    static constexpr int n_timed_runs = 5;
-
-    /** An integrator as it reaches the error that is wanted. */
-    struct Contender {
-        Integrator integrator = Integrator::exact;
-        ComparisonRow row;
-    };
-
-    static double tolerance_of(const ComparisonRow& row) { return row.tolerance > 0 ? row.tolerance : wanted_error; }
-
-    static Contender exact_contender(double tolerance) {
-        Contender contender;
-        contender.row.tolerance = tolerance;
-        return contender;
-    }
-
-    static Contender stepped_contender(Scene& scene, const Frame& reference, Integrator integrator) {
-        const std::optional<double> step = largest_step(scene, reference, integrator);
-        Contender contender{integrator, {}};
-        contender.row.is_missed = !step;
-        contender.row.step = step.value_or(scene.diagonal() / (1 << finest));
-        return contender;
-    }
-
-    /** Tolerances are kept with much to spare: as steps are, this one is what reaches the error. */
-    static double loosest_tolerance(Scene& scene, const Frame& reference) {
-        double tolerance = wanted_error;
-        while (tolerance < largest_tolerance &&
-               largest_difference(scene.draw(Integrator::exact, 0, 2 * tolerance), reference) <= wanted_error) {
-            tolerance *= 2;
-        }
-        return tolerance;
-    }
-
-    /** By halving, then by bisection to a quarter of a halving. */
-    static std::optional<double> largest_step(Scene& scene, const Frame& reference, Integrator integrator) {
-        const auto is_good = [&](double exponent) {
-            const Frame frame = scene.draw(integrator, scene.diagonal() * std::exp2(-exponent), wanted_error);
-            return largest_difference(frame, reference) <= wanted_error;
-        };
-        double good = coarsest;
-        while (!is_good(good)) {
-            good += 1;
-            if (good > finest) {
-                return std::nullopt;
-            }
-        }
-        double bad = good - 1;
-        while (good > coarsest && good - bad > 0.25) {
-            const double middle = 0.5 * (good + bad);
-            (is_good(middle) ? good : bad) = middle;
-        }
-        return scene.diagonal() * std::exp2(-good);
-    }
-
     const Device& m_device;
     const PluginRegistry& m_registry;
     const BenchFolder& m_folder;
@@ -414,72 +229,6 @@ private:
 };
 
 } // namespace
-
-TransferFunction peaks_in(const FieldRange& range, double width, double diagonal) {
-    const double all = range.upper - range.lower;
-    TransferFunction transfer;
-    for (const double at : {0.25, 0.5, 0.75}) {
-        const double middle = range.lower + at * all;
-        transfer.density.push_back({middle - 0.5 * width * all, 0});
-        // A ray that crosses the range over half the diagonal is in a peak for width / 2 of that; tents are half as dense.
-        transfer.density.push_back({middle, 1.2 / (width * diagonal)});
-        transfer.density.push_back({middle + 0.5 * width * all, 0});
-    }
-    transfer.color = {{range.lower + 0.25 * all, {0.2, 0.3, 0.9}},
-                      {range.lower + 0.5 * all, {0.9, 0.9, 0.3}},
-                      {range.lower + 0.75 * all, {0.8, 0.1, 0.1}}};
-    return transfer;
-}
-
-TransferFunction ramp_in(const FieldRange& range, double diagonal) {
-    // What ranges in elements are certain to hold is more than the field takes.
-    const double margin = range.upper - range.lower;
-    return {{{range.lower - margin, 0}, {range.upper + margin, 6 / diagonal}},
-            {{range.lower - margin, {0.2, 0.3, 0.9}}, {range.upper + margin, {0.8, 0.1, 0.1}}}};
-}
-
-TransferFunction edge_at(double value, double width) { return {{{value, 0}, {value + width, 1}}, {{value, {0.9, 0.6, 0.2}}}}; }
-
-FrameRequest volume_picture(const std::array<double, 6>& bounds, std::uint32_t size) {
-    FrameRequest request;
-    request.width = request.height = size;
-    const double diagonal = diagonal_of(bounds);
-    const Vector3 from_centre = {0.93, 0.72, 0.76};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        request.camera.look_at[axis] = 0.5 * (bounds[axis] + bounds[axis + 3]);
-        request.camera.eye[axis] = request.camera.look_at[axis] + diagonal * from_centre[axis];
-    }
-    request.camera.up = {0.1, 0.2, 1};
-    request.camera.field_of_view = 35;
-    request.background = {0.1, 0.2, 0.3, 1};
-    return request;
-}
-
-double largest_difference(const Frame& frame, const Frame& reference) {
-    double largest = 0;
-    for (std::size_t i = 0; i < frame.color.size(); ++i) {
-        if ((reference.flags[i / 4] & pixel_flag::work_limit) != 0) {
-            continue;
-        }
-        const double off = std::abs(frame.color[i] - reference.color[i]);
-        if (std::isnan(off)) {
-            return std::numeric_limits<double>::infinity();
-        }
-        largest = std::max(largest, off);
-    }
-    return largest;
-}
-
-RuntimeVolume sphere_volume(const PluginRegistry& registry, const BenchFolder& folder, const std::string& shape,
-                            const std::array<std::uint32_t, 3>& n) {
-    const std::string x = std::to_string(n[0]), y = std::to_string(n[1]), z = std::to_string(n[2]);
-    std::string name = "sphere-";
-    name += shape + "-" + x + "-" + y + "-" + z;
-    std::string text =
-        R"({"generator":1,"mesh":"box","box":[[-1,-1,-2],[1,1,4]],"order":2,"geometry_order":1,"field":"sphere","shape":")";
-    text += shape + R"(","elements":[)" + x + "," + y + "," + z + "]}";
-    return generated_volume(registry, folder, name, text);
-}
 
 VolumeConvergence bench_volume_convergence(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
                                            const VolumeConvergenceOptions& options, double unit_nanoseconds,

@@ -5,8 +5,7 @@
  */
 #pragma once
 
-#include <core/bench/waves.hpp>
-#include <core/vulkan/device.hpp>
+#include <core/bench/volume/convergence_scene.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -15,24 +14,6 @@
 #include <vector>
 
 namespace elvis {
-
-/** Three tents of density, each as wide as this share of the field's range, nothing between; a ray loses about a quarter in
- * each. */
-TransferFunction peaks_in(const FieldRange& range, double width, double diagonal);
-/** Linear, with no breakpoint in the range. */
-TransferFunction ramp_in(const FieldRange& range, double diagonal);
-/** Nothing, then over `width` up to a density of 1: two breakpoints. */
-TransferFunction edge_at(double value, double width);
-
-/** A picture of all of a volume, from outside, on an opaque background. */
-FrameRequest volume_picture(const std::array<double, 6>& bounds, std::uint32_t size);
-
-/** Largest difference of a channel, but for pixels of the reference that drivers cut short. */
-double largest_difference(const Frame& frame, const Frame& reference);
-
-/** One hexahedron, or cells of a shape, of [-1,1] x [-1,1] x [-2,4] with the field x^2 + y^2 + z^2. */
-RuntimeVolume sphere_volume(const PluginRegistry& registry, const BenchFolder& folder, const std::string& shape,
-                            const std::array<std::uint32_t, 3>& n);
 
 struct VolumeConvergenceOptions {
     /** Side of pictures of which errors are measured, and of those of which times are. */

@@ -205,14 +205,13 @@ void check_jacobian_signs(Context& context) {
     }
 }
 
-void check_cpu_derivatives(Context& context) {
-    const RuntimeVolume volume = open_volume(context);
-    if (!volume.has_evaluation()) {
-        throw Skipped("the plugin does not evaluate on the CPU");
-    }
+/** Given derivatives beside differences of what they are derivatives of. */
+struct DerivativeComparison {
+    Context& context;
     int n_complaints = 0;
     double worst = 0;
-    const auto compare = [&](const std::string& what, const Point& xi, double given, double expected, double scale) {
+
+    void operator()(const std::string& what, const Point& xi, double given, double expected, double scale) {
         const double error = std::abs(given - expected);
         worst = std::max(worst, scale > 0 ? error / scale : 0.0);
         if (!(error <= 1e-7 * scale) && n_complaints < 5) {
@@ -220,58 +219,75 @@ void check_cpu_derivatives(Context& context) {
             context.fail(what + " at xi " + text_of(xi) + ": " + text_of(given) + " is given, differences say " +
                          text_of(expected));
         }
-    };
+    }
+};
+
+void compare_jacobians(DerivativeComparison& compare, const RuntimeVolume& volume, std::uint64_t element,
+                       const std::vector<Point>& xi, const std::string& which) {
+    std::vector<double> jacobians(9 * xi.size());
+    volume.evaluate_mapping(element, flat(xi), {}, jacobians);
+    double scale = 0;
+    for (const double entry : jacobians) {
+        scale = std::max(scale, std::abs(entry));
+    }
+    for (std::size_t j = 0; j < volume.dimension(); ++j) {
+        const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
+            std::vector<double> positions(3 * at.size());
+            volume.evaluate_mapping(element, flat(at), positions, {});
+            return rows(positions, 3);
+        });
+        for (std::size_t i = 0; i < xi.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                compare("evaluate_mapping: dx_" + std::to_string(k) + "/dxi_" + std::to_string(j) + " " + which, xi[i],
+                        jacobians[9 * i + 3 * k + j], expected[i][k], scale);
+            }
+        }
+    }
+}
+
+void compare_gradients(DerivativeComparison& compare, const RuntimeVolume& volume, std::uint64_t element, std::uint32_t field,
+                       const std::vector<Point>& xi, const std::string& which) {
+    const std::uint32_t n = volume.fields()[field].n_components;
+    std::vector<double> values(n * xi.size());
+    std::vector<double> gradients(3 * n * xi.size());
+    volume.evaluate_field(field, 0, element, flat(xi), values, gradients);
+    double size = 0;
+    for (std::size_t i = 0; i < gradients.size(); ++i) {
+        size = std::max({size, std::abs(gradients[i]), 1e-3 * std::abs(values[i / 3])});
+    }
+    for (std::size_t j = 0; j < volume.dimension(); ++j) {
+        const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
+            std::vector<double> there(n * at.size());
+            volume.evaluate_field(field, 0, element, flat(at), there, {});
+            return rows(there, n);
+        });
+        for (std::size_t i = 0; i < xi.size(); ++i) {
+            for (std::uint32_t component = 0; component < n; ++component) {
+                compare("evaluate_field: derivative by xi_" + std::to_string(j) + " of " + volume.fields()[field].name + " " +
+                            which,
+                        xi[i], gradients[3 * (n * i + component) + j], expected[i][component], size);
+            }
+        }
+    }
+}
+
+void check_cpu_derivatives(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    if (!volume.has_evaluation()) {
+        throw Skipped("the plugin does not evaluate on the CPU");
+    }
+    DerivativeComparison compare{context};
     for (const std::uint64_t element : some_elements(volume, n_elements_a_class / 2, context.subject().seed)) {
         const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
         const std::vector<Point> xi = interior_points(shape, n_points / 4, context.subject().seed + element);
         const std::string which = "of element " + std::to_string(element);
         context.progress("derivatives " + which);
-        const std::vector<double> points = flat(xi);
-        std::vector<double> jacobians(9 * xi.size());
-        volume.evaluate_mapping(element, points, {}, jacobians);
-        double scale = 0;
-        for (const double entry : jacobians) {
-            scale = std::max(scale, std::abs(entry));
-        }
-        for (std::size_t j = 0; j < volume.dimension(); ++j) {
-            const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
-                std::vector<double> positions(3 * at.size());
-                volume.evaluate_mapping(element, flat(at), positions, {});
-                return rows(positions, 3);
-            });
-            for (std::size_t i = 0; i < xi.size(); ++i) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    compare("evaluate_mapping: dx_" + std::to_string(k) + "/dxi_" + std::to_string(j) + " " + which, xi[i],
-                            jacobians[9 * i + 3 * k + j], expected[i][k], scale);
-                }
-            }
-        }
+        compare_jacobians(compare, volume, element, xi, which);
         for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
-            const std::uint32_t n = volume.fields()[field].n_components;
-            std::vector<double> values(n * xi.size());
-            std::vector<double> gradients(3 * n * xi.size());
-            volume.evaluate_field(field, 0, element, points, values, gradients);
-            double size = 0;
-            for (std::size_t i = 0; i < gradients.size(); ++i) {
-                size = std::max({size, std::abs(gradients[i]), 1e-3 * std::abs(values[i / 3])});
-            }
-            for (std::size_t j = 0; j < volume.dimension(); ++j) {
-                const auto expected = differences(xi, j, [&](const std::vector<Point>& at) {
-                    std::vector<double> there(n * at.size());
-                    volume.evaluate_field(field, 0, element, flat(at), there, {});
-                    return rows(there, n);
-                });
-                for (std::size_t i = 0; i < xi.size(); ++i) {
-                    for (std::uint32_t component = 0; component < n; ++component) {
-                        compare("evaluate_field: derivative by xi_" + std::to_string(j) + " of " + volume.fields()[field].name +
-                                    " " + which,
-                                xi[i], gradients[3 * (n * i + component) + j], expected[i][component], size);
-                    }
-                }
-            }
+            compare_gradients(compare, volume, element, field, xi, which);
         }
     }
-    context.note("largest difference " + short_text(worst) + " of the largest derivative");
+    context.note("largest difference " + short_text(compare.worst) + " of the largest derivative");
 }
 
 } // namespace

@@ -215,6 +215,26 @@ void note_coinciding_boundary(Context& context, const RuntimeVolume& volume, con
     }
 }
 
+/** Of a face that two elements share. */
+bool check_corners(Context& context, const RuntimeVolume& volume, const elvis_face& face) {
+    const auto here =
+        corner_positions(volume, static_cast<std::uint64_t>(face.element), static_cast<std::uint32_t>(face.local_face));
+    const auto there = corner_positions(volume, static_cast<std::uint64_t>(face.neighbour),
+                                        static_cast<std::uint32_t>(face.neighbour_local_face));
+    double size = 0;
+    for (const Point& x : here) {
+        size = std::max(size, std::hypot(x[0] - here[0][0], x[1] - here[0][1], x[2] - here[0][2]));
+    }
+    // Sources round corners to as few as five digits.
+    const double distance = std::max(corner_distance(here, there), corner_distance(there, here));
+    const bool is_same = here.size() == there.size() && distance <= 1e-4 * size;
+    if (!is_same) {
+        context.fail("get_faces: elements " + std::to_string(face.element) + " and " + std::to_string(face.neighbour) +
+                     " are said to share a face, but its corners are " + std::to_string(distance) + " apart");
+    }
+    return is_same;
+}
+
 void check_faces(Context& context) {
     const RuntimeVolume volume = open_volume(context);
     if (volume.n_faces() == 0) {
@@ -242,24 +262,7 @@ void check_faces(Context& context) {
         bool is_sound = add(face.element, face.local_face);
         if (face.neighbour >= 0) {
             is_sound = is_sound && add(face.neighbour, face.neighbour_local_face);
-            if (is_sound && volume.has_evaluation()) {
-                const auto here = corner_positions(volume, static_cast<std::uint64_t>(face.element),
-                                                   static_cast<std::uint32_t>(face.local_face));
-                const auto there = corner_positions(volume, static_cast<std::uint64_t>(face.neighbour),
-                                                    static_cast<std::uint32_t>(face.neighbour_local_face));
-                double size = 0;
-                for (const Point& x : here) {
-                    size = std::max(size, std::hypot(x[0] - here[0][0], x[1] - here[0][1], x[2] - here[0][2]));
-                }
-                // Sources round corners to as few as five digits.
-                const double distance = std::max(corner_distance(here, there), corner_distance(there, here));
-                if (here.size() != there.size() || !(distance <= 1e-4 * size)) {
-                    context.fail("get_faces: elements " + std::to_string(face.element) + " and " +
-                                 std::to_string(face.neighbour) + " are said to share a face, but its corners are " +
-                                 std::to_string(distance) + " apart");
-                    is_sound = false;
-                }
-            }
+            is_sound = is_sound && (!volume.has_evaluation() || check_corners(context, volume, face));
         }
         if (!is_sound && ++n_complaints >= 5) {
             context.fail("get_faces: and perhaps more; the rest was not looked at");

@@ -30,6 +30,31 @@ struct Box {
     double attempted_size = std::numeric_limits<double>::infinity();
 };
 
+struct Extent {
+    /** No point of the patch is x. */
+    bool is_excluded = false;
+    /** In reference units. */
+    double size = 0;
+};
+
+Extent extent(const Patch& patch, const Matrix& to_reference, std::span<const FaceConstraint> faces, const Vector& x,
+              double margin) {
+    Extent result;
+    for (const FaceConstraint& face : faces) {
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        const Eigen::RowVector3d row = face.normal.transpose() * to_reference;
+        for (const Vector& p : patch.points) {
+            const double value = row * (p - x);
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+        result.is_excluded = result.is_excluded || low > margin || high < -margin;
+        result.size = std::max(result.size, high - low);
+    }
+    return result;
+}
+
 } // namespace
 
 Inverter::Inverter(const Volume& volume, const std::vector<Enclosure>& enclosures)
@@ -100,20 +125,7 @@ void Inverter::subdivide(std::size_t element, const Vector& x, double tolerance,
         const double margin =
             2 * tolerance + 1e-12 + 1e-15 * to_reference.cwiseAbs().maxCoeff() * (x.lpNorm<Eigen::Infinity>() + 1);
 
-        bool is_excluded = false;
-        double size = 0;
-        for (const FaceConstraint& face : faces) {
-            double low = std::numeric_limits<double>::infinity();
-            double high = -low;
-            const Eigen::RowVector3d row = face.normal.transpose() * to_reference;
-            for (const Vector& p : box.patch.points) {
-                const double value = row * (p - x);
-                low = std::min(low, value);
-                high = std::max(high, value);
-            }
-            is_excluded = is_excluded || low > margin || high < -margin;
-            size = std::max(size, high - low);
-        }
+        const auto [is_excluded, size] = extent(box.patch, to_reference, faces, x, margin);
         if (is_excluded)
             continue;
 

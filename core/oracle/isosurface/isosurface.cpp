@@ -116,28 +116,30 @@ std::vector<RaySegment> IsosurfaceTracer::clipped_segments(std::size_t element, 
     return kept;
 }
 
+void IsosurfaceTracer::follow_outwards(const Line& line, const RaySegment& segment, std::size_t n, FittedInterval& interval) {
+    const double half = 0.5 * (segment.to - segment.from);
+    const std::span<const double> points = lobatto_points(n);
+    interval.xi.resize(n + 1);
+    for (const int way : {1, -1}) {
+        Matrix jacobian;
+        std::size_t i = n / 2;
+        interval.xi[i] = follow(interval.element, line.at(interval.t_of(points[i])), segment.middle, &jacobian);
+        while (i != (way > 0 ? n : 0)) {
+            const std::size_t next = way > 0 ? i + 1 : i - 1;
+            const Vector tangent = jacobian.inverse() * line.direction;
+            const Vector start = interval.xi[i] + half * (points[next] - points[i]) * tangent;
+            interval.xi[next] = follow(interval.element, line.at(interval.t_of(points[next])), start, &jacobian);
+            i = next;
+        }
+    }
+}
+
 void IsosurfaceTracer::add_intervals(std::size_t element, const Line& line, const RaySegment& segment,
                                      std::vector<FittedInterval>& intervals) {
     FittedInterval interval{element, segment.from, segment.to, {}, {}};
     const double half = 0.5 * (segment.to - segment.from);
     std::size_t n = first_degree;
-    {
-        // From the middle outwards, along tangents.
-        const std::span<const double> points = lobatto_points(n);
-        interval.xi.resize(n + 1);
-        for (const int way : {1, -1}) {
-            Matrix jacobian;
-            std::size_t i = n / 2;
-            interval.xi[i] = follow(element, line.at(interval.t_of(points[i])), segment.middle, &jacobian);
-            while (i != (way > 0 ? n : 0)) {
-                const std::size_t next = way > 0 ? i + 1 : i - 1;
-                const Vector tangent = jacobian.inverse() * line.direction;
-                const Vector start = interval.xi[i] + half * (points[next] - points[i]) * tangent;
-                interval.xi[next] = follow(element, line.at(interval.t_of(points[next])), start, &jacobian);
-                i = next;
-            }
-        }
-    }
+    follow_outwards(line, segment, n, interval);
     std::vector<double> values;
     for (const Vector& xi : interval.xi)
         values.push_back(value(element, xi));

@@ -112,6 +112,8 @@ private:
     std::vector<RaySegment> clipped_segments(std::size_t element, const Line& line);
     void add_intervals(std::size_t element, const Line& line, const RaySegment& segment,
                        std::vector<FittedInterval>& intervals);
+    /** Reference coordinates of an interval at its lobatto_points(n), from the middle outwards, along tangents. */
+    void follow_outwards(const Line& line, const RaySegment& segment, std::size_t n, FittedInterval& interval);
     Vector follow(std::size_t element, const Vector& x, const Vector& start, Matrix* jacobian = nullptr);
     void search(const FittedInterval& interval, RootFinder finder, Found& found) const;
     void search_by_samples(std::size_t element, const Line& line, const RaySegment& segment, Found& found);

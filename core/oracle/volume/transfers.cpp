@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace elvis::oracle {
@@ -11,6 +12,50 @@ namespace {
 
 std::array<double, 3> random_color(Random& random) {
     return {random.between(0, 1), random.between(0, 1), random.between(0, 1)};
+}
+
+/** Peaks at random values, narrower than half of the range and at most 30 times as dense. */
+template <class Value>
+void add_peaks(Random& random, const Value& value, int n_peaks, double range, double density, TransferFunction& transfer) {
+    std::vector<double> middles;
+    for (int i = 0; i < n_peaks; ++i)
+        middles.push_back(value());
+    std::sort(middles.begin(), middles.end());
+    double reached = -std::numeric_limits<double>::infinity();
+    for (const double middle : middles) {
+        const double half = 0.5 * range * std::pow(10.0, random.between(-3, -0.7));
+        // Peaks are empty beside; those that would overlap are left out.
+        if (middle - half <= reached)
+            continue;
+        const double height = density * std::min(30.0, 0.5 * range / half);
+        transfer.density.push_back({middle - half, 0});
+        transfer.density.push_back({middle, height});
+        transfer.density.push_back({middle + half, 0});
+        reached = middle + half;
+    }
+}
+
+/** At so many values, at least one; whether there is a step. */
+template <class Value> bool add_colors(Random& random, const Value& value, int n_values, TransferFunction& transfer) {
+    bool has_color_step = false;
+    std::vector<double> values;
+    for (int i = 0; i < std::max(n_values, 1); ++i)
+        // Now and then at a breakpoint of the density.
+        values.push_back(
+            n_values <= 0 || random.one_in(3)
+                ? transfer.density[static_cast<std::size_t>(random.whole(0, static_cast<int>(transfer.density.size()) - 1))]
+                      .value
+                : value());
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    for (const double at : values) {
+        transfer.color.push_back({at, random_color(random)});
+        if (random.one_in(4)) {
+            transfer.color.push_back({at, random_color(random)});
+            has_color_step = true;
+        }
+    }
+    return has_color_step;
 }
 
 } // namespace
@@ -47,25 +92,8 @@ RandomTransfer random_transfer(std::uint64_t seed, double low, double high, doub
         --n_left;
     } else if (kind == 3) {
         result.description = "peaks";
-        int n_peaks = std::min(4, n_left / 3);
-        n_peaks = random.whole(1, n_peaks);
-        std::vector<double> middles;
-        for (int i = 0; i < n_peaks; ++i)
-            middles.push_back(value());
-        std::sort(middles.begin(), middles.end());
-        double reached = low - range;
-        for (const double middle : middles) {
-            const double half = 0.5 * range * std::pow(10.0, random.between(-3, -0.7));
-            // Peaks are empty beside; those that would overlap are left out.
-            if (middle - half <= reached)
-                continue;
-            const double height = depth / size * std::min(30.0, 0.5 * range / half);
-            transfer.density.push_back({middle - half, 0});
-            transfer.density.push_back({middle, height});
-            transfer.density.push_back({middle + half, 0});
-            reached = middle + half;
-            n_left -= 3;
-        }
+        add_peaks(random, value, random.whole(1, std::min(4, n_left / 3)), range, depth / size, transfer);
+        n_left -= static_cast<int>(transfer.density.size());
     } else {
         const int n_points = random.whole(1, n_left);
         result.description = kind == 1 ? "rough density" : "density with empty parts";
@@ -83,24 +111,7 @@ RandomTransfer random_transfer(std::uint64_t seed, double low, double high, doub
         }
         n_left -= n_points;
     }
-    bool has_color_step = false;
-    std::vector<double> values;
-    for (int i = 0; i < std::max(n_left, 1); ++i)
-        // Now and then at a breakpoint of the density.
-        values.push_back(
-            n_left <= 0 || random.one_in(3)
-                ? transfer.density[static_cast<std::size_t>(random.whole(0, static_cast<int>(transfer.density.size()) - 1))]
-                      .value
-                : value());
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    for (const double at : values) {
-        transfer.color.push_back({at, random_color(random)});
-        if (random.one_in(4)) {
-            transfer.color.push_back({at, random_color(random)});
-            has_color_step = true;
-        }
-    }
+    const bool has_color_step = add_colors(random, value, n_left, transfer);
     result.description += ", " + std::to_string(n) + " breakpoints at most" + (has_density_step ? ", steps of density" : "") +
                           (has_color_step ? ", steps of colour" : "");
     return result;

@@ -103,11 +103,9 @@ std::unique_ptr<RecordBuffer> upload(const Device& device, Precision precision, 
     return buffer;
 }
 
-FaceSet::ClassFaces class_faces(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
-                                std::uint32_t element_class, std::span<const ElementFace> faces, const TaskControl* control) {
-    const ClassInfo& info = volume.classes()[element_class];
-    FaceSet::ClassFaces result;
-    result.n_faces = faces.size();
+/** Of each face its element in the class, its local face, the element's number, and room for the misfit. */
+std::vector<std::uint32_t> face_records(const RuntimeVolume& volume, const ClassInfo& info, std::span<const ElementFace> faces,
+                                        const TaskControl* control) {
     std::vector<std::uint32_t> records;
     records.reserve(4 * faces.size());
     std::vector<std::int64_t> numbers;
@@ -125,6 +123,15 @@ FaceSet::ClassFaces class_faces(const Device& device, const RuntimeVolume& volum
         records.insert(records.end(), {static_cast<std::uint32_t>(face.element - info.first_element), face.local_face,
                                        static_cast<std::uint32_t>(numbers[face.element - first]), 0u});
     }
+    return records;
+}
+
+FaceSet::ClassFaces class_faces(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                                std::uint32_t element_class, std::span<const ElementFace> faces, const TaskControl* control) {
+    const ClassInfo& info = volume.classes()[element_class];
+    FaceSet::ClassFaces result;
+    result.n_faces = faces.size();
+    std::vector<std::uint32_t> records = face_records(volume, info, faces, control);
     result.faces = upload(device, data.precision(), 4, records);
     const Fitted fitted = fit_faces(device, info, data, element_class, faces, *result.faces);
     result.order = fitted.order;

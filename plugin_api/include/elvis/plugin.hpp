@@ -236,129 +236,142 @@ template <class Object, class Call> elvis_result guard_on(Object& object, Call&&
     return guard(object.host().table(), [&] { call(object); });
 }
 
+/** What every volume has. */
+template <class Volume> void set_required(elvis_runtime& t) {
+    t.probe = [](const elvis_host* host, const char* path, std::uint32_t* confidence) {
+        return guard(host, [&] { *confidence = Volume::probe(path); });
+    };
+    t.open = [](const elvis_host* host, const char* path, const char* options, elvis_volume** volume) {
+        return guard(host, [&] {
+            *volume =
+                reinterpret_cast<elvis_volume*>(new Volume(Host(host), std::string(path), std::string(options ? options : "")));
+        });
+    };
+    t.close = [](elvis_volume* volume) { delete &self<Volume>(volume); };
+    t.get_info = [](elvis_volume* volume, elvis_volume_info* out) {
+        return guard_on(self<Volume>(volume), [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_info(s); }); });
+    };
+    t.get_class = [](elvis_volume* volume, std::uint32_t element_class, elvis_element_class* out) {
+        return guard_on(self<Volume>(volume),
+                        [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_class(element_class, s); }); });
+    };
+    t.get_field = [](elvis_volume* volume, std::uint32_t field, elvis_field* out) {
+        return guard_on(self<Volume>(volume), [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_field(field, s); }); });
+    };
+    t.get_class_field = [](elvis_volume* volume, std::uint32_t element_class, std::uint32_t field, elvis_class_field* out) {
+        return guard_on(self<Volume>(volume),
+                        [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_class_field(element_class, field, s); }); });
+    };
+    t.get_time = [](elvis_volume* volume, std::uint32_t step, double* time) {
+        return guard_on(self<Volume>(volume), [&](Volume& v) { *time = v.get_time(step); });
+    };
+    t.get_buffer = [](elvis_volume* volume, std::uint32_t buffer, std::uint32_t field, elvis_buffer* out) {
+        return guard_on(self<Volume>(volume),
+                        [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_buffer(buffer, field, s); }); });
+    };
+    t.get_snippet = [](elvis_volume* volume, std::uint32_t element_class, elvis_snippet* out) {
+        return guard_on(self<Volume>(volume),
+                        [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_snippet(element_class, s); }); });
+    };
+    t.get_bounds = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, double* bounds,
+                      elvis_certainty* certainty) {
+        return guard_on(self<Volume>(volume),
+                        [&](Volume& v) { *certainty = v.get_bounds(first, count, std::span<double>(bounds, 6 * count)); });
+    };
+    t.fill_buffer = [](elvis_volume* volume, const elvis_fill_request* request, void* destination) {
+        return guard_on(self<Volume>(volume), [&](Volume& v) { v.fill_buffer(read_struct(request), destination); });
+    };
+}
+
+/** What describes elements, faces and the volume, if the class has it. */
+template <class Volume> void set_descriptions(elvis_runtime& t) {
+    if constexpr (requires { &Volume::get_element_numbers; }) {
+        t.get_element_numbers = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, std::int64_t* numbers) {
+            return guard_on(self<Volume>(volume),
+                            [&](Volume& v) { v.get_element_numbers(first, std::span<std::int64_t>(numbers, count)); });
+        };
+    }
+    if constexpr (requires { &Volume::get_faces; }) {
+        t.get_faces = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, elvis_face* faces) {
+            return guard_on(self<Volume>(volume),
+                            [&](Volume& v) { v.get_faces(first, StructArray<elvis_face>(faces, count)); });
+        };
+    }
+    if constexpr (requires { &Volume::get_boundary_group; }) {
+        t.get_boundary_group = [](elvis_volume* volume, std::uint32_t group, elvis_string* name) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) { *name = v.get_boundary_group(group); });
+        };
+    }
+    if constexpr (requires { &Volume::get_note; }) {
+        t.get_note = [](elvis_volume* volume, std::uint32_t note, elvis_string* key, elvis_string* value) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) { std::tie(*key, *value) = v.get_note(note); });
+        };
+    }
+}
+
+/** What tells values and bounds, if the class has it. */
+template <class Volume> void set_values(elvis_runtime& t) {
+    if constexpr (requires { &Volume::get_field_ranges; }) {
+        t.get_field_ranges = [](elvis_volume* volume, std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+                                std::uint64_t count, double* ranges, elvis_certainty* certainty) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) {
+                auto info = elvis_field{};
+                info.struct_size = sizeof info;
+                v.get_field(field, info);
+                *certainty = v.get_field_ranges(field, time_step, first, count,
+                                                std::span<double>(ranges, 2 * count * info.n_components));
+            });
+        };
+    }
+    if constexpr (requires { &Volume::evaluate_mapping; }) {
+        t.evaluate_mapping = [](elvis_volume* volume, std::uint64_t element, std::uint64_t n_points, const double* xi,
+                                double* positions, double* jacobians) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) {
+                v.evaluate_mapping(element, std::span<const double>(xi, 3 * n_points), positions, jacobians);
+            });
+        };
+    }
+    if constexpr (requires { &Volume::evaluate_field; }) {
+        t.evaluate_field = [](elvis_volume* volume, std::uint32_t field, std::uint32_t time_step, std::uint64_t element,
+                              std::uint64_t n_points, const double* xi, double* values, double* gradients) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) {
+                v.evaluate_field(field, time_step, element, std::span<const double>(xi, 3 * n_points), values, gradients);
+            });
+        };
+    }
+    if constexpr (requires { &Volume::get_field_derivative_bounds; }) {
+        t.get_field_derivative_bounds = [](elvis_volume* volume, std::uint32_t field, std::uint32_t time_step,
+                                           std::uint64_t first, std::uint64_t count, double* bounds,
+                                           elvis_certainty* certainty) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) {
+                auto info = elvis_field{};
+                info.struct_size = sizeof info;
+                v.get_field(field, info);
+                *certainty = v.get_field_derivative_bounds(field, time_step, first, count,
+                                                           std::span<double>(bounds, 2 * count * info.n_components));
+            });
+        };
+    }
+    if constexpr (requires { &Volume::check_jacobians; }) {
+        t.check_jacobians = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, double tolerance,
+                               elvis_jacobian_check* checks, elvis_certainty* certainty) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) {
+                *certainty = v.check_jacobians(first, tolerance, StructArray<elvis_jacobian_check>(checks, count));
+            });
+        };
+    }
+}
+
 } // namespace detail
 
 /** The table of a class derived from RuntimeVolume. */
 template <class Volume> const elvis_runtime* runtime_table() {
-    using namespace detail;
     static const elvis_runtime table = [] {
         elvis_runtime t{};
         t.struct_size = sizeof t;
-        t.probe = [](const elvis_host* host, const char* path, std::uint32_t* confidence) {
-            return guard(host, [&] { *confidence = Volume::probe(path); });
-        };
-        t.open = [](const elvis_host* host, const char* path, const char* options, elvis_volume** volume) {
-            return guard(host, [&] {
-                *volume = reinterpret_cast<elvis_volume*>(
-                    new Volume(Host(host), std::string(path), std::string(options ? options : "")));
-            });
-        };
-        t.close = [](elvis_volume* volume) { delete &self<Volume>(volume); };
-        t.get_info = [](elvis_volume* volume, elvis_volume_info* out) {
-            return guard_on(self<Volume>(volume), [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_info(s); }); });
-        };
-        t.get_class = [](elvis_volume* volume, std::uint32_t element_class, elvis_element_class* out) {
-            return guard_on(self<Volume>(volume),
-                            [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_class(element_class, s); }); });
-        };
-        t.get_field = [](elvis_volume* volume, std::uint32_t field, elvis_field* out) {
-            return guard_on(self<Volume>(volume),
-                            [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_field(field, s); }); });
-        };
-        t.get_class_field = [](elvis_volume* volume, std::uint32_t element_class, std::uint32_t field, elvis_class_field* out) {
-            return guard_on(self<Volume>(volume),
-                            [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_class_field(element_class, field, s); }); });
-        };
-        t.get_time = [](elvis_volume* volume, std::uint32_t step, double* time) {
-            return guard_on(self<Volume>(volume), [&](Volume& v) { *time = v.get_time(step); });
-        };
-        t.get_buffer = [](elvis_volume* volume, std::uint32_t buffer, std::uint32_t field, elvis_buffer* out) {
-            return guard_on(self<Volume>(volume),
-                            [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_buffer(buffer, field, s); }); });
-        };
-        t.get_snippet = [](elvis_volume* volume, std::uint32_t element_class, elvis_snippet* out) {
-            return guard_on(self<Volume>(volume),
-                            [&](Volume& v) { fill_struct(out, [&](auto& s) { v.get_snippet(element_class, s); }); });
-        };
-        t.get_bounds = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, double* bounds,
-                          elvis_certainty* certainty) {
-            return guard_on(self<Volume>(volume),
-                            [&](Volume& v) { *certainty = v.get_bounds(first, count, std::span<double>(bounds, 6 * count)); });
-        };
-        t.fill_buffer = [](elvis_volume* volume, const elvis_fill_request* request, void* destination) {
-            return guard_on(self<Volume>(volume), [&](Volume& v) { v.fill_buffer(read_struct(request), destination); });
-        };
-        if constexpr (requires { &Volume::get_element_numbers; }) {
-            t.get_element_numbers = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, std::int64_t* numbers) {
-                return guard_on(self<Volume>(volume),
-                                [&](Volume& v) { v.get_element_numbers(first, std::span<std::int64_t>(numbers, count)); });
-            };
-        }
-        if constexpr (requires { &Volume::get_faces; }) {
-            t.get_faces = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, elvis_face* faces) {
-                return guard_on(self<Volume>(volume),
-                                [&](Volume& v) { v.get_faces(first, StructArray<elvis_face>(faces, count)); });
-            };
-        }
-        if constexpr (requires { &Volume::get_boundary_group; }) {
-            t.get_boundary_group = [](elvis_volume* volume, std::uint32_t group, elvis_string* name) {
-                return guard_on(self<Volume>(volume), [&](Volume& v) { *name = v.get_boundary_group(group); });
-            };
-        }
-        if constexpr (requires { &Volume::get_field_ranges; }) {
-            t.get_field_ranges = [](elvis_volume* volume, std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
-                                    std::uint64_t count, double* ranges, elvis_certainty* certainty) {
-                return guard_on(self<Volume>(volume), [&](Volume& v) {
-                    auto info = elvis_field{};
-                    info.struct_size = sizeof info;
-                    v.get_field(field, info);
-                    *certainty = v.get_field_ranges(field, time_step, first, count,
-                                                    std::span<double>(ranges, 2 * count * info.n_components));
-                });
-            };
-        }
-        if constexpr (requires { &Volume::get_note; }) {
-            t.get_note = [](elvis_volume* volume, std::uint32_t note, elvis_string* key, elvis_string* value) {
-                return guard_on(self<Volume>(volume), [&](Volume& v) { std::tie(*key, *value) = v.get_note(note); });
-            };
-        }
-        if constexpr (requires { &Volume::evaluate_mapping; }) {
-            t.evaluate_mapping = [](elvis_volume* volume, std::uint64_t element, std::uint64_t n_points, const double* xi,
-                                    double* positions, double* jacobians) {
-                return guard_on(self<Volume>(volume), [&](Volume& v) {
-                    v.evaluate_mapping(element, std::span<const double>(xi, 3 * n_points), positions, jacobians);
-                });
-            };
-        }
-        if constexpr (requires { &Volume::evaluate_field; }) {
-            t.evaluate_field = [](elvis_volume* volume, std::uint32_t field, std::uint32_t time_step, std::uint64_t element,
-                                  std::uint64_t n_points, const double* xi, double* values, double* gradients) {
-                return guard_on(self<Volume>(volume), [&](Volume& v) {
-                    v.evaluate_field(field, time_step, element, std::span<const double>(xi, 3 * n_points), values, gradients);
-                });
-            };
-        }
-        if constexpr (requires { &Volume::get_field_derivative_bounds; }) {
-            t.get_field_derivative_bounds = [](elvis_volume* volume, std::uint32_t field, std::uint32_t time_step,
-                                               std::uint64_t first, std::uint64_t count, double* bounds,
-                                               elvis_certainty* certainty) {
-                return guard_on(self<Volume>(volume), [&](Volume& v) {
-                    auto info = elvis_field{};
-                    info.struct_size = sizeof info;
-                    v.get_field(field, info);
-                    *certainty = v.get_field_derivative_bounds(field, time_step, first, count,
-                                                               std::span<double>(bounds, 2 * count * info.n_components));
-                });
-            };
-        }
-        if constexpr (requires { &Volume::check_jacobians; }) {
-            t.check_jacobians = [](elvis_volume* volume, std::uint64_t first, std::uint64_t count, double tolerance,
-                                   elvis_jacobian_check* checks, elvis_certainty* certainty) {
-                return guard_on(self<Volume>(volume), [&](Volume& v) {
-                    *certainty = v.check_jacobians(first, tolerance, StructArray<elvis_jacobian_check>(checks, count));
-                });
-            };
-        }
+        detail::set_required<Volume>(t);
+        detail::set_descriptions<Volume>(t);
+        detail::set_values<Volume>(t);
         return t;
     }();
     return &table;

@@ -58,6 +58,26 @@
         }                                                                                                                          \
     }
 
+// For each e: t^(e-1) J, its derivative d(t^e J)/dxi3, and P, Q, S of NATIVE_HESSIAN.
+#define NATIVE_PYRAMID_POWERS(xi3, t, per_t, c, c3, cp, cq, cs)                                                                    \
+    {                                                                                                                              \
+        elvis_real power = elvis_real(1), before = elvis_real(0);                                                                  \
+        for (int i = 0; i < NATIVE_LARGEST_EXPONENT; ++i) {                                                                        \
+            elvis_real e = elvis_real(i + 1);                                                                                      \
+            NATIVE_PLAIN_CURVES(NATIVE_R, native_jacobi(2 * i + 4, n), xi3, c[i], c3[i], cs[i])                                    \
+            for (int r = 0; r <= NATIVE_R; ++r) {                                                                                  \
+                elvis_real j = c[i][r], j1 = c3[i][r], j2 = cs[i][r];                                                              \
+                c[i][r] = power * j;                                                                                               \
+                c3[i][r] = power * (t * j1 - elvis_real(0.5LF) * e * j);                                                           \
+                cp[i][r] = i == 0 ? per_t * j : before * j;                                                                        \
+                cq[i][r] = power * j1 + elvis_real(0.5LF) * (elvis_real(1) - e) * before * j;                                      \
+                cs[i][r] = power * (t * j2 - e * j1) + elvis_real(0.25LF) * e * (e - elvis_real(1)) * before * j;                  \
+            }                                                                                                                      \
+            before = power;                                                                                                        \
+            power *= t;                                                                                                            \
+        }                                                                                                                          \
+    }
+
 // Collapsed coordinate x/t. At the apex it is -1 by convention. Far outside the pyramid, where t is small, it is kept from
 // growing so large that its powers overflow.
 elvis_real native_pyramid_eta(elvis_real x, elvis_real t, elvis_real limit) {
@@ -219,28 +239,13 @@ void NATIVE_HESSIAN(uint element, uint first_row, elvis_vec3 xi, out NATIVE_TYPE
     elvis_real eta1 = native_pyramid_eta(xi.x + elvis_real(1) - t, t, NATIVE_ETA_LIMIT);
     elvis_real eta2 = native_pyramid_eta(xi.y + elvis_real(1) - t, t, NATIVE_ETA_LIMIT);
     elvis_real a[NATIVE_P + 1], a1[NATIVE_P + 1], a11[NATIVE_P + 1], b[NATIVE_Q + 1], b2[NATIVE_Q + 1], b22[NATIVE_Q + 1];
-    // For each e: t^(e-1) J, its derivative d(t^e J)/dxi3, P, Q, S.
     elvis_real c[NATIVE_LARGEST_EXPONENT][NATIVE_R + 1], c3[NATIVE_LARGEST_EXPONENT][NATIVE_R + 1];
     elvis_real cp[NATIVE_LARGEST_EXPONENT][NATIVE_R + 1], cq[NATIVE_LARGEST_EXPONENT][NATIVE_R + 1];
     elvis_real cs[NATIVE_LARGEST_EXPONENT][NATIVE_R + 1];
     NATIVE_PYRAMID_CURVES(NATIVE_P, eta1, a, a1, a11)
     NATIVE_PYRAMID_CURVES(NATIVE_Q, eta2, b, b2, b22)
     elvis_real per_t = elvis_real(1) / (abs(t) < elvis_real(1.0e-15LF) ? elvis_real(1.0e-15LF) : t);
-    elvis_real power = elvis_real(1), before = elvis_real(0);
-    for (int i = 0; i < NATIVE_LARGEST_EXPONENT; ++i) {
-        elvis_real e = elvis_real(i + 1);
-        NATIVE_PLAIN_CURVES(NATIVE_R, native_jacobi(2 * i + 4, n), xi.z, c[i], c3[i], cs[i])
-        for (int r = 0; r <= NATIVE_R; ++r) {
-            elvis_real j = c[i][r], j1 = c3[i][r], j2 = cs[i][r];
-            c[i][r] = power * j;
-            c3[i][r] = power * (t * j1 - elvis_real(0.5LF) * e * j);
-            cp[i][r] = i == 0 ? per_t * j : before * j;
-            cq[i][r] = power * j1 + elvis_real(0.5LF) * (elvis_real(1) - e) * before * j;
-            cs[i][r] = power * (t * j2 - e * j1) + elvis_real(0.25LF) * e * (e - elvis_real(1)) * before * j;
-        }
-        before = power;
-        power *= t;
-    }
+    NATIVE_PYRAMID_POWERS(xi.z, t, per_t, c, c3, cp, cq, cs)
     elvis_real m1 = (elvis_real(1) + eta1) * elvis_real(0.5LF), m2 = (elvis_real(1) + eta2) * elvis_real(0.5LF);
     // Sums over p and q of Q with one derivative of B, and of S with none.
     NATIVE_TYPE q1 = zero, q2 = zero, s = zero;

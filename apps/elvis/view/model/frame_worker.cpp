@@ -103,6 +103,50 @@ DrawAnswer FrameWorker::drawn(const DrawRequest& request) {
     return answer;
 }
 
+void FrameWorker::do_task(std::unique_lock<std::mutex>& lock) {
+    std::deque<Task>& tasks = m_tasks.empty() ? m_later_tasks : m_tasks;
+    const Task task = std::move(tasks.front());
+    tasks.pop_front();
+    m_activity = task.activity;
+    lock.unlock();
+    Answer answer;
+    try {
+        answer = task.job(*m_session);
+    } catch (const std::exception& error) {
+        answer = [on_error = task.on_error, what = std::string(error.what())] { on_error(what); };
+    }
+    lock.lock();
+    m_activity.clear();
+    if (answer) {
+        m_answers.push_back(std::move(answer));
+    }
+}
+
+void FrameWorker::draw_wanted(std::unique_lock<std::mutex>& lock) {
+    const DrawRequest request = std::move(*m_wanted);
+    m_wanted.reset();
+    m_drawing = request.step;
+    m_activity = "drawing";
+    lock.unlock();
+    std::optional<DrawAnswer> answer;
+    try {
+        answer = drawn(request);
+    } catch (const Cancelled&) {
+        // Another picture is wanted.
+    }
+    lock.lock();
+    m_activity.clear();
+    m_drawing.reset();
+    if (m_cancelled) {
+        m_cancel_times.push_back(milliseconds_since(*std::exchange(m_cancelled, {})));
+        if (m_cancel_times.size() > most_cancel_times) {
+            m_cancel_times.pop_front();
+        }
+    } else if (answer) {
+        m_drawn = std::move(answer);
+    }
+}
+
 void FrameWorker::run(const std::stop_token& stop) {
     std::unique_lock lock(m_mutex);
     // Drivers that compile for a CPU leave hundreds of mebibytes free in the heap after a change of scene.
@@ -122,45 +166,9 @@ void FrameWorker::run(const std::stop_token& stop) {
         has_free_memory = true;
         m_session->control().cancelled = false;
         if (!m_tasks.empty() || !m_wanted) {
-            std::deque<Task>& tasks = m_tasks.empty() ? m_later_tasks : m_tasks;
-            const Task task = std::move(tasks.front());
-            tasks.pop_front();
-            m_activity = task.activity;
-            lock.unlock();
-            Answer answer;
-            try {
-                answer = task.job(*m_session);
-            } catch (const std::exception& error) {
-                answer = [on_error = task.on_error, what = std::string(error.what())] { on_error(what); };
-            }
-            lock.lock();
-            m_activity.clear();
-            if (answer) {
-                m_answers.push_back(std::move(answer));
-            }
+            do_task(lock);
         } else {
-            const DrawRequest request = std::move(*m_wanted);
-            m_wanted.reset();
-            m_drawing = request.step;
-            m_activity = "drawing";
-            lock.unlock();
-            std::optional<DrawAnswer> answer;
-            try {
-                answer = drawn(request);
-            } catch (const Cancelled&) {
-                // Another picture is wanted.
-            }
-            lock.lock();
-            m_activity.clear();
-            m_drawing.reset();
-            if (m_cancelled) {
-                m_cancel_times.push_back(milliseconds_since(*std::exchange(m_cancelled, {})));
-                if (m_cancel_times.size() > most_cancel_times) {
-                    m_cancel_times.pop_front();
-                }
-            } else if (answer) {
-                m_drawn = std::move(answer);
-            }
+            draw_wanted(lock);
         }
     }
 }

@@ -81,6 +81,9 @@ private:
         std::function<void(const std::string&)> on_error;
     };
     void run(const std::stop_token& stop);
+    /** These work while the lock is open. */
+    void do_task(std::unique_lock<std::mutex>& lock);
+    void draw_wanted(std::unique_lock<std::mutex>& lock);
     DrawAnswer drawn(const DrawRequest& request);
 
     std::unique_ptr<Session> m_session;

@@ -159,6 +159,13 @@ Picked Session::pick(const Scene& scene, const std::array<double, 2>& place) {
         picked.remark = "Only volumes of three dimensions can be probed.";
         return picked;
     }
+    if (!probe(ray, scene.time_step, picked)) {
+        picked.remark = "The point lies in no element.";
+    }
+    return picked;
+}
+
+bool Session::probe(const Ray& ray, std::uint32_t time_step, Picked& picked) {
     if (!m_prober) {
         m_prober = std::make_unique<Prober>(*m_volume);
     }
@@ -171,7 +178,7 @@ Picked Session::pick(const Scene& scene, const std::array<double, 2>& place) {
     const double diagonal = std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
     for (const double shift : {0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4}) {
         const std::array<double, 3> position = ray.at(picked.depth + shift * diagonal);
-        const ProbedPoint point = m_prober->probe(std::span(&position, 1), scene.time_step, expressions).front();
+        const ProbedPoint point = m_prober->probe(std::span(&position, 1), time_step, expressions).front();
         if (!point.element) {
             continue;
         }
@@ -191,10 +198,9 @@ Picked Session::pick(const Scene& scene, const std::array<double, 2>& place) {
         picked.scaled_jacobian = point.expressions[1].value;
         picked.order = point.expressions[2].value;
         std::sort(picked.also.begin(), picked.also.end());
-        return picked;
+        return true;
     }
-    picked.remark = "The point lies in no element.";
-    return picked;
+    return false;
 }
 
 std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece) {

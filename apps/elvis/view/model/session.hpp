@@ -58,6 +58,8 @@ public:
 
 private:
     FrameRequest drawn_request(const Scene& scene);
+    /** What is in the element that a picked point lies in; whether there is one. */
+    bool probe(const Ray& ray, std::uint32_t time_step, Picked& picked);
     void need_precision(const Scene& scene);
 
     PluginRegistry m_registry;

@@ -52,8 +52,11 @@ std::vector<DensityPoint> base_density(const SceneVolumeRendering& rendering, co
     return rendering.peaks.empty() ? std::vector<DensityPoint>{{range[0], 0}, {range[1], usual}} : std::vector<DensityPoint>{};
 }
 
-std::vector<std::pair<Grip, ImVec2>> grips_of(const SceneVolumeRendering& rendering, const Plot& plot) {
-    std::vector<std::pair<Grip, ImVec2>> grips;
+/** With their places on the screen. */
+using Grips = std::vector<std::pair<Grip, ImVec2>>;
+
+Grips grips_of(const SceneVolumeRendering& rendering, const Plot& plot) {
+    Grips grips;
     for (std::size_t i = 0; i < rendering.density.size(); ++i) {
         grips.push_back({{Grip::Kind::point, i}, plot.place(rendering.density[i].value, rendering.density[i].density)});
     }
@@ -136,6 +139,63 @@ bool drag(SceneVolumeRendering& rendering, const Grip& grip, const Plot& plot, c
     return true;
 }
 
+/** The density at the highest point. */
+double largest_density(const std::vector<DensityPoint>& base, const std::vector<ScenePeak>& peaks) {
+    double most = 0;
+    for (const DensityPoint& point : base) {
+        most = std::max(most, point.density);
+    }
+    for (const ScenePeak& peak : peaks) {
+        most = std::max(most, peak.density);
+    }
+    return most;
+}
+
+/** What is within reach of the cursor. */
+std::optional<std::size_t> nearest_grip(const Grips& grips, const ImVec2& mouse, float scale) {
+    std::optional<std::size_t> near;
+    float nearest = reach * scale;
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+        const float distance = std::hypot(grips[i].second.x - mouse.x, grips[i].second.y - mouse.y);
+        if (distance < nearest) {
+            nearest = distance;
+            near = i;
+        }
+    }
+    return near;
+}
+
+void insert_point(std::vector<DensityPoint>& density, const DensityPoint& point) {
+    const auto behind =
+        std::find_if(density.begin(), density.end(), [&](const DensityPoint& other) { return other.value > point.value; });
+    density.insert(behind, point);
+}
+
+/** Takes a peak away, or a point but for the last. */
+bool remove_grip(SceneVolumeRendering& rendering, const Grip& grip) {
+    const auto at = static_cast<std::ptrdiff_t>(grip.index);
+    if (grip.kind != Grip::Kind::point) {
+        rendering.peaks.erase(rendering.peaks.begin() + at);
+        return true;
+    }
+    if (rendering.density.size() > 1) {
+        rendering.density.erase(rendering.density.begin() + at);
+        return true;
+    }
+    return false;
+}
+
+void draw_grips(Ui& ui, ImDrawList* list, const Grips& grips, std::optional<std::size_t> lit) {
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+        const auto& [grip, at] = grips[i];
+        const float radius = (grip.kind == Grip::Kind::side ? 0.7f : 1.0f) * point_radius * ui.scale;
+        list->AddCircleFilled(at, radius, lit == i ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 200, 40, 255));
+        static constexpr const char* names[] = {"point", "peak", "side"};
+        ui.places[std::string("volume/curve/") + names[static_cast<std::size_t>(grip.kind)] + std::to_string(grip.index)] = {
+            at.x - 4, at.y - 4, at.x + 4, at.y + 4};
+    }
+}
+
 } // namespace
 
 bool is_peak(const ScenePeak& peak) {
@@ -145,13 +205,7 @@ bool is_peak(const ScenePeak& peak) {
 bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array<double, 2>& range, bool is_logarithmic,
                        double usual, const Histogram* histogram) {
     const std::vector<DensityPoint> base = base_density(rendering, range, usual);
-    double most = 0;
-    for (const DensityPoint& point : base) {
-        most = std::max(most, point.density);
-    }
-    for (const ScenePeak& peak : rendering.peaks) {
-        most = std::max(most, peak.density);
-    }
+    const double most = largest_density(base, rendering.peaks);
     Plot plot{ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail().x, 6 * ImGui::GetFrameHeight(),
               ColorScale(range, is_logarithmic),
               // Room above the highest point, which otherwise could not be dragged upwards.
@@ -173,37 +227,19 @@ bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array
             static_cast<double>(storage->GetFloat(top_id, static_cast<float>(plot.top))); // It stays while the hand is at work.
     }
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const std::vector<std::pair<Grip, ImVec2>> grips = grips_of(rendering, plot);
-    std::optional<std::size_t> near;
-    float nearest = reach * ui.scale;
-    for (std::size_t i = 0; i < grips.size(); ++i) {
-        const float distance = std::hypot(grips[i].second.x - mouse.x, grips[i].second.y - mouse.y);
-        if (distance < nearest) {
-            nearest = distance;
-            near = i;
-        }
-    }
+    const Grips grips = grips_of(rendering, plot);
+    const std::optional<std::size_t> near = nearest_grip(grips, mouse, ui.scale);
     if (is_started && near) {
         storage->SetInt(held_id, static_cast<int>(*near));
     }
     bool is_changed = false;
     if (is_hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !near && !rendering.density.empty()) {
-        const double value = plot.value(mouse);
-        const auto behind = std::find_if(rendering.density.begin(), rendering.density.end(),
-                                         [value](const DensityPoint& point) { return point.value > value; });
-        rendering.density.insert(behind, {value, plot.density(mouse)});
+        insert_point(rendering.density, {plot.value(mouse), plot.density(mouse)});
         storage->SetInt(held_id, -1);
         is_changed = true;
     } else if (is_hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right) && near) {
-        const Grip grip = grips[*near].first;
         storage->SetInt(held_id, -1);
-        if (grip.kind != Grip::Kind::point) {
-            rendering.peaks.erase(rendering.peaks.begin() + static_cast<std::ptrdiff_t>(grip.index));
-            is_changed = true;
-        } else if (rendering.density.size() > 1) {
-            rendering.density.erase(rendering.density.begin() + static_cast<std::ptrdiff_t>(grip.index));
-            is_changed = true;
-        }
+        is_changed = remove_grip(rendering, grips[*near].first);
     } else if (is_active && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2)) {
         const int held = storage->GetInt(held_id, -1);
         if (held >= 0 && static_cast<std::size_t>(held) < grips.size()) {
@@ -219,15 +255,7 @@ bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array
     }
     draw_peaks(list, plot, rendering.peaks, 1.5f * ui.scale);
     draw_density(list, plot, base, 2 * ui.scale);
-    for (std::size_t i = 0; i < grips.size(); ++i) {
-        const auto& [grip, at] = grips[i];
-        const bool is_lit = near == i && is_hovered;
-        const float radius = (grip.kind == Grip::Kind::side ? 0.7f : 1.0f) * point_radius * ui.scale;
-        list->AddCircleFilled(at, radius, is_lit ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 200, 40, 255));
-        static constexpr const char* names[] = {"point", "peak", "side"};
-        ui.places[std::string("volume/curve/") + names[static_cast<std::size_t>(grip.kind)] + std::to_string(grip.index)] = {
-            at.x - 4, at.y - 4, at.x + 4, at.y + 4};
-    }
+    draw_grips(ui, list, grips, is_hovered ? near : std::nullopt);
     list->PopClipRect();
     return is_changed;
 }

@@ -50,6 +50,23 @@ bool edit(Ui& ui, CutPlane& plane) {
     return is_changed;
 }
 
+/** Whether a value is in a list. */
+template <class Value>
+bool check_member(Ui& ui, const std::string& name, const char* label, std::vector<Value>& list, const Value& value,
+                  const char* help) {
+    const auto found = std::find(list.begin(), list.end(), value);
+    bool is_member = found != list.end();
+    if (!check(ui, name, label, is_member, help)) {
+        return false;
+    }
+    if (is_member) {
+        list.push_back(value);
+    } else {
+        list.erase(found);
+    }
+    return true;
+}
+
 bool edit(Ui& ui, BoundaryFaces& boundary) {
     const std::vector<std::string>& groups = ui.model().volume()->boundary_groups;
     bool is_changed = false;
@@ -58,16 +75,9 @@ bool edit(Ui& ui, BoundaryFaces& boundary) {
     }
     ImGui::TextUnformatted(boundary.groups.empty() ? "Groups: all" : "Groups");
     for (const std::string& group : groups) {
-        const auto found = std::find(boundary.groups.begin(), boundary.groups.end(), group);
-        bool is_chosen = found != boundary.groups.end();
-        if (check(ui, "group/" + group, group.c_str(), is_chosen, "Without any, all of the boundary is drawn")) {
-            if (is_chosen) {
-                boundary.groups.push_back(group);
-            } else {
-                boundary.groups.erase(found);
-            }
-            is_changed = true;
-        }
+        is_changed = check_member(ui, "group/" + group, group.c_str(), boundary.groups, group,
+                                  "Without any, all of the boundary is drawn") ||
+                     is_changed;
     }
     return is_changed;
 }
@@ -96,92 +106,105 @@ bool edit_interval(Ui& ui, const std::string& name, const char* label, std::opti
     return is_changed;
 }
 
-bool edit(Ui& ui, ElementSelection& selection) {
-    const VolumeFacts& volume = *ui.model().volume();
-    bool is_changed = false;
-    ImGui::TextWrapped("Elements for which all of this holds:");
-    std::string ids;
-    for (const auto& [first, last] : selection.numbers) {
-        ids += ids.empty() ? "" : " ";
-        ids += std::to_string(first);
+using NumberRanges = decltype(ElementSelection::numbers);
+
+/** As "3 7 10-20". */
+std::string text_of(const NumberRanges& numbers) {
+    std::string text;
+    for (const auto& [first, last] : numbers) {
+        text += text.empty() ? "" : " ";
+        text += std::to_string(first);
         if (first != last) {
-            ids += '-';
-            ids += std::to_string(last);
+            text += '-';
+            text += std::to_string(last);
         }
     }
-    if (text(ui, "elements/ids", "Numbers", ids, "Numbers and ranges, such as 3 7 10-20; all if left empty", "all")) {
-        selection.numbers.clear();
-        const char* at = ids.c_str();
-        while (*at != '\0') {
-            char* end = nullptr;
-            if (*at < '0' || *at > '9') {
-                ++at;
-                continue;
-            }
-            const std::uint64_t first = std::strtoull(at, &end, 10);
-            std::uint64_t last = first;
+    return text;
+}
+
+NumberRanges numbers_of(const std::string& text) {
+    NumberRanges numbers;
+    const char* at = text.c_str();
+    while (*at != '\0') {
+        char* end = nullptr;
+        if (*at < '0' || *at > '9') {
+            ++at;
+            continue;
+        }
+        const std::uint64_t first = std::strtoull(at, &end, 10);
+        std::uint64_t last = first;
+        at = end;
+        if (*at == '-' && at[1] >= '0' && at[1] <= '9') {
+            last = std::strtoull(at + 1, &end, 10);
             at = end;
-            if (*at == '-' && at[1] >= '0' && at[1] <= '9') {
-                last = std::strtoull(at + 1, &end, 10);
-                at = end;
-            }
-            selection.numbers.push_back({std::min(first, last), std::max(first, last)});
         }
-        is_changed = true;
+        numbers.push_back({std::min(first, last), std::max(first, last)});
     }
-    for (const std::uint32_t shape : volume.shapes) {
-        const auto found = std::find(selection.shapes.begin(), selection.shapes.end(), shape);
-        bool is_chosen = found != selection.shapes.end();
-        if (check(ui, std::string("elements/") + shape_name(shape), shape_name(shape), is_chosen,
-                  "Elements of the shapes that are marked; without any mark, of all shapes")) {
-            if (is_chosen) {
-                selection.shapes.push_back(shape);
-            } else {
-                selection.shapes.erase(found);
-            }
-            is_changed = true;
-        }
-    }
-    is_changed = check(ui, "elements/negative", "Negative Jacobian", selection.has_negative_jacobian,
-                       "Only elements that are turned inside out somewhere") ||
-                 is_changed;
+    return numbers;
+}
+
+bool edit_orders(Ui& ui, ElementSelection& selection) {
     std::optional<std::array<double, 2>> orders;
     if (selection.orders) {
         orders = {double((*selection.orders)[0]), double((*selection.orders)[1])};
     }
-    if (edit_interval(ui, "elements/orders", "Order of the field", orders, {1, 4},
-                      "Elements whose order is in this interval")) {
-        selection.orders.reset();
-        if (orders) {
-            selection.orders = {static_cast<std::int32_t>(std::lround(std::clamp((*orders)[0], -1.0, 1000.0))),
-                                static_cast<std::int32_t>(std::lround(std::clamp((*orders)[1], -1.0, 1000.0)))};
+    if (!edit_interval(ui, "elements/orders", "Order of the field", orders, {1, 4},
+                       "Elements whose order is in this interval")) {
+        return false;
+    }
+    selection.orders.reset();
+    if (orders) {
+        selection.orders = {static_cast<std::int32_t>(std::lround(std::clamp((*orders)[0], -1.0, 1000.0))),
+                            static_cast<std::int32_t>(std::lround(std::clamp((*orders)[1], -1.0, 1000.0)))};
+    }
+    return true;
+}
+
+bool edit_box(Ui& ui, std::optional<std::array<double, 6>>& box) {
+    const VolumeFacts& volume = *ui.model().volume();
+    bool has_box = box.has_value();
+    bool is_changed = check(ui, "elements/box", "In a box", has_box, "Elements whose bounds meet the box");
+    if (is_changed) {
+        box = has_box ? std::optional(volume.bounds) : std::nullopt;
+    }
+    if (box) {
+        std::array<double, 6>& b = *box;
+        Vector3 least = {b[0], b[1], b[2]}, most = {b[3], b[4], b[5]};
+        const bool has_least = vector(ui, "elements/least", "least", least, volume.diagonal(), "The box's least corner");
+        const bool has_most = vector(ui, "elements/most", "largest", most, volume.diagonal(), "The box's largest corner");
+        for (std::size_t axis = 0; axis < 3 && (has_least || has_most); ++axis) {
+            b[axis] = std::min(least[axis], most[axis]);
+            b[axis + 3] = std::max(least[axis], most[axis]);
         }
+        is_changed = is_changed || has_least || has_most;
+    }
+    return is_changed;
+}
+
+bool edit(Ui& ui, ElementSelection& selection) {
+    bool is_changed = false;
+    ImGui::TextWrapped("Elements for which all of this holds:");
+    std::string numbers = text_of(selection.numbers);
+    if (text(ui, "elements/ids", "Numbers", numbers, "Numbers and ranges, such as 3 7 10-20; all if left empty", "all")) {
+        selection.numbers = numbers_of(numbers);
         is_changed = true;
     }
+    for (const std::uint32_t shape : ui.model().volume()->shapes) {
+        is_changed = check_member(ui, std::string("elements/") + shape_name(shape), shape_name(shape), selection.shapes, shape,
+                                  "Elements of the shapes that are marked; without any mark, of all shapes") ||
+                     is_changed;
+    }
+    is_changed = check(ui, "elements/negative", "Negative Jacobian", selection.has_negative_jacobian,
+                       "Only elements that are turned inside out somewhere") ||
+                 is_changed;
+    is_changed = edit_orders(ui, selection) || is_changed;
     const std::optional<FieldRange> range = ui.bench.range(ui.scene().field);
     is_changed = edit_interval(ui, "elements/values", "Value of the field", selection.value_range,
                                range ? std::array<double, 2>{0.5 * (range->lower + range->upper), range->upper}
                                      : std::array<double, 2>{0, 1},
                                "Elements in which the field may take such values") ||
                  is_changed;
-    bool has_box = selection.box.has_value();
-    if (check(ui, "elements/box", "In a box", has_box, "Elements whose bounds meet the box")) {
-        selection.box = has_box ? std::optional(volume.bounds) : std::nullopt;
-        is_changed = true;
-    }
-    if (selection.box) {
-        std::array<double, 6>& box = *selection.box;
-        Vector3 least = {box[0], box[1], box[2]}, most = {box[3], box[4], box[5]};
-        const bool has_least = vector(ui, "elements/least", "least", least, volume.diagonal(), "The box's least corner");
-        const bool has_most = vector(ui, "elements/most", "largest", most, volume.diagonal(), "The box's largest corner");
-        if (has_least || has_most) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box[axis] = std::min(least[axis], most[axis]);
-                box[axis + 3] = std::max(least[axis], most[axis]);
-            }
-            is_changed = true;
-        }
-    }
+    is_changed = edit_box(ui, selection.box) || is_changed;
     static const std::vector<std::string> words = {"all", "outer", "inner"};
     auto faces = static_cast<std::size_t>(selection.faces);
     if (choice(ui, "elements/faces", "Faces", faces, words,
@@ -191,6 +214,10 @@ bool edit(Ui& ui, ElementSelection& selection) {
     }
     return is_changed;
 }
+
+bool edit(Ui& ui, ElementFaces& elements) { return edit(ui, elements.selection); }
+
+bool edit(Ui&, FlatElements&) { return false; }
 
 bool edit(Ui& ui, WireFrame& frame) {
     bool is_changed = slider(ui, "wires/width", "Width", frame.width, 1, 16, "In pixels");
@@ -206,81 +233,88 @@ bool edit(Ui& ui, WireFrame& frame) {
         }
         is_changed = true;
     }
-    if (auto* elements = std::get_if<ElementFaces>(&frame.faces)) {
-        is_changed = edit(ui, elements->selection) || is_changed;
-    } else if (auto* boundary = std::get_if<BoundaryFaces>(&frame.faces)) {
-        is_changed = edit(ui, *boundary) || is_changed;
+    return std::visit([&](auto& faces) { return edit(ui, faces); }, frame.faces) || is_changed;
+}
+
+bool edit(Ui& ui, Sphere& sphere) {
+    const double extent = ui.model().volume()->diagonal();
+    bool is_changed = vector(ui, "shape/center", "Centre", sphere.center, extent, "Of the sphere");
+    return positive_number(ui, "shape/radius", "Radius", sphere.radius, extent, "Of the sphere") || is_changed;
+}
+
+bool edit(Ui& ui, Cylinder& cylinder) {
+    const double extent = ui.model().volume()->diagonal();
+    const Cylinder before = cylinder;
+    bool is_changed = vector(ui, "shape/from", "From", cylinder.from, extent, "Middle of one end");
+    is_changed = vector(ui, "shape/to", "To", cylinder.to, extent, "Middle of the other end") || is_changed;
+    is_changed = positive_number(ui, "shape/radius", "Radius", cylinder.radius, extent, "Of the cylinder") || is_changed;
+    is_changed = check(ui, "shape/capped", "Closed", cylinder.is_capped, "Whether discs close its ends") || is_changed;
+    if (cylinder.from == cylinder.to) {
+        cylinder = before;
     }
     return is_changed;
 }
 
-bool edit(Ui& ui, CutShape& shape) {
+bool edit(Ui& ui, Cone& cone) {
     const double extent = ui.model().volume()->diagonal();
-    if (auto* sphere = std::get_if<Sphere>(&shape)) {
-        bool is_changed = vector(ui, "shape/center", "Centre", sphere->center, extent, "Of the sphere");
-        return positive_number(ui, "shape/radius", "Radius", sphere->radius, extent, "Of the sphere") || is_changed;
+    const Cone before = cone;
+    bool is_changed = vector(ui, "shape/from", "From", cone.from, extent, "Middle of one end");
+    is_changed = vector(ui, "shape/to", "To", cone.to, extent, "Middle of the other end") || is_changed;
+    is_changed = number(ui, "shape/from radius", "Radius there", cone.from_radius, extent, "At the first end") || is_changed;
+    is_changed = number(ui, "shape/to radius", "and there", cone.to_radius, extent, "At the other end") || is_changed;
+    is_changed = check(ui, "shape/capped", "Closed", cone.is_capped, "Whether discs close its ends") || is_changed;
+    if (cone.from == cone.to || cone.from_radius < 0 || cone.to_radius < 0 || (cone.from_radius == 0 && cone.to_radius == 0)) {
+        cone = before;
     }
-    if (auto* cylinder = std::get_if<Cylinder>(&shape)) {
-        const Cylinder before = *cylinder;
-        bool is_changed = vector(ui, "shape/from", "From", cylinder->from, extent, "Middle of one end");
-        is_changed = vector(ui, "shape/to", "To", cylinder->to, extent, "Middle of the other end") || is_changed;
-        is_changed = positive_number(ui, "shape/radius", "Radius", cylinder->radius, extent, "Of the cylinder") || is_changed;
-        is_changed = check(ui, "shape/capped", "Closed", cylinder->is_capped, "Whether discs close its ends") || is_changed;
-        if (cylinder->from == cylinder->to) {
-            *cylinder = before;
-        }
-        return is_changed;
+    return is_changed;
+}
+
+bool edit(Ui& ui, Torus& torus) {
+    const double extent = ui.model().volume()->diagonal();
+    const Torus before = torus;
+    bool is_changed = vector(ui, "shape/center", "Centre", torus.center, extent, "Of the torus");
+    is_changed = vector(ui, "shape/axis", "Axis", torus.axis, 1, "Of any length but zero") || is_changed;
+    is_changed =
+        positive_number(ui, "shape/radius", "Ring", torus.major_radius, extent, "From the centre to the middle of the tube") ||
+        is_changed;
+    is_changed = positive_number(ui, "shape/tube", "Tube", torus.minor_radius, extent, "Radius of the tube") || is_changed;
+    if (length(torus.axis) == 0) {
+        torus = before;
     }
-    if (auto* cone = std::get_if<Cone>(&shape)) {
-        const Cone before = *cone;
-        bool is_changed = vector(ui, "shape/from", "From", cone->from, extent, "Middle of one end");
-        is_changed = vector(ui, "shape/to", "To", cone->to, extent, "Middle of the other end") || is_changed;
-        is_changed =
-            number(ui, "shape/from radius", "Radius there", cone->from_radius, extent, "At the first end") || is_changed;
-        is_changed = number(ui, "shape/to radius", "and there", cone->to_radius, extent, "At the other end") || is_changed;
-        is_changed = check(ui, "shape/capped", "Closed", cone->is_capped, "Whether discs close its ends") || is_changed;
-        if (cone->from == cone->to || cone->from_radius < 0 || cone->to_radius < 0 ||
-            (cone->from_radius == 0 && cone->to_radius == 0)) {
-            *cone = before;
-        }
-        return is_changed;
-    }
-    if (auto* torus = std::get_if<Torus>(&shape)) {
-        const Torus before = *torus;
-        bool is_changed = vector(ui, "shape/center", "Centre", torus->center, extent, "Of the torus");
-        is_changed = vector(ui, "shape/axis", "Axis", torus->axis, 1, "Of any length but zero") || is_changed;
-        is_changed = positive_number(ui, "shape/radius", "Ring", torus->major_radius, extent,
-                                     "From the centre to the middle of the tube") ||
+    return is_changed;
+}
+
+bool edit(Ui& ui, Quadric& quadric) {
+    static const char* names[] = {"xx", "yy", "zz", "xy", "yz", "zx", "x", "y", "z", "1"};
+    bool is_changed = false;
+    const Quadric before = quadric;
+    for (std::size_t i = 0; i < 10; ++i) {
+        is_changed = number(ui, std::string("shape/") + names[i], names[i], quadric.coefficients[i], 1,
+                            "Coefficient of this in the sum that is zero on the surface") ||
                      is_changed;
-        is_changed = positive_number(ui, "shape/tube", "Tube", torus->minor_radius, extent, "Radius of the tube") || is_changed;
-        if (length(torus->axis) == 0) {
-            *torus = before;
-        }
-        return is_changed;
     }
-    if (auto* quadric = std::get_if<Quadric>(&shape)) {
-        static const char* names[] = {"xx", "yy", "zz", "xy", "yz", "zx", "x", "y", "z", "1"};
-        bool is_changed = false;
-        const Quadric before = *quadric;
-        for (std::size_t i = 0; i < 10; ++i) {
-            is_changed = number(ui, std::string("shape/") + names[i], names[i], quadric->coefficients[i], 1,
-                                "Coefficient of this in the sum that is zero on the surface") ||
-                         is_changed;
-        }
-        if (std::all_of(quadric->coefficients.begin(), quadric->coefficients.begin() + 9, [](double a) { return a == 0; })) {
-            *quadric = before;
-        }
-        return is_changed;
+    if (std::all_of(quadric.coefficients.begin(), quadric.coefficients.begin() + 9, [](double a) { return a == 0; })) {
+        quadric = before;
     }
-    if (auto* implicit = std::get_if<ImplicitSurface>(&shape)) {
-        return text(ui, "shape/expression", "Zero of", implicit->expression, "An expression of x, y and z");
-    }
-    if (const auto* mesh = std::get_if<MeshSurface>(&shape)) {
-        ImGui::TextWrapped("%s", mesh->mesh->path.c_str());
-    } else if (const auto* bezier = std::get_if<BezierSurface>(&shape)) {
-        ImGui::TextWrapped("%s", bezier->mesh->path.c_str());
-    }
+    return is_changed;
+}
+
+bool edit(Ui& ui, ImplicitSurface& implicit) {
+    return text(ui, "shape/expression", "Zero of", implicit.expression, "An expression of x, y and z");
+}
+
+bool edit(Ui&, MeshSurface& mesh) {
+    ImGui::TextWrapped("%s", mesh.mesh->path.c_str());
     return false;
+}
+
+bool edit(Ui&, BezierSurface& bezier) {
+    ImGui::TextWrapped("%s", bezier.mesh->path.c_str());
+    return false;
+}
+
+bool edit(Ui& ui, CutShape& shape) {
+    return std::visit([&](auto& one) { return edit(ui, one); }, shape);
 }
 
 bool edit(Ui& ui, Isosurfaces& isosurfaces) {
@@ -315,25 +349,7 @@ bool edit(Ui& ui, Isosurfaces& isosurfaces) {
 } // namespace
 
 bool edit_geometry(Ui& ui, SceneSurface& surface) {
-    if (auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
-        return edit(ui, *plane);
-    }
-    if (auto* boundary = std::get_if<BoundaryFaces>(&surface.geometry)) {
-        return edit(ui, *boundary);
-    }
-    if (auto* elements = std::get_if<ElementFaces>(&surface.geometry)) {
-        return edit(ui, elements->selection);
-    }
-    if (auto* frame = std::get_if<WireFrame>(&surface.geometry)) {
-        return edit(ui, *frame);
-    }
-    if (auto* shape = std::get_if<CutShape>(&surface.geometry)) {
-        return edit(ui, *shape);
-    }
-    if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
-        return edit(ui, *isosurfaces);
-    }
-    return false;
+    return std::visit([&](auto& geometry) { return edit(ui, geometry); }, surface.geometry);
 }
 
 bool edit_light(Ui& ui, Light& light) {

@@ -148,6 +148,37 @@ void draw_list(const std::vector<Message>& messages) {
     }
 }
 
+void draw_counts(const FrameCounts& counts) {
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("count", ImGuiTableColumnFlags_WidthFixed);
+    const auto row = [](const char* name, std::uint64_t count, bool is_always = true) {
+        if (is_always || count > 0) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(name);
+            ImGui::TableNextColumn();
+            ImGui::Text("%llu", static_cast<unsigned long long>(count));
+        }
+    };
+    row("pixels", counts.pixels);
+    row("pixels of surfaces", counts.hit_pixels);
+    row("field evaluations", counts.field_evaluations);
+    row("Newton iterations", counts.newton_iterations);
+    row("Newton failures", counts.newton_failures);
+    row("undecided pixels", counts.undecided_pixels);
+    row("pixels that are not a number", counts.nan_pixels);
+    row("pixels at the work limit", counts.work_limit_pixels);
+    row("pixels that rest on estimates", counts.estimated_pixels, false);
+    row("pixels of contours", counts.contour_pixels, false);
+    row("undecided, of contours", counts.undecided_contour_pixels, false);
+    row("pixels of mesh lines", counts.mesh_line_pixels, false);
+    row("undecided, of mesh lines", counts.undecided_mesh_line_pixels, false);
+    row("pixels of isosurfaces", counts.isosurface_pixels, false);
+    row("undecided, of isosurfaces", counts.undecided_isosurface_pixels, false);
+    row("pixels of the volume", counts.volume_pixels, false);
+    row("beyond its tolerance", counts.inexact_volume_pixels, false);
+}
+
 } // namespace
 
 void draw_statistics(Ui& ui) {
@@ -158,35 +189,7 @@ void draw_statistics(Ui& ui) {
     }
     if (bench.stage() == FrameStage::exact &&
         ImGui::BeginTable("counts", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
-        ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("count", ImGuiTableColumnFlags_WidthFixed);
-        const FrameCounts& counts = bench.picture().counts;
-        const auto row = [](const char* name, std::uint64_t count, bool is_always = true) {
-            if (is_always || count > 0) {
-                ImGui::TableNextRow();
-                ImGui::TableNextColumn();
-                ImGui::TextUnformatted(name);
-                ImGui::TableNextColumn();
-                ImGui::Text("%llu", static_cast<unsigned long long>(count));
-            }
-        };
-        row("pixels", counts.pixels);
-        row("pixels of surfaces", counts.hit_pixels);
-        row("field evaluations", counts.field_evaluations);
-        row("Newton iterations", counts.newton_iterations);
-        row("Newton failures", counts.newton_failures);
-        row("undecided pixels", counts.undecided_pixels);
-        row("pixels that are not a number", counts.nan_pixels);
-        row("pixels at the work limit", counts.work_limit_pixels);
-        row("pixels that rest on estimates", counts.estimated_pixels, false);
-        row("pixels of contours", counts.contour_pixels, false);
-        row("undecided, of contours", counts.undecided_contour_pixels, false);
-        row("pixels of mesh lines", counts.mesh_line_pixels, false);
-        row("undecided, of mesh lines", counts.undecided_mesh_line_pixels, false);
-        row("pixels of isosurfaces", counts.isosurface_pixels, false);
-        row("undecided, of isosurfaces", counts.undecided_isosurface_pixels, false);
-        row("pixels of the volume", counts.volume_pixels, false);
-        row("beyond its tolerance", counts.inexact_volume_pixels, false);
+        draw_counts(bench.picture().counts);
         ImGui::EndTable();
     }
     ImGui::Text("Last picture: %.1f ms", bench.picture().milliseconds);

@@ -8,6 +8,59 @@ namespace elvis::view {
 
 namespace {
 
+/** The density of the highest point, with all others. */
+bool edit_largest(Ui& ui, std::vector<TransferFunction::DensityPoint>& density) {
+    double most = 0;
+    for (const auto& point : density) {
+        most = std::max(most, point.density);
+    }
+    double wanted = most;
+    if (most > 0 &&
+        positive_number(
+            ui, "volume/most", "Largest", wanted, most,
+            "Density of the highest point, per world length: a ray keeps exp(-density * length) of the light behind")) {
+        for (auto& point : density) {
+            point.density *= wanted / most;
+        }
+        return true;
+    }
+    return false;
+}
+
+bool edit_peaks(Ui& ui, std::vector<ScenePeak>& peaks, const std::array<double, 2>& range, double usual) {
+    bool is_changed = false;
+    std::optional<std::size_t> removed;
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+        ScenePeak& peak = peaks[i];
+        ImGui::PushID(static_cast<int>(i));
+        const std::string name = "volume/peak" + std::to_string(i);
+        is_changed =
+            slider(ui, name + "/value", "Peak at", peak.value, range[0], range[1], "Value around which the layer is") ||
+            is_changed;
+        const double width = peak.width;
+        if (positive_number(ui, name + "/width", "Width", peak.width, range[1] - range[0],
+                            "Full width of the layer, in values of the field")) {
+            peak.width = is_peak(peak) ? peak.width : width;
+            is_changed = true;
+        }
+        is_changed =
+            positive_number(ui, name + "/density", "Density", peak.density, 10 * usual, "At that value, per world length") ||
+            is_changed;
+        is_changed = optional_color(ui, name + "/color", "Own colour", peak.color, {0.9, 0.9, 0.9}, "Else that of the map") ||
+                     is_changed;
+        ImGui::SameLine();
+        if (small_button(ui, name + "/remove", "Remove", "Takes this peak away")) {
+            removed = i;
+        }
+        ImGui::PopID();
+    }
+    if (removed) {
+        peaks.erase(peaks.begin() + static_cast<std::ptrdiff_t>(*removed));
+        is_changed = true;
+    }
+    return is_changed;
+}
+
 bool edit_density(Ui& ui, SceneVolumeRendering& rendering) {
     bool is_changed = false;
     const std::optional<std::string>& field = rendering.field ? rendering.field : ui.scene().field;
@@ -34,57 +87,13 @@ bool edit_density(Ui& ui, SceneVolumeRendering& rendering) {
     }
     const bool is_logarithmic = map.is_logarithmic && range[0] > 0;
     is_changed = edit_density_plot(ui, rendering, range, is_logarithmic, usual, ui.bench.histogram(field)) || is_changed;
-    if (!rendering.density.empty()) {
-        double most = 0;
-        for (const auto& point : rendering.density) {
-            most = std::max(most, point.density);
-        }
-        double wanted = most;
-        if (most > 0 &&
-            positive_number(
-                ui, "volume/most", "Largest", wanted, most,
-                "Density of the highest point, per world length: a ray keeps exp(-density * length) of the light behind")) {
-            for (auto& point : rendering.density) {
-                point.density *= wanted / most;
-            }
-            is_changed = true;
-        }
-    }
+    is_changed = edit_largest(ui, rendering.density) || is_changed;
     if (small_button(ui, "volume/add peak", "Add a peak",
                      "A thin layer around one value, like a semi-transparent isosurface")) {
         rendering.peaks.push_back({round_middle(range), 0.05 * (range[1] - range[0]), 10 * usual, std::nullopt});
         is_changed = true;
     }
-    std::optional<std::size_t> removed;
-    for (std::size_t i = 0; i < rendering.peaks.size(); ++i) {
-        ScenePeak& peak = rendering.peaks[i];
-        ImGui::PushID(static_cast<int>(i));
-        const std::string name = "volume/peak" + std::to_string(i);
-        is_changed =
-            slider(ui, name + "/value", "Peak at", peak.value, range[0], range[1], "Value around which the layer is") ||
-            is_changed;
-        const double width = peak.width;
-        if (positive_number(ui, name + "/width", "Width", peak.width, range[1] - range[0],
-                            "Full width of the layer, in values of the field")) {
-            peak.width = is_peak(peak) ? peak.width : width;
-            is_changed = true;
-        }
-        is_changed =
-            positive_number(ui, name + "/density", "Density", peak.density, 10 * usual, "At that value, per world length") ||
-            is_changed;
-        is_changed = optional_color(ui, name + "/color", "Own colour", peak.color, {0.9, 0.9, 0.9}, "Else that of the map") ||
-                     is_changed;
-        ImGui::SameLine();
-        if (small_button(ui, name + "/remove", "Remove", "Takes this peak away")) {
-            removed = i;
-        }
-        ImGui::PopID();
-    }
-    if (removed) {
-        rendering.peaks.erase(rendering.peaks.begin() + static_cast<std::ptrdiff_t>(*removed));
-        is_changed = true;
-    }
-    return is_changed;
+    return edit_peaks(ui, rendering.peaks, range, usual) || is_changed;
 }
 
 bool edit_integrator(Ui& ui, SceneVolumeRendering& rendering) {

@@ -14,50 +14,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstring>
-#include <optional>
 
 namespace elvis::view {
 
 namespace {
 
 constexpr const char* place = "window";
-
-std::span<const char* const> window_extensions() {
-    std::uint32_t count = 0;
-    const char** names = glfwGetRequiredInstanceExtensions(&count);
-    if (names == nullptr) {
-        throw Error(place, "this machine has no Vulkan driver that can show pictures in windows (Debian package "
-                           "mesa-vulkan-drivers has one for the CPU)");
-    }
-    return {names, count};
-}
-
-bool has_swapchains(VkPhysicalDevice device) {
-    std::uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
-    });
-}
-
-/** A family with graphics that can present to the surface, if the device has one. */
-std::optional<std::uint32_t> queue_family(VkPhysicalDevice device, VkSurfaceKHR surface) {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    for (std::uint32_t family = 0; family < count; ++family) {
-        VkBool32 presents = VK_FALSE;
-        if (vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &presents) == VK_SUCCESS && presents == VK_TRUE &&
-            (families[family].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0) {
-            return family;
-        }
-    }
-    return std::nullopt;
-}
 
 /** ImGui's backend knows no other way to report. */
 void check_backend(VkResult result) {
@@ -72,9 +34,6 @@ struct Presenter::Impl {
     GLFWwindow* window;
     Instance instance;
     SurfaceDevice target;
-    std::string name;
-    std::uint32_t family = 0;
-    VkQueue queue = VK_NULL_HANDLE;
     VkSurfaceFormatKHR format{};
     VkRenderPass render_pass = VK_NULL_HANDLE;
     VkDescriptorPool descriptors = VK_NULL_HANDLE;
@@ -91,9 +50,10 @@ struct Presenter::Impl {
         try {
             check_vulkan(glfwCreateWindowSurface(instance.handle(), window, nullptr, &target.surface), place,
                          "making it known to Vulkan");
-            choose_device(wanted);
-            create_device();
-            create_render_pass();
+            choose_device(target, instance, wanted);
+            create_device(target);
+            format = display_format(target.physical, target.surface);
+            render_pass = create_render_pass(target, format.format);
             create_commands();
             make_swapchain();
             start_backend();
@@ -104,86 +64,11 @@ struct Presenter::Impl {
     }
     ~Impl() { release(); }
 
-    /** The wanted one if it can present, else the first that can. */
-    void choose_device(const std::string& wanted) {
-        const std::vector<DeviceSummary> summaries = instance.summaries();
-        const std::vector<VkPhysicalDevice> devices = instance.physical_devices();
-        std::vector<DeviceSummary> able;
-        for (std::size_t i = 0; i < devices.size(); ++i) {
-            if (has_swapchains(devices[i]) && queue_family(devices[i], target.surface)) {
-                able.push_back(summaries[i]);
-            }
-        }
-        if (able.empty()) {
-            throw Error(place, "no Vulkan device of this machine can show pictures in it");
-        }
-        DeviceSummary chosen = able.front();
-        try {
-            chosen = choose_among(able, wanted);
-        } catch (const Error& error) {
-            spdlog::info("window: {}; it is shown by {}", error.what(), chosen.name);
-        }
-        target.physical = devices[chosen.index];
-        name = chosen.name;
-        family = *queue_family(target.physical, target.surface);
-    }
-
-    void create_device() {
-        const float priority = 1;
-        VkDeviceQueueCreateInfo queue_info{};
-        queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-        queue_info.queueFamilyIndex = family;
-        queue_info.queueCount = 1;
-        queue_info.pQueuePriorities = &priority;
-        const char* extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-        VkDeviceCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-        info.queueCreateInfoCount = 1;
-        info.pQueueCreateInfos = &queue_info;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &extension;
-        check_vulkan(vkCreateDevice(target.physical, &info, nullptr, &target.device), place, "creating its device");
-        vkGetDeviceQueue(target.device, family, 0, &queue);
-    }
-
-    void create_render_pass() {
-        format = display_format(target.physical, target.surface);
-        VkAttachmentDescription attachment{};
-        attachment.format = format.format;
-        attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-        attachment.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // The picture is there already.
-        attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-        attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-        attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-        attachment.initialLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-        attachment.finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
-        const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-        VkSubpassDescription subpass{};
-        subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-        subpass.colorAttachmentCount = 1;
-        subpass.pColorAttachments = &reference;
-        VkSubpassDependency before{};
-        before.srcSubpass = VK_SUBPASS_EXTERNAL;
-        before.srcStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT;
-        before.dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-        before.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-        before.dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
-        VkRenderPassCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
-        info.attachmentCount = 1;
-        info.pAttachments = &attachment;
-        info.subpassCount = 1;
-        info.pSubpasses = &subpass;
-        info.dependencyCount = 1;
-        info.pDependencies = &before;
-        check_vulkan(vkCreateRenderPass(target.device, &info, nullptr, &render_pass), place, "creating its render pass");
-    }
-
     void create_commands() {
         VkCommandPoolCreateInfo pool_info{};
         pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
         pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-        pool_info.queueFamilyIndex = family;
+        pool_info.queueFamilyIndex = target.family;
         check_vulkan(vkCreateCommandPool(target.device, &pool_info, nullptr, &pool), place, "creating its commands");
         VkCommandBufferAllocateInfo commands_info{};
         commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -224,8 +109,8 @@ struct Presenter::Impl {
         init.Instance = instance.handle();
         init.PhysicalDevice = target.physical;
         init.Device = target.device;
-        init.QueueFamily = family;
-        init.Queue = queue;
+        init.QueueFamily = target.family;
+        init.Queue = target.queue;
         init.DescriptorPool = descriptors;
         init.MinImageCount = swapchain->least_images();
         init.ImageCount = static_cast<std::uint32_t>(swapchain->images().size());
@@ -242,13 +127,25 @@ struct Presenter::Impl {
     template <class Record> void submit_and_wait(const Record& record) {
         begin_commands();
         record(commands);
+        submit();
+    }
+
+    /** What has been recorded, after one semaphore and before another; waits until it is done. */
+    void submit(const VkSemaphore* awaited = nullptr, const VkSemaphore* signalled = nullptr) {
         check_vulkan(vkEndCommandBuffer(commands), place, "recording");
-        VkSubmitInfo submit{};
-        submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-        submit.commandBufferCount = 1;
-        submit.pCommandBuffers = &commands;
-        check_vulkan(vkQueueSubmit(queue, 1, &submit, fence), place, "submitting");
-        wait();
+        const VkPipelineStageFlags wait_stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
+        VkSubmitInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+        info.waitSemaphoreCount = awaited != nullptr ? 1 : 0;
+        info.pWaitSemaphores = awaited;
+        info.pWaitDstStageMask = &wait_stage;
+        info.commandBufferCount = 1;
+        info.pCommandBuffers = &commands;
+        info.signalSemaphoreCount = signalled != nullptr ? 1 : 0;
+        info.pSignalSemaphores = signalled;
+        check_vulkan(vkQueueSubmit(target.queue, 1, &info, fence), place, "submitting");
+        check_vulkan(vkWaitForFences(target.device, 1, &fence, VK_TRUE, UINT64_MAX), place, "waiting for its device");
+        check_vulkan(vkResetFences(target.device, 1, &fence), place, "resetting its fence");
     }
 
     void begin_commands() {
@@ -257,11 +154,6 @@ struct Presenter::Impl {
         begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
         begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
         check_vulkan(vkBeginCommandBuffer(commands, &begin), place, "recording");
-    }
-
-    void wait() {
-        check_vulkan(vkWaitForFences(target.device, 1, &fence, VK_TRUE, UINT64_MAX), place, "waiting for its device");
-        check_vulkan(vkResetFences(target.device, 1, &fence), place, "resetting its fence");
     }
 
     /** Background and picture, into an image that is then ready for the render pass. */
@@ -291,6 +183,33 @@ struct Presenter::Impl {
         picture->record_copy(commands, image, swapchain->size(), {box.x, box.y}, {box.width, box.height});
     }
 
+    /** Background, picture and panels. */
+    void record(const Swapchain::Image& image, ImDrawData* panels, const PixelBox& box,
+                const std::array<float, 4>& background) {
+        begin_commands();
+        record_picture(image.image, box, background);
+        VkRenderPassBeginInfo pass{};
+        pass.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+        pass.renderPass = render_pass;
+        pass.framebuffer = image.framebuffer;
+        pass.renderArea.extent = swapchain->size();
+        vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
+        ImGui_ImplVulkan_RenderDrawData(panels, commands);
+        vkCmdEndRenderPass(commands);
+    }
+
+    VkResult show(std::uint32_t index) {
+        VkPresentInfoKHR info{};
+        info.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
+        info.waitSemaphoreCount = 1;
+        info.pWaitSemaphores = &swapchain->images()[index].drawn;
+        info.swapchainCount = 1;
+        const VkSwapchainKHR handle = swapchain->handle();
+        info.pSwapchains = &handle;
+        info.pImageIndices = &index;
+        return vkQueuePresentKHR(target.queue, &info);
+    }
+
     void present(ImDrawData* panels, const PixelBox& box, const std::array<float, 4>& background) {
         int width = 0, height = 0;
         glfwGetFramebufferSize(window, &width, &height);
@@ -312,40 +231,9 @@ struct Presenter::Impl {
             check_vulkan(result, place, "getting an image");
         }
         const Swapchain::Image& image = swapchain->images()[index];
-        begin_commands();
-        record_picture(image.image, box, background);
-        VkRenderPassBeginInfo pass{};
-        pass.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-        pass.renderPass = render_pass;
-        pass.framebuffer = image.framebuffer;
-        pass.renderArea.extent = swapchain->size();
-        vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
-        ImGui_ImplVulkan_RenderDrawData(panels, commands);
-        vkCmdEndRenderPass(commands);
-        check_vulkan(vkEndCommandBuffer(commands), place, "recording");
-
-        const VkPipelineStageFlags wait_stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
-        VkSubmitInfo submit{};
-        submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-        submit.waitSemaphoreCount = 1;
-        submit.pWaitSemaphores = &acquired;
-        submit.pWaitDstStageMask = &wait_stage;
-        submit.commandBufferCount = 1;
-        submit.pCommandBuffers = &commands;
-        submit.signalSemaphoreCount = 1;
-        submit.pSignalSemaphores = &image.drawn;
-        check_vulkan(vkQueueSubmit(queue, 1, &submit, fence), place, "submitting");
-        wait();
-
-        VkPresentInfoKHR info{};
-        info.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
-        info.waitSemaphoreCount = 1;
-        info.pWaitSemaphores = &image.drawn;
-        info.swapchainCount = 1;
-        const VkSwapchainKHR handle = swapchain->handle();
-        info.pSwapchains = &handle;
-        info.pImageIndices = &index;
-        result = vkQueuePresentKHR(queue, &info);
+        record(image, panels, box, background);
+        submit(&acquired, &image.drawn);
+        result = show(index);
         const bool is_size_old = swapchain->size().width != static_cast<std::uint32_t>(width) ||
                                  swapchain->size().height != static_cast<std::uint32_t>(height);
         if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR || is_size_old) {
@@ -399,7 +287,7 @@ void Presenter::present(ImDrawData* panels, const PixelBox& box, const std::arra
     m_impl->present(panels, box, background);
 }
 
-const std::string& Presenter::device_name() const { return m_impl->name; }
+const std::string& Presenter::device_name() const { return m_impl->target.name; }
 
 std::vector<std::string> Presenter::validation_messages() const {
     const ValidationLog& log = m_impl->instance.log();

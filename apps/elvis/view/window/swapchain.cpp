@@ -64,33 +64,36 @@ Swapchain::Swapchain(const SurfaceDevice& device, VkSurfaceFormatKHR format, VkR
         std::vector<VkImage> images(count);
         check_vulkan(vkGetSwapchainImagesKHR(m_device, m_swapchain, &count, images.data()), place, "listing its images");
         for (const VkImage handle : images) {
-            Image& image = m_images.emplace_back();
-            image.image = handle;
-            VkImageViewCreateInfo view{};
-            view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-            view.image = handle;
-            view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-            view.format = format.format;
-            view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-            check_vulkan(vkCreateImageView(m_device, &view, nullptr, &image.view), place, "creating a view");
-            VkFramebufferCreateInfo framebuffer{};
-            framebuffer.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-            framebuffer.renderPass = render_pass;
-            framebuffer.attachmentCount = 1;
-            framebuffer.pAttachments = &image.view;
-            framebuffer.width = m_size.width;
-            framebuffer.height = m_size.height;
-            framebuffer.layers = 1;
-            check_vulkan(vkCreateFramebuffer(m_device, &framebuffer, nullptr, &image.framebuffer), place,
-                         "creating a framebuffer");
-            VkSemaphoreCreateInfo semaphore{};
-            semaphore.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-            check_vulkan(vkCreateSemaphore(m_device, &semaphore, nullptr, &image.drawn), place, "creating a semaphore");
+            add_image(handle, format.format, render_pass);
         }
     } catch (...) {
         release();
         throw;
     }
+}
+
+void Swapchain::add_image(VkImage handle, VkFormat format, VkRenderPass render_pass) {
+    Image& image = m_images.emplace_back();
+    image.image = handle;
+    VkImageViewCreateInfo view{};
+    view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    view.image = handle;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.format = format;
+    view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    check_vulkan(vkCreateImageView(m_device, &view, nullptr, &image.view), place, "creating a view");
+    VkFramebufferCreateInfo framebuffer{};
+    framebuffer.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+    framebuffer.renderPass = render_pass;
+    framebuffer.attachmentCount = 1;
+    framebuffer.pAttachments = &image.view;
+    framebuffer.width = m_size.width;
+    framebuffer.height = m_size.height;
+    framebuffer.layers = 1;
+    check_vulkan(vkCreateFramebuffer(m_device, &framebuffer, nullptr, &image.framebuffer), place, "creating a framebuffer");
+    VkSemaphoreCreateInfo semaphore{};
+    semaphore.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    check_vulkan(vkCreateSemaphore(m_device, &semaphore, nullptr, &image.drawn), place, "creating a semaphore");
 }
 
 void Swapchain::release() noexcept {

@@ -4,19 +4,12 @@
  */
 #pragma once
 
-#include <vulkan/vulkan.h>
+#include "surface_device.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace elvis::view {
-
-/** Where its images are drawn: the device and the window's surface. */
-struct SurfaceDevice {
-    VkPhysicalDevice physical = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;
-    VkSurfaceKHR surface = VK_NULL_HANDLE;
-};
 
 /** A format whose numbers are shown as they are (no sRGB conversion). An Error if the surface has none. */
 VkSurfaceFormatKHR display_format(VkPhysicalDevice device, VkSurfaceKHR surface);
@@ -44,6 +37,7 @@ public:
     std::uint32_t least_images() const { return m_least_images; }
 
 private:
+    void add_image(VkImage handle, VkFormat format, VkRenderPass render_pass);
     void release() noexcept;
 
     VkDevice m_device;

@@ -107,29 +107,7 @@ Window::Window(const Settings& settings, const std::string& device, bool validat
         load_font(m_scale * framebuffer_scale());
         ImGui::GetIO().FontGlobalScale = 1 / framebuffer_scale();
 
-        // ImGui's own callbacks call these after themselves.
-        glfwSetWindowUserPointer(m_window, this);
-        glfwSetCursorPosCallback(m_window, [](GLFWwindow* window, double, double) { on_event(window); });
-        glfwSetMouseButtonCallback(m_window, [](GLFWwindow* window, int, int, int) { on_event(window); });
-        glfwSetScrollCallback(m_window, [](GLFWwindow* window, double, double) { on_event(window); });
-        glfwSetKeyCallback(m_window, [](GLFWwindow* window, int key, int scancode, int action, int modifiers) {
-            if (action == GLFW_PRESS) {
-                auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
-                self->m_keys.push_back(key_press(key, scancode, modifiers));
-                self->m_presses.push_back({key, modifiers});
-            }
-            on_event(window);
-        });
-        glfwSetCharCallback(m_window, [](GLFWwindow* window, unsigned) { on_event(window); });
-        glfwSetWindowFocusCallback(m_window, [](GLFWwindow* window, int) { on_event(window); });
-        glfwSetFramebufferSizeCallback(m_window, [](GLFWwindow* window, int, int) { on_event(window); });
-        glfwSetWindowRefreshCallback(m_window, [](GLFWwindow* window) { on_event(window); });
-        glfwSetWindowCloseCallback(m_window, [](GLFWwindow* window) { on_event(window); });
-        glfwSetDropCallback(m_window, [](GLFWwindow* window, int count, const char** paths) {
-            auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
-            self->m_dropped.insert(self->m_dropped.end(), paths, paths + count);
-            on_event(window);
-        });
+        set_callbacks();
         ImGui_ImplGlfw_InitForVulkan(m_window, true);
         m_presenter = std::make_unique<Presenter>(m_window, device, validation);
     } catch (...) {
@@ -150,6 +128,32 @@ Window::~Window() {
     ImGui::DestroyContext();
     glfwDestroyWindow(m_window);
     glfwTerminate();
+}
+
+void Window::set_callbacks() {
+    // ImGui's own callbacks call these after themselves.
+    glfwSetWindowUserPointer(m_window, this);
+    glfwSetCursorPosCallback(m_window, [](GLFWwindow* window, double, double) { on_event(window); });
+    glfwSetMouseButtonCallback(m_window, [](GLFWwindow* window, int, int, int) { on_event(window); });
+    glfwSetScrollCallback(m_window, [](GLFWwindow* window, double, double) { on_event(window); });
+    glfwSetKeyCallback(m_window, [](GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+        if (action == GLFW_PRESS) {
+            auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+            self->m_keys.push_back(key_press(key, scancode, modifiers));
+            self->m_presses.push_back({key, modifiers});
+        }
+        on_event(window);
+    });
+    glfwSetCharCallback(m_window, [](GLFWwindow* window, unsigned) { on_event(window); });
+    glfwSetWindowFocusCallback(m_window, [](GLFWwindow* window, int) { on_event(window); });
+    glfwSetFramebufferSizeCallback(m_window, [](GLFWwindow* window, int, int) { on_event(window); });
+    glfwSetWindowRefreshCallback(m_window, [](GLFWwindow* window) { on_event(window); });
+    glfwSetWindowCloseCallback(m_window, [](GLFWwindow* window) { on_event(window); });
+    glfwSetDropCallback(m_window, [](GLFWwindow* window, int count, const char** paths) {
+        auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+        self->m_dropped.insert(self->m_dropped.end(), paths, paths + count);
+        on_event(window);
+    });
 }
 
 void Window::on_event(GLFWwindow* window) { static_cast<Window*>(glfwGetWindowUserPointer(window))->m_has_events = true; }

@@ -51,6 +51,7 @@ public:
 
 private:
     static void on_event(GLFWwindow* window);
+    void set_callbacks();
     /**
      * ImGui 1.86 takes a press for what was below the cursor in the frame before. A press that comes with a movement waits for
      * the next frame, which knows what the cursor has come to.

@@ -29,7 +29,7 @@ void jacobi(int a, int b, int count, double z, double* values, double* slopes);
 
 /**
  * t^n P_n(x/t) for n < count, with two derivatives along directions in which x and t change as follows:
- * `own`: dx = 1, dt = 0; `later`: dx = 1/2, dt = -1/2. See evaluate.cpp.
+ * `own`: dx = 1, dt = 0; `later`: dx = 1/2, dt = -1/2. See mode_tables.cpp.
  */
 void scaled_jacobi(int a, int b, int count, double x, double t, double* values, double* own, double* later);
 

@@ -95,10 +95,14 @@ public:
     void check(std::span<const double> coefficients, std::span<JacobianCheck> checks);
 
 private:
+    using Lanes = std::array<double, lanes>;
+
     /** Columns' forms of these elements, one a lane. */
     void load(std::span<const double> coefficients, const std::array<std::size_t, lanes>& elements);
+    /** The adjugate of the Jacobian's mean over the forms' coefficients. */
+    std::array<Lanes, 9> mean_adjugate() const;
     /** The first stage; whether each lane is positive, with its lower bound. */
-    void test_dominance(std::array<bool, lanes>& is_positive, std::array<double, lanes>& lower) const;
+    void test_dominance(std::array<bool, lanes>& is_positive, Lanes& lower) const;
     /** Between the stages: whether an element that is not positive is surely negative at a corner; then writes its check. */
     bool is_negative_at_corner(std::size_t lane, JacobianCheck& check) const;
     /** The second stage. */
@@ -173,8 +177,7 @@ void JacobianChecker::Impl::load(std::span<const double> coefficients, const std
     }
 }
 
-void JacobianChecker::Impl::test_dominance(std::array<bool, lanes>& is_positive, std::array<double, lanes>& lower) const {
-    using Lanes = std::array<double, lanes>;
+std::array<JacobianChecker::Impl::Lanes, 9> JacobianChecker::Impl::mean_adjugate() const {
     std::array<Lanes, 9> mean{}; // entry 3 i + j
     for (std::size_t j = 0; j < 3; ++j) {
         const std::size_t n = product(m_forms.columns()[j].sizes);
@@ -188,7 +191,7 @@ void JacobianChecker::Impl::test_dominance(std::array<bool, lanes>& is_positive,
                 sum[lane] /= static_cast<double>(n);
         }
     }
-    std::array<Lanes, 9> g; // adjugate, entry 3 i + j
+    std::array<Lanes, 9> g; // entry 3 i + j
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
             const std::size_t a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
@@ -196,7 +199,11 @@ void JacobianChecker::Impl::test_dominance(std::array<bool, lanes>& is_positive,
                 g[3 * i + j][lane] =
                     mean[3 * a + c][lane] * mean[3 * b + d][lane] - mean[3 * a + d][lane] * mean[3 * b + c][lane];
         }
+    return g;
+}
 
+void JacobianChecker::Impl::test_dominance(std::array<bool, lanes>& is_positive, Lanes& lower) const {
+    const std::array<Lanes, 9> g = mean_adjugate();
     Lanes margins;
     margins.fill(1);
     is_positive.fill(true);

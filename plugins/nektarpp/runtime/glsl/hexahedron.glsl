@@ -19,38 +19,17 @@ NEKTAR_FUNCTION {
             for (int p = 0; p <= NEKTAR_P; ++p) {
                 NEKTAR_TYPE k = NEKTAR_COEFFICIENT(row, q * (NEKTAR_P + 1) + p);
                 h += k * NEKTAR_VALUE(a[p]);
-#if NEKTAR_LEVEL >= 1
-                h1 += k * a[p].o;
-#endif
-#if NEKTAR_LEVEL >= 2
-                h11 += k * a[p].oo;
-#endif
+                NEKTAR_GRADIENT(h1 += k * a[p].o;)
+                NEKTAR_HESSIAN(h11 += k * a[p].oo;)
             }
             g += h * NEKTAR_VALUE(b[q]);
-#if NEKTAR_LEVEL >= 1
-            g1 += h1 * b[q].v;
-            g2 += h * b[q].o;
-#endif
-#if NEKTAR_LEVEL >= 2
-            g11 += h11 * b[q].v;
-            g12 += h1 * b[q].o;
-            g22 += h * b[q].oo;
-#endif
+            NEKTAR_GRADIENT(g1 += h1 * b[q].v; g2 += h * b[q].o;)
+            NEKTAR_HESSIAN(g11 += h11 * b[q].v; g12 += h1 * b[q].o; g22 += h * b[q].oo;)
         }
         f += g * NEKTAR_VALUE(c[r]);
-#if NEKTAR_LEVEL >= 1
-        f1 += g1 * c[r].v;
-        f2 += g2 * c[r].v;
-        f3 += g * c[r].o;
-#endif
-#if NEKTAR_LEVEL >= 2
-        f11 += g11 * c[r].v;
-        f12 += g12 * c[r].v;
-        f22 += g22 * c[r].v;
-        f13 += g1 * c[r].o;
-        f23 += g2 * c[r].o;
-        f33 += g * c[r].oo;
-#endif
+        NEKTAR_GRADIENT(f1 += g1 * c[r].v; f2 += g2 * c[r].v; f3 += g * c[r].o;)
+        NEKTAR_HESSIAN(f11 += g11 * c[r].v; f12 += g12 * c[r].v; f22 += g22 * c[r].v; f13 += g1 * c[r].o; f23 += g2 * c[r].o;
+                       f33 += g * c[r].oo;)
     }
     NEKTAR_END
 }

@@ -30,63 +30,33 @@ NEKTAR_FUNCTION {
                     if (NEKTAR_BASIS == 1 || p > 0 || r != 1) {
                         NEKTAR_TYPE k = NEKTAR_COEFFICIENT(0u, mode);
                         h += k * NEKTAR_VALUE(c[p][r]);
-#if NEKTAR_LEVEL >= 1
-                        h3 += k * c[p][r].o;
-#endif
-#if NEKTAR_LEVEL >= 2
-                        h33 += k * c[p][r].oo;
-#endif
+                        NEKTAR_GRADIENT(h3 += k * c[p][r].o;)
+                        NEKTAR_HESSIAN(h33 += k * c[p][r].oo;)
                     }
                     ++mode;
                 }
             g += h * NEKTAR_VALUE(b[q]);
-#if NEKTAR_LEVEL >= 1
-            g2 += h * b[q].o;
-            g3 += h3 * b[q].v;
-#endif
-#if NEKTAR_LEVEL >= 2
-            g22 += h * b[q].oo;
-            g23 += h3 * b[q].o;
-            g33 += h33 * b[q].v;
-#endif
+            NEKTAR_GRADIENT(g2 += h * b[q].o; g3 += h3 * b[q].v;)
+            NEKTAR_HESSIAN(g22 += h * b[q].oo; g23 += h3 * b[q].o; g33 += h33 * b[q].v;)
         }
         f += g * NEKTAR_VALUE(a[p]);
-#if NEKTAR_LEVEL >= 1
-        f1 += g * a[p].o;
-        f2 += g2 * a[p].v;
-        f3 += g * a[p].l + g3 * a[p].v;
-#endif
-#if NEKTAR_LEVEL >= 2
-        f11 += g * a[p].oo;
-        f12 += g2 * a[p].o;
-        f13 += g * a[p].ol + g3 * a[p].o;
-        f22 += g22 * a[p].v;
-        f23 += g2 * a[p].l + g23 * a[p].v;
-        f33 += g * a[p].ll + elvis_real(2) * g3 * a[p].l + g33 * a[p].v;
-#endif
+        NEKTAR_GRADIENT(f1 += g * a[p].o; f2 += g2 * a[p].v; f3 += g * a[p].l + g3 * a[p].v;)
+        NEKTAR_HESSIAN(f11 += g * a[p].oo; f12 += g2 * a[p].o; f13 += g * a[p].ol + g3 * a[p].o;
+                       f22 += g22 * a[p].v; f23 += g2 * a[p].l + g23 * a[p].v;
+                       f33 += g * a[p].ll + elvis_real(2) * g3 * a[p].l + g33 * a[p].v;)
     }
 #if NEKTAR_BASIS == 0
     NEKTAR_TYPE e = NEKTAR_TYPE(0), e2 = e, e22 = e;
     for (int q = 0; q <= NEKTAR_Q; ++q) {
         NEKTAR_TYPE k = NEKTAR_COEFFICIENT(0u, q * (NEKTAR_R + 1) + 1);
         e += k * NEKTAR_VALUE(b[q]);
-#if NEKTAR_LEVEL >= 1
-        e2 += k * b[q].o;
-#endif
-#if NEKTAR_LEVEL >= 2
-        e22 += k * b[q].oo;
-#endif
+        NEKTAR_GRADIENT(e2 += k * b[q].o;)
+        NEKTAR_HESSIAN(e22 += k * b[q].oo;)
     }
     elvis_real top = (elvis_real(1) + xi.z) * elvis_real(0.5LF);
     f += e * top;
-#if NEKTAR_LEVEL >= 1
-    f2 += e2 * top;
-    f3 += e * elvis_real(0.5LF);
-#endif
-#if NEKTAR_LEVEL >= 2
-    f22 += e22 * top;
-    f23 += e2 * elvis_real(0.5LF);
-#endif
+    NEKTAR_GRADIENT(f2 += e2 * top; f3 += e * elvis_real(0.5LF);)
+    NEKTAR_HESSIAN(f22 += e22 * top; f23 += e2 * elvis_real(0.5LF);)
 #endif
     NEKTAR_END
 }

@@ -50,14 +50,10 @@ NEKTAR_FUNCTION {
         power_now *= t;
         NEKTAR_LAST(NEKTAR_R, c[k], k, xi.z)
     }
-#if NEKTAR_LEVEL >= 1
     elvis_real m1 = (elvis_real(1) + eta1) * elvis_real(0.5LF), m2 = (elvis_real(1) + eta2) * elvis_real(0.5LF);
-#endif
-#if NEKTAR_LEVEL >= 2
     elvis_real per_t = elvis_real(1) / (abs(t) < elvis_real(1.0e-15LF) ? elvis_real(1.0e-15LF) : t);
     // Sums of u with one derivative of A, and of v.
     NEKTAR_TYPE u1 = NEKTAR_TYPE(0), u2 = u1, v = u1;
-#endif
     int mode = 0;
     for (int p = 0; p <= NEKTAR_P; ++p) {
         NEKTAR_TYPE f_p = NEKTAR_TYPE(0), f3_p = f_p, g_p = f_p, g2_p = f_p, w_p = f_p, w2_p = f_p, w22_p = f_p, u_p = f_p, u2_p = f_p;
@@ -72,60 +68,34 @@ NEKTAR_FUNCTION {
                         const int at = r == 0 ? 0 : r - shift;
                         NEKTAR_TYPE k = NEKTAR_COEFFICIENT(0u, mode);
                         h += k * NEKTAR_VALUE(c[kind][at]);
-#if NEKTAR_LEVEL >= 1
-                        h3 += k * c[kind][at].o;
-#endif
-#if NEKTAR_LEVEL >= 2
-                        h33 += k * c[kind][at].oo;
-#endif
+                        NEKTAR_GRADIENT(h3 += k * c[kind][at].o;)
+                        NEKTAR_HESSIAN(h33 += k * c[kind][at].oo;)
                     }
                     ++mode;
                 }
             f_p += power[e] * h * NEKTAR_VALUE(b[q]);
-#if NEKTAR_LEVEL >= 1
-            NEKTAR_TYPE g = e == 0 ? NEKTAR_TYPE(0) : power[max(e - 1, 0)] * h;
-            g_p += g * b[q].v;
-            g2_p += g * b[q].o;
-            f3_p += (power[e] * h3 - elvis_real(0.5LF) * elvis_real(e) * g) * b[q].v;
-#endif
-#if NEKTAR_LEVEL >= 2
-            NEKTAR_TYPE w = e == 0 ? NEKTAR_TYPE(0) : e == 1 ? per_t * h : power[max(e - 2, 0)] * h;
-            NEKTAR_TYPE g3 = e == 0 ? NEKTAR_TYPE(0) : power[max(e - 1, 0)] * h3;
-            NEKTAR_TYPE u = g3 + elvis_real(0.5LF) * elvis_real(1 - e) * w;
-            w_p += w * b[q].v;
-            w2_p += w * b[q].o;
-            w22_p += w * b[q].oo;
-            u_p += u * b[q].v;
-            u2_p += u * b[q].o;
-            v_p += (power[e] * h33 - elvis_real(e) * g3 + elvis_real(0.25LF) * elvis_real(e * (e - 1)) * w) * b[q].v;
-#endif
+            NEKTAR_GRADIENT(NEKTAR_TYPE g = e == 0 ? NEKTAR_TYPE(0) : power[max(e - 1, 0)] * h;
+                            g_p += g * b[q].v; g2_p += g * b[q].o;
+                            f3_p += (power[e] * h3 - elvis_real(0.5LF) * elvis_real(e) * g) * b[q].v;)
+            NEKTAR_HESSIAN(NEKTAR_TYPE w = e == 0 ? NEKTAR_TYPE(0) : e == 1 ? per_t * h : power[max(e - 2, 0)] * h;
+                           NEKTAR_TYPE g3 = e == 0 ? NEKTAR_TYPE(0) : power[max(e - 1, 0)] * h3;
+                           NEKTAR_TYPE u = g3 + elvis_real(0.5LF) * elvis_real(1 - e) * w;
+                           w_p += w * b[q].v; w2_p += w * b[q].o; w22_p += w * b[q].oo;
+                           u_p += u * b[q].v; u2_p += u * b[q].o;
+                           v_p += (power[e] * h33 - elvis_real(e) * g3 + elvis_real(0.25LF) * elvis_real(e * (e - 1)) * w) * b[q].v;)
         }
         f += f_p * NEKTAR_VALUE(a[p]);
-#if NEKTAR_LEVEL >= 1
-        f1 += g_p * a[p].o;
-        f2 += g2_p * a[p].v;
-        f3 += (f3_p + g2_p * m2) * a[p].v + g_p * a[p].o * m1;
-#endif
-#if NEKTAR_LEVEL >= 2
-        f11 += w_p * a[p].oo;
-        f12 += w2_p * a[p].o;
-        f22 += w22_p * a[p].v;
-        u1 += u_p * a[p].o;
-        u2 += u2_p * a[p].v;
-        v += v_p * a[p].v;
-#endif
+        NEKTAR_GRADIENT(f1 += g_p * a[p].o; f2 += g2_p * a[p].v; f3 += (f3_p + g2_p * m2) * a[p].v + g_p * a[p].o * m1;)
+        NEKTAR_HESSIAN(f11 += w_p * a[p].oo; f12 += w2_p * a[p].o; f22 += w22_p * a[p].v;
+                       u1 += u_p * a[p].o; u2 += u2_p * a[p].v; v += v_p * a[p].v;)
     }
-#if NEKTAR_LEVEL >= 2
-    f13 = u1 + m1 * f11 + m2 * f12;
-    f23 = u2 + m1 * f12 + m2 * f22;
-    f33 = v + elvis_real(2) * (m1 * u1 + m2 * u2) + m1 * m1 * f11 + elvis_real(2) * m1 * m2 * f12 + m2 * m2 * f22;
-#endif
+    NEKTAR_HESSIAN(f13 = u1 + m1 * f11 + m2 * f12;
+                   f23 = u2 + m1 * f12 + m2 * f22;
+                   f33 = v + elvis_real(2) * (m1 * u1 + m2 * u2) + m1 * m1 * f11 + elvis_real(2) * m1 * m2 * f12 + m2 * m2 * f22;)
 #if NEKTAR_BASIS == 0
     NEKTAR_TYPE top = NEKTAR_COEFFICIENT(0u, 1);
     f += top * ((elvis_real(1) + xi.z) * elvis_real(0.5LF));
-#if NEKTAR_LEVEL >= 1
-    f3 += top * elvis_real(0.5LF);
-#endif
+    NEKTAR_GRADIENT(f3 += top * elvis_real(0.5LF);)
 #endif
     NEKTAR_END
 }

@@ -1,4 +1,15 @@
 // One sum at one level; see volume.glsl. Tables hold a jet for each index of a one-dimensional factor.
+// NEKTAR_GRADIENT and NEKTAR_HESSIAN hold statements of the levels that have first and second derivatives.
+#if NEKTAR_LEVEL >= 1
+#define NEKTAR_GRADIENT(statements) statements
+#else
+#define NEKTAR_GRADIENT(statements)
+#endif
+#if NEKTAR_LEVEL >= 2
+#define NEKTAR_HESSIAN(statements) statements
+#else
+#define NEKTAR_HESSIAN(statements)
+#endif
 #if NEKTAR_LEVEL == 0
 #define NEKTAR_JET elvis_real
 #define NEKTAR_VALUE(jet) (jet)
@@ -119,6 +130,8 @@
 #include "tetrahedron.glsl"
 #endif
 
+#undef NEKTAR_GRADIENT
+#undef NEKTAR_HESSIAN
 #undef NEKTAR_FUNCTION
 #undef NEKTAR_BEGIN
 #undef NEKTAR_END

@@ -28,40 +28,22 @@ NEKTAR_FUNCTION {
                     if (NEKTAR_BASIS == 1 || p > 0 || q > 1 || (q == 0 && r != 1)) {
                         NEKTAR_TYPE k = NEKTAR_COEFFICIENT(0u, mode);
                         h += k * NEKTAR_VALUE(c[p + q][r]);
-#if NEKTAR_LEVEL >= 1
-                        h3 += k * c[p + q][r].o;
-#endif
-#if NEKTAR_LEVEL >= 2
-                        h33 += k * c[p + q][r].oo;
-#endif
+                        NEKTAR_GRADIENT(h3 += k * c[p + q][r].o;)
+                        NEKTAR_HESSIAN(h33 += k * c[p + q][r].oo;)
                     }
                     ++mode;
                 }
             g += h * NEKTAR_VALUE(b[p][q]);
-#if NEKTAR_LEVEL >= 1
-            g2 += h * b[p][q].o;
-            g3 += h * b[p][q].l + h3 * b[p][q].v;
-#endif
-#if NEKTAR_LEVEL >= 2
-            g22 += h * b[p][q].oo;
-            g23 += h * b[p][q].ol + h3 * b[p][q].o;
-            g33 += h * b[p][q].ll + elvis_real(2) * h3 * b[p][q].l + h33 * b[p][q].v;
-#endif
+            NEKTAR_GRADIENT(g2 += h * b[p][q].o; g3 += h * b[p][q].l + h3 * b[p][q].v;)
+            NEKTAR_HESSIAN(g22 += h * b[p][q].oo; g23 += h * b[p][q].ol + h3 * b[p][q].o;
+                           g33 += h * b[p][q].ll + elvis_real(2) * h3 * b[p][q].l + h33 * b[p][q].v;)
         }
         f += g * NEKTAR_VALUE(a[p]);
-#if NEKTAR_LEVEL >= 1
-        f1 += g * a[p].o;
-        f2 += g * a[p].l + g2 * a[p].v;
-        f3 += g * a[p].l + g3 * a[p].v;
-#endif
-#if NEKTAR_LEVEL >= 2
-        f11 += g * a[p].oo;
-        f12 += g * a[p].ol + g2 * a[p].o;
-        f13 += g * a[p].ol + g3 * a[p].o;
-        f22 += g * a[p].ll + elvis_real(2) * g2 * a[p].l + g22 * a[p].v;
-        f23 += g * a[p].ll + (g2 + g3) * a[p].l + g23 * a[p].v;
-        f33 += g * a[p].ll + elvis_real(2) * g3 * a[p].l + g33 * a[p].v;
-#endif
+        NEKTAR_GRADIENT(f1 += g * a[p].o; f2 += g * a[p].l + g2 * a[p].v; f3 += g * a[p].l + g3 * a[p].v;)
+        NEKTAR_HESSIAN(f11 += g * a[p].oo; f12 += g * a[p].ol + g2 * a[p].o; f13 += g * a[p].ol + g3 * a[p].o;
+                       f22 += g * a[p].ll + elvis_real(2) * g2 * a[p].l + g22 * a[p].v;
+                       f23 += g * a[p].ll + (g2 + g3) * a[p].l + g23 * a[p].v;
+                       f33 += g * a[p].ll + elvis_real(2) * g3 * a[p].l + g33 * a[p].v;)
     }
 #if NEKTAR_BASIS == 0
     NEKTAR_TYPE top = NEKTAR_COEFFICIENT(0u, 1);
@@ -70,22 +52,12 @@ NEKTAR_FUNCTION {
         if (r < NEKTAR_R) {
             NEKTAR_TYPE k = NEKTAR_COEFFICIENT(0u, NEKTAR_R + 1 + r);
             e += k * NEKTAR_VALUE(c[1][r]);
-#if NEKTAR_LEVEL >= 1
-            e3 += k * c[1][r].o;
-#endif
-#if NEKTAR_LEVEL >= 2
-            e33 += k * c[1][r].oo;
-#endif
+            NEKTAR_GRADIENT(e3 += k * c[1][r].o;)
+            NEKTAR_HESSIAN(e33 += k * c[1][r].oo;)
         }
     f += top * ((elvis_real(1) + xi.z) * elvis_real(0.5LF)) + e * up;
-#if NEKTAR_LEVEL >= 1
-    f2 += e * elvis_real(0.5LF);
-    f3 += top * elvis_real(0.5LF) + e3 * up;
-#endif
-#if NEKTAR_LEVEL >= 2
-    f23 += e3 * elvis_real(0.5LF);
-    f33 += e33 * up;
-#endif
+    NEKTAR_GRADIENT(f2 += e * elvis_real(0.5LF); f3 += top * elvis_real(0.5LF) + e3 * up;)
+    NEKTAR_HESSIAN(f23 += e3 * elvis_real(0.5LF); f33 += e33 * up;)
 #endif
     NEKTAR_END
 }

@@ -1,0 +1,99 @@
+#include <core/shader/composer.hpp>
+
+#include <core/base/error.hpp>
+#include <core/shader/compiler.hpp>
+#include <core/shader/request_records.hpp>
+
+#include <cassert>
+
+namespace elvis {
+
+namespace {
+
+Kernel make_kernel(const Device& device, const KernelRequest& request) {
+    if (request.precision == Precision::float64 && !device.summary().has_float64) {
+        throw Error("device '" + device.summary().name + "'", "it has no double precision; use --precision float32");
+    }
+    const RequestRecords records(request);
+    std::vector<BindingLayout> layout = request.bindings;
+    for (const BoundBuffer& bound : records.bindings()) {
+        layout.push_back(
+            {bound.binding, device.uses_texel_buffers() ? BindingType::texel_buffer : BindingType::storage_buffer});
+    }
+    if (request.watches_loops) {
+        layout.push_back({records.watch_binding(), BindingType::storage_buffer});
+    }
+    const auto spirv = compile_shader(compose_text(device, request), request.name);
+    return Kernel(device, spirv, std::move(layout), request.push_constant_bytes, request.name);
+}
+
+/** Each once: "snippet 'my_solver' (hexahedron.glsl)". */
+std::string snippet_names(const KernelRequest& request) {
+    std::string names;
+    for (const SnippetInstance& instance : request.instances) {
+        const std::string name = "snippet '" + instance.snippet.prefix + "' (" + instance.snippet.sources.front().name + ")";
+        if (names.find(name) == std::string::npos) {
+            names += (names.empty() ? "" : ", ") + name;
+        }
+    }
+    return names;
+}
+
+} // namespace
+
+ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request)
+    : m_kernel(make_kernel(device, request)), m_name(request.name), m_snippets(snippet_names(request)),
+      m_records(RequestRecords(request).bindings()), m_n_bindings(request.bindings.size()) {
+    if (request.watches_loops) {
+        m_watch.emplace(Watch{RequestRecords(request).watch_binding(), Buffer(device, sizeof(std::uint32_t))});
+        m_watch->is_cut_short.fill(0);
+    }
+}
+
+template <class Call> void ComposedKernel::watched(const Call& call) const {
+    const std::string evaluates = m_snippets.empty() ? "" : " [the kernel evaluates the plugin's " + m_snippets + "; ";
+    try {
+        call();
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        // A lost device is most often a snippet's endless loop or a fetch beyond a record.
+        if (m_snippets.empty()) {
+            throw;
+        }
+        throw Error(error.place(), error.cause() + evaluates + "elvis check-plugin looks for endless loops there]");
+    }
+    if (m_watch && m_watch->is_cut_short.read_items<std::uint32_t>(1).front() != 0) {
+        m_watch->is_cut_short.fill(0);
+        throw Error("kernel '" + m_name + "'",
+                    "the driver has ended its loops early: nothing of it is to be trusted" +
+                        (m_snippets.empty() ? ""
+                                            : evaluates + "drivers may grant all loops of an invocation "
+                                                          "65535 iterations, which high orders use up]"));
+    }
+}
+
+void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
+                              std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
+    watched([&] { m_kernel.dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
+}
+
+void ComposedKernel::dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings,
+                                   std::span<const std::byte> push_constants, std::uint32_t groups_x,
+                                   std::uint32_t groups_y) const {
+    watched([&] { m_kernel.dispatch_from({first[0], first[1], 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
+}
+
+std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {
+    assert(bindings.size() == m_n_bindings);
+    std::vector<BoundBuffer> all = m_records;
+    for (std::uint32_t binding = 0; binding < bindings.size(); ++binding) {
+        all.push_back({binding, bindings[binding], nullptr, 0});
+    }
+    if (m_watch) {
+        all.push_back({m_watch->binding, &m_watch->is_cut_short, nullptr, 0});
+    }
+    return all;
+}
+
+} // namespace elvis
