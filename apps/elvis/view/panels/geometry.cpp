@@ -1,6 +1,7 @@
 #include "panels.hpp"
 
 #include <core/base/vector3.hpp>
+#include <elvis/native/space.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -132,7 +133,8 @@ bool edit(Ui& ui, ElementSelection& selection) {
     for (const std::uint32_t shape : volume.shapes) {
         const auto found = std::find(selection.shapes.begin(), selection.shapes.end(), shape);
         bool is_chosen = found != selection.shapes.end();
-        if (check(ui, std::string("elements/") + shape_name(shape), shape_name(shape), is_chosen,
+        const std::string name(native::name(native::Shape{shape}));
+        if (check(ui, "elements/" + name, name.c_str(), is_chosen,
                   "Elements of the shapes that are marked; without any mark, of all shapes")) {
             if (is_chosen) {
                 selection.shapes.push_back(shape);
