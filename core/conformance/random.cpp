@@ -1,48 +1,6 @@
-#include <core/conformance/scratch.hpp>
-
-#include <core/base/error.hpp>
-
-#include <unistd.h>
-
-#include <fstream>
-#include <sstream>
+#include <core/conformance/random.hpp>
 
 namespace elvis::conformance {
-
-namespace fs = std::filesystem;
-
-ScratchFolder::ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "elvis-check-XXXXXX").string();
-    if (!::mkdtemp(name.data())) {
-        throw Error(name, "cannot be made: checks need a temporary folder");
-    }
-    m_folder = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(m_folder, ignored);
-}
-
-std::string ScratchFolder::write(const std::string& name, const std::string& content) const {
-    const std::string file = path(name);
-    std::ofstream stream(file, std::ios::binary);
-    stream << content;
-    if (!stream.flush()) {
-        throw Error(file, "cannot be written");
-    }
-    return file;
-}
-
-std::string read_whole_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    if (!file) {
-        throw Error(path, "cannot be read");
-    }
-    return text.str();
-}
 
 std::uint64_t Random::next() {
     m_state += 0x9e3779b97f4a7c15u;

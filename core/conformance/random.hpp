@@ -1,32 +1,13 @@
 /**
- * @file scratch.hpp
- * Files that checks write, and deterministic random numbers.
+ * @file random.hpp
+ * Deterministic random numbers.
  */
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace elvis::conformance {
-
-/** A folder of its own below the system's temporary folder, removed at the end. */
-class ScratchFolder {
-public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    std::string path(const std::string& name) const { return (m_folder / name).string(); }
-    /** Writes a file; returns its path. */
-    std::string write(const std::string& name, const std::string& content) const;
-
-private:
-    std::filesystem::path m_folder;
-};
-
-std::string read_whole_file(const std::string& path);
 
 /** splitmix64 (Steele, Lea, Flood 2014): the same numbers on every machine. */
 class Random {
