@@ -3,11 +3,13 @@
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 #include <core/render/field/field_range.hpp>
 #include <core/render/renderer.hpp>
 #include <core/volume/element/jacobian_check.hpp>
 #include <core/volume/field/field_extrema.hpp>
 
+#include <elvis/native/space.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -33,11 +35,6 @@ struct Arguments {
     bool json = false;
 };
 
-const char* shape_name(elvis_shape shape) {
-    constexpr const char* names[] = {"hexahedron", "prism", "pyramid", "tetrahedron", "quadrilateral", "triangle"};
-    return names[shape];
-}
-
 ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
 
 const char* continuity_name(elvis_continuity continuity) {
@@ -49,7 +46,7 @@ const char* continuity_name(elvis_continuity continuity) {
 /** Elements listed by default: enough to look at, and no flood. */
 constexpr std::size_t n_listed_by_default = 20;
 
-ordered_json point(const std::array<double, 3>& x) { return {number(x[0]), number(x[1]), number(x[2])}; }
+ordered_json point(const Vector3& x) { return {number(x[0]), number(x[1]), number(x[2])}; }
 
 /** Signs of the Jacobian determinant: counts, and the elements that are not positive, each with a point to look at. */
 ordered_json describe_jacobians(const RuntimeVolume& volume, double tolerance, bool lists_all) {
@@ -71,7 +68,7 @@ ordered_json describe_jacobians(const RuntimeVolume& volume, double tolerance, b
         volume.element_numbers(element, 1, std::span(&element_number, 1));
         ordered_json entry = {{"element", element_number}, {"xi", point(check.xi)}};
         if (volume.has_evaluation()) {
-            std::array<double, 3> x{};
+            Vector3 x{};
             volume.evaluate_mapping(element, check.xi, x, {});
             entry["x"] = point(x);
         }
@@ -101,7 +98,7 @@ ordered_json describe_extremum(const RuntimeVolume& volume, const FieldExtremum&
                           {"element", element_number},
                           {"xi", point(extremum.xi)}};
     if (volume.has_evaluation()) {
-        std::array<double, 3> x{};
+        Vector3 x{};
         volume.evaluate_mapping(extremum.element, extremum.xi, x, {});
         entry["x"] = point(x);
     }
@@ -206,7 +203,7 @@ ordered_json describe(const RuntimeVolume& volume, const Arguments& arguments) {
     root["classes"] = ordered_json::array();
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
-        root["classes"].push_back({{"shape", shape_name(info.shape)},
+        root["classes"].push_back({{"shape", native::name(native::Shape{info.shape})},
                                    {"n_elements", info.n_elements},
                                    {"geometry_order", {info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]}},
                                    {"cut", volume.is_cut(index)}});

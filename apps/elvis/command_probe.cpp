@@ -3,6 +3,7 @@
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 #include <core/expression/expression.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/probe.hpp>
@@ -19,8 +20,6 @@
 namespace elvis::commands {
 namespace {
 
-using Position = std::array<double, 3>;
-
 struct Arguments {
     std::string volume;
     std::string plugin;
@@ -34,8 +33,8 @@ struct Arguments {
 };
 
 /** Three numbers separated by commas or white space, and nothing else. */
-std::optional<Position> parse_position(std::string_view text) {
-    Position position{};
+std::optional<Vector3> parse_position(std::string_view text) {
+    Vector3 position{};
     const char* at = text.data();
     const char* const end = at + text.size();
     const auto skip_space = [&] {
@@ -60,7 +59,7 @@ std::optional<Position> parse_position(std::string_view text) {
     return at == end ? std::optional(position) : std::nullopt;
 }
 
-void read_points(const std::string& path, std::vector<Position>& positions) {
+void read_points(const std::string& path, std::vector<Vector3>& positions) {
     std::ifstream file(path);
     if (!file)
         throw Error(path, "cannot be opened");
@@ -69,7 +68,7 @@ void read_points(const std::string& path, std::vector<Position>& positions) {
         const std::size_t first = line.find_first_not_of(" \t\r");
         if (first == std::string::npos || line[first] == '#')
             continue;
-        const std::optional<Position> position = parse_position(line);
+        const std::optional<Vector3> position = parse_position(line);
         if (!position)
             throw Error(path + ":" + std::to_string(number), "expected three numbers, found '" + line + "'");
         positions.push_back(*position);
@@ -78,10 +77,10 @@ void read_points(const std::string& path, std::vector<Position>& positions) {
         throw Error(path, "cannot be read");
 }
 
-std::vector<Position> positions_of(const Arguments& arguments) {
-    std::vector<Position> positions;
+std::vector<Vector3> positions_of(const Arguments& arguments) {
+    std::vector<Vector3> positions;
     for (const std::string& text : arguments.points) {
-        const std::optional<Position> position = parse_position(text);
+        const std::optional<Vector3> position = parse_position(text);
         if (!position)
             throw UsageError("--point", "expected x,y,z, found '" + text + "'");
         positions.push_back(*position);
@@ -179,7 +178,7 @@ void print_table(const RuntimeVolume& volume, const Expressions& expressions, co
 }
 
 void run(const Arguments& arguments) {
-    const std::vector<Position> positions = positions_of(arguments);
+    const std::vector<Vector3> positions = positions_of(arguments);
     const PluginRegistry registry;
     const RuntimeVolume volume = open_volume(registry, arguments.volume, arguments.plugin, {});
     Expressions expressions;

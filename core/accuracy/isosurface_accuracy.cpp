@@ -1,6 +1,6 @@
 #include "isosurface_accuracy.hpp"
 
-#include <core/base/temporary_file.hpp>
+#include <core/base/temporary_folder.hpp>
 #include <core/oracle/samples/meshes.hpp>
 
 #include <core/render/renderer.hpp>

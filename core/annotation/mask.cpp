@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace elvis {
 
@@ -119,19 +118,6 @@ Mask polygon_mask(std::span<const Point2> points) {
         }
     }
     return mask;
-}
-
-Mask line_mask(const Point2& from, const Point2& to, double thickness) {
-    const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
-    if (!(length > 0)) {
-        return {};
-    }
-    const Point2 across = {-0.5 * thickness * (to[1] - from[1]) / length, 0.5 * thickness * (to[0] - from[0]) / length};
-    const std::array<Point2, 4> corners = {{{from[0] + across[0], from[1] + across[1]},
-                                            {to[0] + across[0], to[1] + across[1]},
-                                            {to[0] - across[0], to[1] - across[1]},
-                                            {from[0] - across[0], from[1] - across[1]}}};
-    return polygon_mask(corners);
 }
 
 Mask grown_mask(const Mask& mask, double radius) {

@@ -52,9 +52,6 @@ void unite(Mask& onto, const Mask& other);
  */
 Mask polygon_mask(std::span<const Point2> points);
 
-/** A line with flat ends, `thickness` wide. Nothing for a line without length. */
-Mask line_mask(const Point2& from, const Point2& to, double thickness);
-
 /** The mask and what lies within `radius` pixels around it: what a halo covers. */
 Mask grown_mask(const Mask& mask, double radius);
 

@@ -37,8 +37,6 @@ struct SurfaceResult {
     std::uint32_t size = 0;
     double milliseconds = 0;
     double wall_milliseconds = 0;
-    /** In the same unit, over the prototype's with U = 550 ns; 0 where the prototype has no figure. */
-    double ratio_to_prototype = 0;
     double evaluations_a_pixel = 0;
     double newton_steps_a_pixel = 0;
     /** Of pixels in which something is seen. */
@@ -53,8 +51,7 @@ struct SurfaceResult {
 /** Calls `report` after each scene. */
 void bench_surface(const Device& device, const PluginRegistry& registry, const BenchFolder& folder, BenchView view,
                    const std::vector<std::uint32_t>& elements_a_side, const std::vector<std::uint32_t>& orders,
-                   const std::vector<std::uint32_t>& sizes, double unit_nanoseconds,
-                   const std::function<void(const SurfaceResult&)>& report);
+                   const std::vector<std::uint32_t>& sizes, const std::function<void(const SurfaceResult&)>& report);
 
 /** All segments of all rays of the waves picture: traversal alone, no field. */
 struct SegmentsResult {

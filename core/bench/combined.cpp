@@ -1,5 +1,6 @@
 #include <core/bench/combined.hpp>
 
+#include <core/base/bounds.hpp>
 #include <core/bench/repeated_frame.hpp>
 
 #include <algorithm>
@@ -22,15 +23,10 @@ struct Part {
 /** Seen along a diagonal, so that the whole of it fits; the plane is across the first axis, through the middle. */
 std::vector<Part> parts_of(const std::array<double, 6>& bounds, const FieldRange& range, std::optional<double> isovalue,
                            FrameRequest& request) {
-    Vector3 middle{}, side{};
-    double diagonal = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        middle[axis] = 0.5 * (bounds[axis] + bounds[axis + 3]);
-        side[axis] = bounds[axis + 3] - bounds[axis];
-        diagonal = std::hypot(diagonal, side[axis]);
-    }
+    const Vector3 middle = middle_of(bounds);
+    const double diagonal = diagonal_of(bounds);
     request.camera.look_at = middle;
-    request.camera.eye = {middle[0] + 0.8 * diagonal, middle[1] + 0.45 * diagonal, middle[2] + 0.5 * diagonal};
+    request.camera.eye = plus(middle, scaled({0.8, 0.45, 0.5}, diagonal));
     request.camera.up = {0, 1, 0};
     request.camera.field_of_view = 45;
     const double lower = range.lower, width = range.upper - range.lower;

@@ -1,3 +1,5 @@
+#include <core/base/milliseconds.hpp>
+#include <core/base/vector3.hpp>
 #include <core/bench/bench.hpp>
 
 #include <core/hierarchy/hierarchy.hpp>
@@ -15,11 +17,11 @@ HierarchyResult bench_hierarchy(std::uint64_t n_items) {
     std::vector<double> boxes;
     boxes.reserve(6 * n_items);
     for (std::uint64_t item = 0; item < n_items; ++item) {
-        std::array<double, 3> q{};
+        Vector3 q{};
         for (std::uint64_t axis = 0, rest = item; axis < 3; ++axis, rest /= n) {
             q[axis] = -1 + h * static_cast<double>(rest % n);
         }
-        std::array<double, 3> lower{};
+        Vector3 lower{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             lower[axis] = q[axis] + 0.06 * std::sin(M_PI * q[(axis + 1) % 3]) * std::cos(M_PI * q[(axis + 2) % 3]);
         }
@@ -29,7 +31,7 @@ HierarchyResult bench_hierarchy(std::uint64_t n_items) {
     const Hierarchy hierarchy(boxes, {0, 0, 0});
     HierarchyResult result;
     result.n_items = n_items;
-    result.wall_milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    result.wall_milliseconds = milliseconds_since(start);
     result.depth = hierarchy.depth();
 
     std::mt19937_64 random(1);

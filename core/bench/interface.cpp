@@ -1,5 +1,6 @@
 #include <core/bench/interface.hpp>
 
+#include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 #include <core/render/cut_surface/cut_plane_pass.hpp>
 #include <core/render/device/device_time.hpp>
@@ -91,23 +92,15 @@ private:
  * lies in no faces.
  */
 void look_at_middle(const std::array<double, 6>& bounds, CutPlane& plane, Camera& camera) {
-    Vector3 side{};
-    double diagonal = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        side[axis] = bounds[axis + 3] - bounds[axis];
-        camera.look_at[axis] = 0.5 * (bounds[axis] + bounds[axis + 3]);
-        diagonal = std::hypot(diagonal, side[axis]);
-    }
+    Vector3 side = {bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]};
     const std::size_t shortest = static_cast<std::size_t>(std::min_element(side.begin(), side.end()) - side.begin());
     Vector3 normal{};
     normal[shortest] = 1;
     normal[(shortest + 1) % 3] = 0.11;
     normal[(shortest + 2) % 3] = 0.07;
-    plane.plane = {normal[0], normal[1], normal[2], 0};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        plane.plane[3] -= normal[axis] * camera.look_at[axis];
-        camera.eye[axis] = camera.look_at[axis] + diagonal * normal[axis];
-    }
+    camera.look_at = middle_of(bounds);
+    camera.eye = plus(camera.look_at, scaled(normal, diagonal_of(bounds)));
+    plane.plane = {normal[0], normal[1], normal[2], -dot(normal, camera.look_at)};
     camera.up[(shortest + 1) % 3] = 1;
     camera.orthographic = true;
     std::ranges::sort(side);

@@ -2,6 +2,7 @@
  * The certified check of Jacobians alone, without reading: a million quadratic hexahedra are made block by block, and only the
  * check is timed.
  */
+#include <core/base/vector3.hpp>
 #include <core/bench/bench.hpp>
 
 #include <elvis/native/jacobian.hpp>
@@ -61,7 +62,7 @@ public:
             const std::array<std::uint64_t, 3> cell{index % m_side, index / m_side % m_side, index / (m_side * m_side)};
             for (std::size_t node = 0; node < n_nodes; ++node) {
                 const std::array<std::uint64_t, 3> at{node % n, node / n % n, node / (n * n)};
-                std::array<double, 3> q{};
+                Vector3 q{};
                 for (std::size_t i = 0; i < 3; ++i) {
                     q[i] = -1 + step * static_cast<double>(cell[i] * m_order + at[i]);
                 }

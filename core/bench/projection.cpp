@@ -21,10 +21,8 @@ FrameRequest request_of(const std::array<double, 6>& bounds, double diagonal, do
     FrameRequest request;
     request.width = request.height = size;
     const Vector3 from_centre = {1.0, 0.7, 0.55};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        request.camera.look_at[axis] = 0.5 * (bounds[axis] + bounds[axis + 3]);
-        request.camera.eye[axis] = request.camera.look_at[axis] + diagonal * from_centre[axis];
-    }
+    request.camera.look_at = middle_of(bounds);
+    request.camera.eye = plus(request.camera.look_at, scaled(from_centre, diagonal));
     request.camera.up = {0, 0, 1};
     request.camera.field_of_view = 40;
     Surface surface;
@@ -145,17 +143,10 @@ void write_projection(const std::filesystem::path& folder, const std::vector<Pro
     if (!file) {
         throw Error(path.string(), "cannot be written");
     }
-    Plot plot;
-    plot.x.label = "degree";
-    plot.y.is_logarithmic = true;
-    plot.title = "Error of projection";
-    plot.y.label = "of the diagonal, or of the unit normal";
-    plot.series = {mean, largest, normal};
-    write_svg(folder / "error-by-degree.svg", plot);
-    plot.title = "Pixels that show another surface, or none";
-    plot.y.label = "pixels";
-    plot.series = {wrong};
-    write_svg(folder / "pixels-by-degree.svg", plot);
+    write_svg(folder / "error-by-degree.svg",
+              {"Error of projection", {"degree"}, {"of the diagonal, or of the unit normal", true}, {mean, largest, normal}});
+    write_svg(folder / "pixels-by-degree.svg",
+              {"Pixels that show another surface, or none", {"degree"}, {"pixels", true}, {wrong}});
 }
 
 } // namespace elvis

@@ -237,12 +237,7 @@ void write_surfaces(const std::filesystem::path& folder, const std::vector<Surfa
 
     const auto draw = [&folder](const char* name, const char* title, const PlotAxis& x, const PlotAxis& y,
                                 const std::vector<PlotSeries>& series) {
-        Plot plot;
-        plot.title = title;
-        plot.x = x;
-        plot.y = y;
-        plot.series = series;
-        write_svg(folder / (std::string(name) + ".svg"), plot);
+        write_svg(folder / (std::string(name) + ".svg"), {title, x, y, series});
     };
     SeriesByName undecided, subdivision_time;
     for (const SurfacesRow& row : rows) {

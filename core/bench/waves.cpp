@@ -5,28 +5,12 @@
 #include <core/plugin_host/source_volume.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 namespace elvis {
 
-BenchFolder::BenchFolder(const std::string& kept) : m_path(kept), m_is_kept(!kept.empty()) {
-    if (m_is_kept) {
-        std::filesystem::create_directories(m_path);
-        return;
-    }
-    std::string pattern = (std::filesystem::temp_directory_path() / "elvis-bench-XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) {
-        throw Error(pattern, "the folder for the benchmark's volumes cannot be created");
-    }
-    m_path = pattern;
-}
-
-BenchFolder::~BenchFolder() {
-    if (!m_is_kept) {
-        std::error_code ignored;
-        std::filesystem::remove_all(m_path, ignored);
-    }
+BenchFolder::BenchFolder(const std::string& kept) : m_path(kept.empty() ? m_own.emplace().path().string() : kept) {
+    std::filesystem::create_directories(m_path);
 }
 
 RuntimeVolume generated_volume(const PluginRegistry& registry, const BenchFolder& folder, const std::string& name,

@@ -4,12 +4,14 @@
  */
 #pragma once
 
+#include <core/base/temporary_folder.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/frame.hpp>
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace elvis {
 
@@ -17,15 +19,12 @@ namespace elvis {
 class BenchFolder {
 public:
     explicit BenchFolder(const std::string& kept);
-    ~BenchFolder();
-    BenchFolder(const BenchFolder&) = delete;
-    BenchFolder& operator=(const BenchFolder&) = delete;
 
     const std::filesystem::path& path() const { return m_path; }
 
 private:
+    std::optional<TemporaryFolder> m_own;
     std::filesystem::path m_path;
-    bool m_is_kept;
 };
 
 /** What a description makes for the generator, by this name, made by the conversion engine unless the folder holds it already.

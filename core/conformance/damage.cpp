@@ -1,6 +1,6 @@
 #include <core/conformance/damage.hpp>
 
-#include <core/conformance/scratch.hpp>
+#include <core/conformance/random.hpp>
 
 #include <array>
 #include <cctype>

@@ -1,6 +1,6 @@
 #include <core/conformance/pieces.hpp>
 
-#include <core/conformance/scratch.hpp>
+#include <core/conformance/random.hpp>
 
 #include <algorithm>
 #include <chrono>

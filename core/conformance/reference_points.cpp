@@ -1,51 +1,31 @@
 #include <core/conformance/reference_points.hpp>
 
-#include <core/conformance/scratch.hpp>
-#include <core/volume/element/reference_corners.hpp>
+#include <core/conformance/random.hpp>
+#include <elvis/native/space.hpp>
 
 #include <algorithm>
 #include <set>
 
 namespace elvis::conformance {
 
+namespace {
+
+/** From the cube into the shape. */
 Point expand(elvis_shape shape, Point eta) {
-    auto [x, y, z] = eta;
-    switch (shape) {
-    case ELVIS_SHAPE_PRISM:
-        return {0.5 * (1 + x) * (1 - z) - 1, y, z};
-    case ELVIS_SHAPE_PYRAMID:
-        return {0.5 * (1 + x) * (1 - z) - 1, 0.5 * (1 + y) * (1 - z) - 1, z};
-    case ELVIS_SHAPE_TETRAHEDRON:
-        y = 0.5 * (1 + y) * (1 - z) - 1;
-        return {0.5 * (1 + x) * (-y - z) - 1, y, z};
-    case ELVIS_SHAPE_QUADRILATERAL:
-        return {x, y, 0};
-    case ELVIS_SHAPE_TRIANGLE:
-        return {0.5 * (1 + x) * (1 - y) - 1, y, 0};
-    default:
-        return eta;
+    if (native::dimension(native::Shape{shape}) == 2) {
+        eta[2] = 0;
     }
+    return native::expand(native::Shape{shape}, eta);
 }
 
-std::uint32_t n_corners(elvis_shape shape) {
-    constexpr std::uint32_t counts[] = {8, 6, 5, 4, 4, 3};
-    return counts[shape];
-}
+} // namespace
 
-std::uint32_t n_faces(elvis_shape shape) {
-    constexpr std::uint32_t counts[] = {6, 5, 5, 4, 4, 3};
-    return counts[shape];
-}
-
-const char* shape_name(elvis_shape shape) {
-    constexpr const char* names[] = {"hexahedron", "prism", "pyramid", "tetrahedron", "quadrilateral", "triangle"};
-    return names[shape];
-}
+std::string shape_name(elvis_shape shape) { return std::string(native::name(native::Shape{shape})); }
 
 std::vector<Point> points_in(elvis_shape shape, std::size_t count, std::uint64_t seed) {
     std::vector<Point> points;
-    for (std::uint32_t corner = 0; corner < n_corners(shape) && points.size() < count; ++corner) {
-        points.push_back(reference_corner(shape, corner));
+    for (int corner = 0; corner < native::n_corners(native::Shape{shape}) && points.size() < count; ++corner) {
+        points.push_back(native::corner(native::Shape{shape}, corner));
     }
     Random random(seed);
     while (points.size() < count) {

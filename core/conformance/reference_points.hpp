@@ -4,27 +4,23 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
-#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace elvis::conformance {
 
-using Point = std::array<double, 3>;
-
-/** From the cube into the shape by the collapsed coordinates of Karniadakis & Sherwin. */
-Point expand(elvis_shape shape, Point eta);
+using Point = Vector3;
 
 /** Points of the closed shape: its corners first, then points in its interior and on its faces, as the seed says. */
 std::vector<Point> points_in(elvis_shape shape, std::size_t count, std::uint64_t seed);
 /** Points of the interior, not near the boundary, so that differences find room. */
 std::vector<Point> interior_points(elvis_shape shape, std::size_t count, std::uint64_t seed);
 
-std::uint32_t n_corners(elvis_shape shape);
-std::uint32_t n_faces(elvis_shape shape);
-const char* shape_name(elvis_shape shape);
+std::string shape_name(elvis_shape shape);
 
 std::vector<double> flat(const std::vector<Point>& points);
 

@@ -2,7 +2,7 @@
 
 #include <core/base/child_process.hpp>
 #include <core/base/error.hpp>
-#include <core/conformance/scratch.hpp>
+#include <core/base/temporary_folder.hpp>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -105,7 +105,7 @@ CheckResult run_in_process(const Check& check, const Subject& subject, double ti
     result.check = &check;
     const auto begin = Clock::now();
     // What a killed process leaves in the temporary folder goes with this one.
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     const std::string log = scratch.write("output.txt", "");
     const int output = ::open(log.c_str(), O_RDWR | O_CLOEXEC);
     if (output < 0) {

@@ -1,9 +1,10 @@
 #include <core/conformance/snippet_compile.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
+#include <core/base/whole_file.hpp>
 #include <core/conformance/device_sampler.hpp>
 #include <core/conformance/differences.hpp>
-#include <core/conformance/scratch.hpp>
 #include <core/shader/compiler.hpp>
 #include <core/shader/composer.hpp>
 #include <core/shader/glsl_scan.hpp>
@@ -226,8 +227,8 @@ SnippetReport compile_in_plugin(const std::string& path, Subject subject) {
     return report;
 }
 
-std::vector<std::string> evaluate_at(const std::string& path, const Subject& subject, std::uint64_t element,
-                                     const std::array<double, 3>& xi, bool in_float32) {
+std::vector<std::string> evaluate_at(const std::string& path, const Subject& subject, std::uint64_t element, const Vector3& xi,
+                                     bool in_float32) {
     const std::shared_ptr<const Plugin> plugin = Plugin::load(fs::absolute(subject.library));
     const RuntimeVolume volume(plugin, subject.files.front(), subject.options);
     if (element >= volume.n_elements()) {

@@ -4,10 +4,10 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/conformance/check.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -47,7 +47,7 @@ SnippetReport compile_in_plugin(const std::string& path, Subject subject);
  * What the plugin's snippet gives at a point of an element, one line a function, and the numbers that it gave to elvis_debug
  * there; in single precision if `in_float32`. With the file in place of the source of its name.
  */
-std::vector<std::string> evaluate_at(const std::string& path, const Subject& subject, std::uint64_t element,
-                                     const std::array<double, 3>& xi, bool in_float32);
+std::vector<std::string> evaluate_at(const std::string& path, const Subject& subject, std::uint64_t element, const Vector3& xi,
+                                     bool in_float32);
 
 } // namespace elvis::conformance

@@ -3,6 +3,7 @@
 #include <core/base/child_process.hpp>
 #include <core/base/error.hpp>
 #include <core/base/memory.hpp>
+#include <core/base/temporary_folder.hpp>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -11,11 +12,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -39,29 +38,15 @@ constexpr std::chrono::milliseconds look{50};
 /** Between two lines of progress. */
 constexpr std::chrono::milliseconds least_between_lines{50};
 
-/** A folder beside the output, on the same file system. What a killed process leaves there goes with it. */
-class OutputFolder {
-public:
-    explicit OutputFolder(const std::string& output) {
-        fs::path parent = fs::path(output).parent_path();
-        std::string name = ((parent.empty() ? fs::path(".") : parent) / ".elvis-convert-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
-            throw Error(output, "cannot be written: " + std::string(std::strerror(errno)));
-        }
-        m_path = name;
+/** Beside the output, on the same file system. What a killed process leaves there goes with it. */
+TemporaryFolder folder_beside(const std::string& output) {
+    const fs::path parent = fs::path(output).parent_path();
+    try {
+        return TemporaryFolder((parent.empty() ? fs::path(".") : parent) / ".elvis-convert-");
+    } catch (const Error& error) {
+        throw Error(output, error.cause());
     }
-    ~OutputFolder() {
-        std::error_code ignored;
-        fs::remove_all(m_path, ignored);
-    }
-    OutputFolder(const OutputFolder&) = delete;
-    OutputFolder& operator=(const OutputFolder&) = delete;
-
-    std::string file() const { return (m_path / "volume.h5").string(); }
-
-private:
-    fs::path m_path;
-};
+}
 
 std::vector<std::string> arguments_of(const ConvertRequest& request, const std::string& output) {
     std::vector<std::string> arguments{"elvis"};
@@ -197,8 +182,9 @@ Answer listen(ChildProcess& process, const ConvertRequest& request, const TaskCo
 
 ConvertReport convert_separately(const ConvertRequest& request, const TaskControl& control, const ConvertProcess& options) {
     control.check();
-    const OutputFolder folder(request.output);
-    ChildProcess process({arguments_of(request, folder.file()), environment_without({}), options.output, true, true},
+    const TemporaryFolder folder = folder_beside(request.output);
+    const std::string output = folder.path("volume.h5");
+    ChildProcess process({arguments_of(request, output), environment_without({}), options.output, true, true},
                          request.inputs.front());
     const Answer answer = listen(process, request, control, options);
     // What plugins do when the process ends must not take for ever, either.
@@ -220,7 +206,7 @@ ConvertReport convert_separately(const ConvertRequest& request, const TaskContro
     }
     control.check();
     std::error_code error;
-    fs::rename(folder.file(), request.output, error);
+    fs::rename(output, request.output, error);
     if (error) {
         throw Error(request.output, "cannot be written: " + error.message());
     }

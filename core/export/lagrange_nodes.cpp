@@ -1,21 +1,16 @@
 #include <core/export/lagrange_nodes.hpp>
 
-#include <array>
+#include <core/base/vector3.hpp>
+
 #include <cassert>
 
 namespace elvis {
 
 namespace {
 
-using Point = std::array<double, 3>;
-
 /** a + x (b - a) + y (c - a) */
-Point blend(const Point& a, double x, const Point& b, double y, const Point& c) {
-    Point point;
-    for (std::size_t i = 0; i < 3; ++i) {
-        point[i] = a[i] + x * (b[i] - a[i]) + y * (c[i] - a[i]);
-    }
-    return point;
+Vector3 blend(const Vector3& a, double x, const Vector3& b, double y, const Vector3& c) {
+    return plus(plus(a, scaled(minus(b, a), x)), scaled(minus(c, a), y));
 }
 
 /** Collects nodes of a cell whose edges have n steps. */
@@ -25,13 +20,13 @@ public:
 
     std::vector<double> take() { return std::move(m_nodes); }
 
-    void add(const Point& point) { m_nodes.insert(m_nodes.end(), point.begin(), point.end()); }
+    void add(const Vector3& point) { m_nodes.insert(m_nodes.end(), point.begin(), point.end()); }
 
     /** Inside the edge from a to b. */
-    void add_edge(const Point& a, const Point& b) { add_edge(a, b, m_order); }
+    void add_edge(const Vector3& a, const Vector3& b) { add_edge(a, b, m_order); }
 
     /** Inside the parallelogram with corner a and sides ab, ac; fastest along ab. */
-    void add_quadrilateral(const Point& a, const Point& b, const Point& c) {
+    void add_quadrilateral(const Vector3& a, const Vector3& b, const Vector3& c) {
         for (std::uint32_t j = 1; j < m_order; ++j) {
             for (std::uint32_t i = 1; i < m_order; ++i) {
                 add(blend(a, fraction(i), b, fraction(j), c));
@@ -40,7 +35,7 @@ public:
     }
 
     /** Inside the triangle, row by row along ab: the order of wedges. */
-    void add_triangle_rows(const Point& a, const Point& b, const Point& c) {
+    void add_triangle_rows(const Vector3& a, const Vector3& b, const Vector3& c) {
         for (std::uint32_t j = 1; j < m_order; ++j) {
             for (std::uint32_t i = 1; i + j < m_order; ++i) {
                 add(blend(a, fraction(i), b, fraction(j), c));
@@ -49,13 +44,13 @@ public:
     }
 
     /** Inside a triangle whose edges have n steps, triangle within triangle: the order of tetrahedra. */
-    void add_nested_triangle(const Point& a, const Point& b, const Point& c, std::uint32_t n) {
+    void add_nested_triangle(const Vector3& a, const Vector3& b, const Vector3& c, std::uint32_t n) {
         if (n < 3) {
             return;
         }
         const double step = 1.0 / n;
-        const Point inner_a = blend(a, step, b, step, c), inner_b = blend(b, step, a, step, c),
-                    inner_c = blend(c, step, a, step, b);
+        const Vector3 inner_a = blend(a, step, b, step, c), inner_b = blend(b, step, a, step, c),
+                      inner_c = blend(c, step, a, step, b);
         add(inner_a);
         if (n == 3) {
             return;
@@ -69,7 +64,7 @@ public:
     }
 
     /** All of a tetrahedron whose edges have n steps. */
-    void add_tetrahedron(const Point& a, const Point& b, const Point& c, const Point& d, std::uint32_t n) {
+    void add_tetrahedron(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, std::uint32_t n) {
         add(a);
         if (n == 0) {
             return;
@@ -89,8 +84,8 @@ public:
         add_nested_triangle(a, c, b, n);
         if (n >= 4) {
             const double step = 1.0 / n;
-            const auto toward = [&](const Point& corner, const Point& x, const Point& y, const Point& z) {
-                Point point = corner;
+            const auto toward = [&](const Vector3& corner, const Vector3& x, const Vector3& y, const Vector3& z) {
+                Vector3 point = corner;
                 for (std::size_t i = 0; i < 3; ++i) {
                     point[i] += step * (x[i] + y[i] + z[i] - 3 * corner[i]);
                 }
@@ -101,7 +96,7 @@ public:
     }
 
 private:
-    void add_edge(const Point& a, const Point& b, std::uint32_t n) {
+    void add_edge(const Vector3& a, const Vector3& b, std::uint32_t n) {
         for (std::uint32_t i = 1; i < n; ++i) {
             add(blend(a, static_cast<double>(i) / n, b, 0, a));
         }
@@ -113,10 +108,10 @@ private:
 };
 
 std::vector<double> hexahedron_nodes(std::uint32_t order) {
-    const auto at = [](double x, double y, double z) { return Point{x, y, z}; };
+    const auto at = [](double x, double y, double z) { return Vector3{x, y, z}; };
     NodeList nodes(order);
     for (const double z : {-1.0, 1.0}) {
-        for (const Point& corner : {at(-1, -1, z), at(1, -1, z), at(1, 1, z), at(-1, 1, z)}) {
+        for (const Vector3& corner : {at(-1, -1, z), at(1, -1, z), at(1, 1, z), at(-1, 1, z)}) {
             nodes.add(corner);
         }
     }
@@ -148,9 +143,9 @@ std::vector<double> hexahedron_nodes(std::uint32_t order) {
 
 std::vector<double> wedge_nodes(std::uint32_t order) {
     // Triangle (a, b, c) of VTK at the height xi2: xi3 runs from a to b and xi1 from a to c, which keeps the orientation.
-    const auto a = [](double y) { return Point{-1, y, -1}; };
-    const auto b = [](double y) { return Point{-1, y, 1}; };
-    const auto c = [](double y) { return Point{1, y, -1}; };
+    const auto a = [](double y) { return Vector3{-1, y, -1}; };
+    const auto b = [](double y) { return Vector3{-1, y, 1}; };
+    const auto c = [](double y) { return Vector3{1, y, -1}; };
     NodeList nodes(order);
     for (const double y : {-1.0, 1.0}) {
         nodes.add(a(y));

@@ -1,5 +1,7 @@
 #include <core/expression/evaluate.hpp>
 
+#include <core/base/vector3.hpp>
+
 #include <cassert>
 #include <map>
 #include <optional>
@@ -71,11 +73,11 @@ private:
     const std::array<double, 27>& mapping_hessian() {
         return keep(m_mapping_hessian, [&] { return m_point.mapping_hessian(); });
     }
-    const std::array<double, 3>& slopes(const Node& node) {
+    const Vector3& slopes(const Node& node) {
         return keep(m_slopes[{node.field, node.component}], [&] { return m_point.gradient(node.field, node.component); });
     }
     double gradient(const Node& node, std::size_t i) {
-        const std::array<double, 3>& slope = slopes(node);
+        const Vector3& slope = slopes(node);
         return slope[0] * inverse()[i] + slope[1] * inverse()[3 + i] + slope[2] * inverse()[6 + i];
     }
     double bend(const Node& node, std::size_t b, std::size_t l) {
@@ -89,10 +91,10 @@ private:
 
     using Key = std::pair<std::uint32_t, std::uint32_t>;
     ExpressionPoint& m_point;
-    std::optional<std::array<double, 3>> m_position;
+    std::optional<Vector3> m_position;
     std::optional<std::array<double, 9>> m_jacobian, m_inverse;
     std::optional<std::array<double, 27>> m_mapping_hessian;
-    std::map<Key, std::optional<std::array<double, 3>>> m_slopes;
+    std::map<Key, std::optional<Vector3>> m_slopes;
     std::map<Key, std::optional<std::array<double, 9>>> m_hessians;
 };
 
@@ -110,18 +112,18 @@ std::vector<double> evaluate_nodes(const Graph& graph, const std::vector<NodeId>
 /** A point of space, where there is no element. */
 class SpacePoint : public ExpressionPoint {
 public:
-    explicit SpacePoint(const std::array<double, 3>& x) : m_x(x) {}
-    std::array<double, 3> position() override { return m_x; }
+    explicit SpacePoint(const Vector3& x) : m_x(x) {}
+    Vector3 position() override { return m_x; }
     std::array<double, 9> jacobian() override { return {}; }
     std::array<double, 27> mapping_hessian() override { return {}; }
     double value(std::uint32_t, std::uint32_t) override { return 0; }
-    std::array<double, 3> gradient(std::uint32_t, std::uint32_t) override { return {}; }
+    Vector3 gradient(std::uint32_t, std::uint32_t) override { return {}; }
     std::array<double, 9> hessian(std::uint32_t, std::uint32_t) override { return {}; }
     double order(std::uint32_t) override { return 0; }
     double element_number() override { return 0; }
 
 private:
-    std::array<double, 3> m_x;
+    Vector3 m_x;
 };
 
 } // namespace
@@ -149,7 +151,7 @@ ValueAndGradient evaluate_gradient(const Expression& expression, ExpressionPoint
     return {values[expression.value()], {values[d0], values[d1], values[d2]}};
 }
 
-ValueAndGradient evaluate_implicit(const Expression& expression, const std::array<double, 3>& x) {
+ValueAndGradient evaluate_implicit(const Expression& expression, const Vector3& x) {
     SpacePoint point(x);
     return evaluate_gradient(expression, point);
 }

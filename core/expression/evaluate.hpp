@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/expression/expression.hpp>
 
 #include <array>
@@ -17,12 +18,12 @@ namespace elvis {
 class ExpressionPoint {
 public:
     virtual ~ExpressionPoint() = default;
-    virtual std::array<double, 3> position() = 0;
+    virtual Vector3 position() = 0;
     virtual std::array<double, 9> jacobian() = 0;
     virtual std::array<double, 27> mapping_hessian() = 0;
     virtual double value(std::uint32_t field, std::uint32_t component) = 0;
     /** By reference coordinates. */
-    virtual std::array<double, 3> gradient(std::uint32_t field, std::uint32_t component) = 0;
+    virtual Vector3 gradient(std::uint32_t field, std::uint32_t component) = 0;
     virtual std::array<double, 9> hessian(std::uint32_t field, std::uint32_t component) = 0;
     /** Polynomial order in the element; any_field: the largest of all fields. */
     virtual double order(std::uint32_t field) = 0;
@@ -33,14 +34,14 @@ double evaluate(const Expression& expression, ExpressionPoint& point);
 
 struct ValueAndGradient {
     double value = 0;
-    std::array<double, 3> gradient{};
+    Vector3 gradient{};
 };
 
 /** The gradient by reference coordinates (by world coordinates for implicit expressions). Needs expression.gradient(). */
 ValueAndGradient evaluate_gradient(const Expression& expression, ExpressionPoint& point);
 
 /** An implicit expression at a point of space. */
-ValueAndGradient evaluate_implicit(const Expression& expression, const std::array<double, 3>& x);
+ValueAndGradient evaluate_implicit(const Expression& expression, const Vector3& x);
 
 /** Inverse of a matrix given row by row. */
 std::array<double, 9> inverse3(const std::array<double, 9>& matrix);

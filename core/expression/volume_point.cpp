@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/expression/glsl.hpp>
 #include <core/expression/volume_point.hpp>
 
@@ -15,14 +16,12 @@ constexpr double spacing = 0.01;
 
 } // namespace
 
-VolumePoint::VolumePoint(const RuntimeVolume& volume, std::uint64_t element, const std::array<double, 3>& xi,
-                         std::uint32_t time_step)
+VolumePoint::VolumePoint(const RuntimeVolume& volume, std::uint64_t element, const Vector3& xi, std::uint32_t time_step)
     : m_volume(volume), m_element(element), m_xi(xi), m_time_step(time_step) {
     m_volume.evaluate_mapping(element, xi, m_position, m_jacobian);
 }
 
-std::vector<double>
-VolumePoint::differences(const std::function<std::vector<double>(const std::array<double, 3>&)>& function) const {
+std::vector<double> VolumePoint::differences(const std::function<std::vector<double>(const Vector3&)>& function) const {
     constexpr std::array<double, 3> weights{45.0 / 60, -9.0 / 60, 1.0 / 60};
     std::vector<double> result;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -31,7 +30,7 @@ VolumePoint::differences(const std::function<std::vector<double>(const std::arra
             if (step == 0) {
                 continue;
             }
-            std::array<double, 3> at = m_xi;
+            Vector3 at = m_xi;
             at[axis] += step * spacing;
             const std::vector<double> numbers = function(at);
             sum.resize(numbers.size());
@@ -45,8 +44,8 @@ VolumePoint::differences(const std::function<std::vector<double>(const std::arra
     return result;
 }
 
-std::array<double, 3> VolumePoint::differences(const Expression& expression) const {
-    const std::vector<double> by_axis = differences([&](const std::array<double, 3>& xi) {
+Vector3 VolumePoint::differences(const Expression& expression) const {
+    const std::vector<double> by_axis = differences([&](const Vector3& xi) {
         VolumePoint there(m_volume, m_element, xi, m_time_step);
         return std::vector<double>{evaluate(expression, there)};
     });
@@ -54,7 +53,7 @@ std::array<double, 3> VolumePoint::differences(const Expression& expression) con
 }
 
 std::array<double, 27> VolumePoint::mapping_hessian() {
-    const std::vector<double> by_axis = differences([this](const std::array<double, 3>& xi) {
+    const std::vector<double> by_axis = differences([this](const Vector3& xi) {
         std::vector<double> position(3), jacobian(9);
         m_volume.evaluate_mapping(m_element, xi, position, jacobian);
         return jacobian;
@@ -81,7 +80,7 @@ VolumePoint::Sample& VolumePoint::sample(std::uint32_t field) {
     return found->second;
 }
 
-std::array<double, 3> VolumePoint::gradient(std::uint32_t field, std::uint32_t component) {
+Vector3 VolumePoint::gradient(std::uint32_t field, std::uint32_t component) {
     const std::vector<double>& gradients = sample(field).gradients;
     return {gradients[3 * component], gradients[3 * component + 1], gradients[3 * component + 2]};
 }
@@ -90,7 +89,7 @@ std::array<double, 9> VolumePoint::hessian(std::uint32_t field, std::uint32_t co
     std::optional<std::vector<double>>& hessians = sample(field).hessians;
     const std::size_t n = 3 * std::size_t{m_volume.fields()[field].n_components};
     if (!hessians) {
-        hessians = differences([&](const std::array<double, 3>& xi) {
+        hessians = differences([&](const Vector3& xi) {
             std::vector<double> values(n / 3), gradients(n);
             m_volume.evaluate_field(field, m_time_step, m_element, xi, values, gradients);
             return gradients;

@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/hierarchy/builder.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 
@@ -25,7 +26,7 @@ float round_up(double x) {
 
 } // namespace
 
-Hierarchy::Hierarchy(std::span<const double> boxes, const std::array<double, 3>& centre) : m_centre(centre) {
+Hierarchy::Hierarchy(std::span<const double> boxes, const Vector3& centre) : m_centre(centre) {
     assert(boxes.size() % 6 == 0 && boxes.size() / 6 < (1ull << 31u));
     m_n_items = static_cast<std::uint32_t>(boxes.size() / 6);
     std::vector<HierarchyItem> items(m_n_items);
@@ -54,7 +55,7 @@ std::uint32_t Hierarchy::depth() const {
     return deepest;
 }
 
-void Hierarchy::find(const std::array<double, 3>& point, double tolerance, std::vector<std::uint32_t>& items) const {
+void Hierarchy::find(const Vector3& point, double tolerance, std::vector<std::uint32_t>& items) const {
     if (m_nodes.empty()) {
         return;
     }
@@ -82,26 +83,6 @@ void Hierarchy::find(const std::array<double, 3>& point, double tolerance, std::
             stack[size++] = node.child;
         }
     }
-}
-
-std::vector<NodeRange> Hierarchy::node_ranges(std::span<const double> item_ranges) const {
-    assert(item_ranges.size() == 2 * std::size_t{m_n_items});
-    std::vector<NodeRange> ranges(m_nodes.size());
-    // Children follow their parents, so that going backwards meets them first.
-    for (std::size_t i = m_nodes.size(); i-- > 0;) {
-        const HierarchyNode& node = m_nodes[i];
-        if (node.is_leaf()) {
-            const double lower = item_ranges[2 * std::size_t{node.child}];
-            const double upper = item_ranges[2 * std::size_t{node.child} + 1];
-            ranges[i] =
-                NodeRange{std::isnan(lower) ? -infinity : round_down(lower), std::isnan(upper) ? infinity : round_up(upper)};
-        } else {
-            const NodeRange& left = ranges[node.child];
-            const NodeRange& right = ranges[node.child + 1];
-            ranges[i] = NodeRange{std::min(left.lower, right.lower), std::max(left.upper, right.upper)};
-        }
-    }
-    return ranges;
 }
 
 } // namespace elvis

@@ -5,6 +5,8 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -28,12 +30,6 @@ struct HierarchyNode {
 };
 static_assert(sizeof(HierarchyNode) == 32);
 
-/** Closed interval of field values, rounded outward from double. */
-struct NodeRange {
-    float lower = 0;
-    float upper = 0;
-};
-
 /**
  * Built once over the boxes of items 0 .. n-1 (elements of one class, faces), then read-only; any number of threads may query
  * it. Children come after their parent in nodes(); node 0 is the root. No node is deeper than max_depth.
@@ -52,10 +48,10 @@ public:
      * nodes' bounds are relative to, best the centre of the whole volume. Binned surface area heuristic (Wald, "On fast
      * construction of SAH-based bounding volume hierarchies", 2007), on two threads where there are enough items.
      */
-    Hierarchy(std::span<const double> boxes, const std::array<double, 3>& centre);
+    Hierarchy(std::span<const double> boxes, const Vector3& centre);
 
     std::span<const HierarchyNode> nodes() const { return m_nodes; }
-    const std::array<double, 3>& centre() const { return m_centre; }
+    const Vector3& centre() const { return m_centre; }
     std::uint32_t n_items() const { return m_n_items; }
     /** Steps from the root to the deepest leaf. */
     std::uint32_t depth() const;
@@ -64,16 +60,10 @@ public:
      * Appends to `items` every item whose box comes within `tolerance` of the point (in each coordinate), in no particular
      * order. Boxes are rounded outward: an item may be reported that misses by an ulp of single precision.
      */
-    void find(const std::array<double, 3>& point, double tolerance, std::vector<std::uint32_t>& items) const;
-
-    /**
-     * Range of each node from the ranges of the items: item_ranges[2i], [2i+1] are the bounds of item i. A NaN bound means
-     * unknown and gives the infinite interval.
-     */
-    std::vector<NodeRange> node_ranges(std::span<const double> item_ranges) const;
+    void find(const Vector3& point, double tolerance, std::vector<std::uint32_t>& items) const;
 
 private:
-    std::array<double, 3> m_centre{};
+    Vector3 m_centre{};
     std::uint32_t m_n_items = 0;
     std::vector<HierarchyNode> m_nodes;
 };

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/base/vector3.hpp>
 #include <elvis/runtime.h>
 
 #include <array>
@@ -78,7 +79,7 @@ struct FieldExtremum {
     /** Certified: the field takes no value beyond. Else the value. */
     double bound = 0;
     std::uint64_t element = 0;
-    std::array<double, 3> xi{};
+    Vector3 xi{};
 };
 
 /** Without any finite value the minimum is infinity, the maximum -infinity. */
@@ -98,7 +99,7 @@ struct DerivativeBounds {
 /** See elvis_jacobian_check. */
 struct JacobianCheck {
     elvis_jacobian_sign sign = ELVIS_JACOBIAN_UNDECIDED;
-    std::array<double, 3> xi{};
+    Vector3 xi{};
     double determinant = 0;
     double lower = 0;
 };

@@ -3,6 +3,7 @@
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/source_volume.hpp>
 #include <core/plugin_host/table_copy.hpp>
+#include <elvis/native/space.hpp>
 
 #include <cassert>
 #include <cmath>
@@ -12,8 +13,6 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t max_order = 30;
-constexpr int corner_count[] = {8, 6, 5, 4, 4, 3};
-constexpr int face_count[] = {6, 5, 5, 4, 4, 3};
 
 } // namespace
 
@@ -156,13 +155,14 @@ void SourceVolume::elements(std::uint64_t first, std::uint64_t count, std::span<
                 m_impl->refuse("get_elements", "geometry order " + std::to_string(element.geometry_order[direction]) + which);
             }
         }
-        for (int corner = 0; m_impl->info.n_corner_ids > 0 && corner < corner_count[element.shape]; ++corner) {
+        const native::Shape shape{element.shape};
+        for (int corner = 0; m_impl->info.n_corner_ids > 0 && corner < native::n_corners(shape); ++corner) {
             const std::int64_t id = element.corners[corner];
             if (id < 0 || static_cast<std::uint64_t>(id) >= m_impl->info.n_corner_ids) {
                 m_impl->refuse("get_elements", "corner id " + std::to_string(id) + which);
             }
         }
-        for (int face = 0; face < face_count[element.shape]; ++face) {
+        for (int face = 0; face < native::n_faces(shape); ++face) {
             const std::int32_t group = element.face_groups[face];
             if (group < ELVIS_GROUP_NONE || group >= static_cast<std::int32_t>(m_impl->info.n_boundary_groups)) {
                 m_impl->refuse("get_elements", "boundary group " + std::to_string(group) + which);

@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/expression/volume_point.hpp>
 #include <core/probe/cpu_evaluator.hpp>
 #include <core/probe/newton.hpp>
@@ -36,7 +37,7 @@ std::vector<FieldSample> CpuEvaluator::evaluate(std::uint32_t field, std::uint32
     const std::size_t n_components = m_volume->fields()[field].n_components;
     std::vector<FieldSample> samples;
     samples.reserve(points.size());
-    std::array<double, 3> position{};
+    Vector3 position{};
     std::array<double, 9> jacobian{};
     for (const ReferencePoint& point : points) {
         FieldSample sample;

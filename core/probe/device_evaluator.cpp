@@ -31,17 +31,36 @@ struct DeviceAnswer {
 constexpr std::uint32_t status_converged = 1;
 constexpr std::uint32_t status_outside = 2;
 
-// Calls action(class index, indices of the items in that class) for every class that has some.
-template <class Item, class Action>
-void for_each_class(const std::vector<ClassInfo>& classes, std::span<const Item> items, const Action& action) {
+const Vector3& coordinates_of(const InversionQuery& query) { return query.position; }
+const Vector3& coordinates_of(const ReferencePoint& point) { return point.xi; }
+
+// Items by their class, block by block: run(class, input, output, number of items), whose kernel gives each item so many
+// answers, then take(class, index of an item, its answers).
+template <class Answer, class Item, class Run, class Take>
+void answer_all(const Device& device, const std::vector<ClassInfo>& classes, std::span<const Item> items, std::size_t n_answers,
+                const Run& run, const Take& take) {
     std::vector<std::vector<std::size_t>> indices(classes.size());
     for (std::size_t i = 0; i < items.size(); ++i)
         for (std::size_t c = 0; c < classes.size(); ++c)
             if (items[i].element - classes[c].first_element < classes[c].n_elements)
                 indices[c].push_back(i);
     for (std::uint32_t c = 0; c < classes.size(); ++c)
-        if (!indices[c].empty())
-            action(c, indices[c]);
+        for (std::size_t first = 0; first < indices[c].size(); first += block_size) {
+            const std::size_t count = std::min(block_size, indices[c].size() - first);
+            std::vector<DevicePoint> points(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Item& item = items[indices[c][first + i]];
+                const auto [x, y, z] = coordinates_of(item);
+                points[i] = {{x, y, z}, static_cast<std::uint32_t>(item.element - classes[c].first_element), 0};
+            }
+            const Buffer input(device, count * sizeof(DevicePoint));
+            const Buffer output(device, count * n_answers * sizeof(Answer));
+            input.write_items(std::span<const DevicePoint>(points));
+            run(c, input, output, count);
+            const auto answers = output.read_items<Answer>(count * n_answers);
+            for (std::size_t i = 0; i < count; ++i)
+                take(c, indices[c][first + i], std::span(answers).subspan(i * n_answers, n_answers));
+        }
 }
 
 const RuntimeVolume& require_fields(const RuntimeVolume& volume) {
@@ -94,35 +113,22 @@ std::vector<Inversion> DeviceEvaluator::invert(std::span<const InversionQuery> q
     std::vector<Inversion> inversions(queries.size());
     // Only the mapping is needed; a snippet always comes with a field.
     m_on_device.select(0, 0, std::vector<double>(m_volume->fields()[0].n_components, 0.0));
-    for_each_class(m_volume->classes(), queries, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
-        const ClassInfo& info = m_volume->classes()[c];
-        for (std::size_t first = 0; first < indices.size(); first += block_size) {
-            const std::size_t count = std::min(block_size, indices.size() - first);
-            std::vector<DevicePoint> points(count);
-            for (std::size_t i = 0; i < count; ++i) {
-                const InversionQuery& query = queries[indices[first + i]];
-                points[i] = {{query.position[0], query.position[1], query.position[2]},
-                             static_cast<std::uint32_t>(query.element - info.first_element),
-                             0};
-            }
-            const Buffer input(m_device, count * sizeof(DevicePoint));
-            const Buffer output(m_device, count * sizeof(DeviceAnswer));
-            input.write_items(std::span<const DevicePoint>(points));
-            run("probe/probe_invert.comp", c, std::as_bytes(std::span(&m_position_error, 1)), input, output, count);
-            const auto answers = output.read_items<DeviceAnswer>(count);
-            for (std::size_t i = 0; i < count; ++i) {
-                const DeviceAnswer& answer = answers[i];
-                Inversion& inversion = inversions[indices[first + i]];
-                inversion.xi = {answer.xi[0], answer.xi[1], answer.xi[2]};
-                if (answer.status == status_converged) {
-                    const bool is_inside = reference_excess(info.shape, inversion.xi) <= inside_tolerance + answer.error;
-                    inversion.outcome = is_inside ? Inversion::Outcome::inside : Inversion::Outcome::outside;
-                } else if (answer.status == status_outside) {
-                    inversion.outcome = Inversion::Outcome::outside;
-                }
-            }
+    const auto run_class = [this](std::uint32_t c, const Buffer& input, const Buffer& output, std::size_t count) {
+        run("probe/probe_invert.comp", c, std::as_bytes(std::span(&m_position_error, 1)), input, output, count);
+    };
+    const auto take = [&](std::uint32_t c, std::size_t index, std::span<const DeviceAnswer> answers) {
+        const DeviceAnswer& answer = answers.front();
+        Inversion& inversion = inversions[index];
+        inversion.xi = {answer.xi[0], answer.xi[1], answer.xi[2]};
+        if (answer.status == status_converged) {
+            const double excess = reference_excess(m_volume->classes()[c].shape, inversion.xi);
+            inversion.outcome =
+                excess <= inside_tolerance + answer.error ? Inversion::Outcome::inside : Inversion::Outcome::outside;
+        } else if (answer.status == status_outside) {
+            inversion.outcome = Inversion::Outcome::outside;
         }
-    });
+    };
+    answer_all<DeviceAnswer>(m_device, m_volume->classes(), queries, 1, run_class, take);
     return inversions;
 }
 
@@ -132,34 +138,21 @@ std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uin
     std::vector<FieldSample> samples(points.size());
     // Double precision has digits enough for any offset.
     m_on_device.select(field, time_step, std::vector<double>(n_components, 0.0));
-    for_each_class(m_volume->classes(), points, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
-        const ClassInfo& info = m_volume->classes()[c];
-        const bool is_estimated = (m_volume->snippet(c).capabilities & ELVIS_SNIPPET_FIELD_GRADIENT) == 0;
-        for (std::size_t first = 0; first < indices.size(); first += block_size) {
-            const std::size_t count = std::min(block_size, indices.size() - first);
-            std::vector<DevicePoint> inputs(count);
-            for (std::size_t i = 0; i < count; ++i) {
-                const ReferencePoint& point = points[indices[first + i]];
-                inputs[i] = {
-                    {point.xi[0], point.xi[1], point.xi[2]}, static_cast<std::uint32_t>(point.element - info.first_element), 0};
-            }
-            const std::size_t n_numbers = 4 * n_components * count;
-            const Buffer input(m_device, count * sizeof(DevicePoint));
-            const Buffer output(m_device, n_numbers * sizeof(double));
-            input.write_items(std::span<const DevicePoint>(inputs));
-            run("probe/probe_evaluate.comp", c, {}, input, output, count);
-            const auto numbers = output.read_items<double>(n_numbers);
-            for (std::size_t i = 0; i < count; ++i) {
-                FieldSample& sample = samples[indices[first + i]];
-                sample.gradient_is_estimated = is_estimated;
-                for (std::size_t component = 0; component < n_components; ++component) {
-                    const double* at = &numbers[4 * (i * n_components + component)];
-                    sample.values.push_back(at[0]);
-                    sample.gradients.insert(sample.gradients.end(), at + 1, at + 4);
-                }
-            }
+    const auto run_class = [this](std::uint32_t c, const Buffer& input, const Buffer& output, std::size_t count) {
+        run("probe/probe_evaluate.comp", c, {}, input, output, count);
+    };
+    std::vector<bool> is_estimated;
+    for (std::uint32_t c = 0; c < m_volume->classes().size(); ++c)
+        is_estimated.push_back((m_volume->snippet(c).capabilities & ELVIS_SNIPPET_FIELD_GRADIENT) == 0);
+    const auto take = [&](std::uint32_t c, std::size_t index, std::span<const double> numbers) {
+        FieldSample& sample = samples[index];
+        sample.gradient_is_estimated = is_estimated[c];
+        for (; !numbers.empty(); numbers = numbers.subspan(4)) {
+            sample.values.push_back(numbers[0]);
+            sample.gradients.insert(sample.gradients.end(), &numbers[1], &numbers[1] + 3);
         }
-    });
+    };
+    answer_all<double>(m_device, m_volume->classes(), points, 4 * n_components, run_class, take);
     return samples;
 }
 
@@ -170,31 +163,18 @@ std::vector<ExpressionSample> DeviceEvaluator::evaluate(const std::shared_ptr<co
     m_on_device.keep(std::span(&selection, 1));
     m_on_device.select(selection);
     m_expression = expression.get();
-    for_each_class(m_volume->classes(), points, [&](std::uint32_t c, const std::vector<std::size_t>& indices) {
-        const ClassInfo& info = m_volume->classes()[c];
+    const auto run_class = [this](std::uint32_t c, const Buffer& input, const Buffer& output, std::size_t count) {
+        run("probe/probe_expression.comp", c, {}, input, output, count);
+    };
+    std::vector<std::array<bool, 2>> is_estimated;
+    for (std::uint32_t c = 0; c < m_volume->classes().size(); ++c) {
         const ExpressionClass about = expression_class(*m_volume, c);
-        for (std::size_t first = 0; first < indices.size(); first += block_size) {
-            const std::size_t count = std::min(block_size, indices.size() - first);
-            std::vector<DevicePoint> inputs(count);
-            for (std::size_t i = 0; i < count; ++i) {
-                const ReferencePoint& point = points[indices[first + i]];
-                inputs[i] = {
-                    {point.xi[0], point.xi[1], point.xi[2]}, static_cast<std::uint32_t>(point.element - info.first_element), 0};
-            }
-            const Buffer input(m_device, count * sizeof(DevicePoint));
-            const Buffer output(m_device, 4 * count * sizeof(double));
-            input.write_items(std::span<const DevicePoint>(inputs));
-            run("probe/probe_expression.comp", c, {}, input, output, count);
-            const auto numbers = output.read_items<double>(4 * count);
-            for (std::size_t i = 0; i < count; ++i) {
-                const double* at = &numbers[4 * i];
-                samples[indices[first + i]] = {at[0],
-                                               {at[1], at[2], at[3]},
-                                               value_is_estimated(*expression, about),
-                                               gradient_is_estimated(*expression, about)};
-            }
-        }
-    });
+        is_estimated.push_back({value_is_estimated(*expression, about), gradient_is_estimated(*expression, about)});
+    }
+    const auto take = [&](std::uint32_t c, std::size_t index, std::span<const double> numbers) {
+        samples[index] = {numbers[0], {numbers[1], numbers[2], numbers[3]}, is_estimated[c][0], is_estimated[c][1]};
+    };
+    answer_all<double>(m_device, m_volume->classes(), points, 4, run_class, take);
     m_expression = nullptr;
     return samples;
 }

@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/probe/newton.hpp>
 #include <core/probe/reference_shape.hpp>
 
@@ -8,8 +9,6 @@
 
 namespace elvis {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 constexpr int max_steps = 40;
 // After a step this short the next one, by quadratic convergence, would be below rounding.
@@ -24,38 +23,36 @@ constexpr std::size_t n_starts = 6;
 // Predictions this far outside are approached by half steps, where steps are damped.
 constexpr double damped_excess = 0.125;
 
-double largest(const Vector& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
+double largest(const Vector3& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
 
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vector midpoint(const Vector& a, const Vector& b) {
+Vector3 midpoint(const Vector3& a, const Vector3& b) {
     return {std::midpoint(a[0], b[0]), std::midpoint(a[1], b[1]), std::midpoint(a[2], b[2])};
 }
 
-double dot(const double* row, const Vector& v) { return row[0] * v[0] + row[1] * v[1] + row[2] * v[2]; }
+double dot(const double* row, const Vector3& v) { return row[0] * v[0] + row[1] * v[1] + row[2] * v[2]; }
 
 // Result of one start.
 struct Search {
     Inversion::Outcome outcome = Inversion::Outcome::failed;
-    Vector xi{};
+    Vector3 xi{};
     double excess = 0;
 };
 
 // With `is_damped`, steps towards a prediction that is clearly outside go half the way: on strongly curved elements whole ones
 // can lead from one side to the other and back.
-Search search(elvis_shape shape, const MappingFunction& mapping, const Vector& target, const Vector& start, bool is_damped) {
+Search search(elvis_shape shape, const MappingFunction& mapping, const Vector3& target, const Vector3& start, bool is_damped) {
     Search result;
-    Vector prediction = start;
-    Vector point = project_into_shape(shape, start);
+    Vector3 prediction = start;
+    Vector3 point = project_into_shape(shape, start);
     int outside_steps = 0;
     for (int step_count = 0; step_count < max_steps; ++step_count) {
-        Vector position{};
+        Vector3 position{};
         std::array<double, 9> jacobian{};
         mapping(point, position, jacobian);
         const std::array<double, 9> inverse = invert_matrix(jacobian);
-        const Vector residual = target - position;
-        const Vector step{dot(&inverse[0], residual), dot(&inverse[3], residual), dot(&inverse[6], residual)};
-        const Vector next{point[0] + step[0], point[1] + step[1], point[2] + step[2]};
+        const Vector3 residual = minus(target, position);
+        const Vector3 step{dot(&inverse[0], residual), dot(&inverse[3], residual), dot(&inverse[6], residual)};
+        const Vector3 next = plus(point, step);
         if (!std::isfinite(largest(next)))
             return result;
 
@@ -66,12 +63,12 @@ Search search(elvis_shape shape, const MappingFunction& mapping, const Vector& t
             floor = std::max(floor, 4 * epsilon *
                                         (std::abs(inverse[3 * i] * target[0]) + std::abs(inverse[3 * i + 1] * target[1]) +
                                          std::abs(inverse[3 * i + 2] * target[2])));
-        const double change = largest(next - prediction);
+        const double change = largest(minus(next, prediction));
         const double excess = reference_excess(shape, next);
         outside_steps = excess > 1e-3 ? outside_steps + 1 : 0;
         const double far = 1e3; // only the direction of such a prediction means anything
         prediction = {std::clamp(next[0], -far, far), std::clamp(next[1], -far, far), std::clamp(next[2], -far, far)};
-        const Vector inside = project_into_shape(shape, prediction);
+        const Vector3 inside = project_into_shape(shape, prediction);
         point = is_damped && excess > damped_excess ? midpoint(point, inside) : inside;
         if (change <= std::max(converged_step, floor)) {
             // A prediction outside that stays: the linear model at the boundary is exact there only to second order, which
@@ -89,13 +86,13 @@ Search search(elvis_shape shape, const MappingFunction& mapping, const Vector& t
 }
 
 // Points of a lattice in the shape, those whose images come closest to the target first.
-std::vector<Vector> nearest_starts(elvis_shape shape, const MappingFunction& mapping, const Vector& target) {
+std::vector<Vector3> nearest_starts(elvis_shape shape, const MappingFunction& mapping, const Vector3& target) {
     std::vector<double> points;
     for (int k = 0; k < lattice_size; ++k)
         for (int j = 0; j < lattice_size; ++j)
             for (int i = 0; i < lattice_size; ++i) {
                 const auto at = [](int index) { return -0.9 + 1.8 * index / (lattice_size - 1); };
-                const Vector xi{at(i), at(j), at(k)};
+                const Vector3 xi{at(i), at(j), at(k)};
                 if (reference_excess(shape, xi) <= 0)
                     points.insert(points.end(), xi.begin(), xi.end());
             }
@@ -108,7 +105,7 @@ std::vector<Vector> nearest_starts(elvis_shape shape, const MappingFunction& map
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
     order.resize(std::min(order.size(), n_starts));
-    std::vector<Vector> starts;
+    std::vector<Vector3> starts;
     for (const std::size_t i : order)
         starts.push_back({points[3 * i], points[3 * i + 1], points[3 * i + 2]});
     return starts;
@@ -130,19 +127,19 @@ std::array<double, 9> invert_matrix(const std::array<double, 9>& m) {
 void to_world_gradients(const std::array<double, 9>& jacobian, std::span<double> gradients) {
     const std::array<double, 9> inverse = invert_matrix(jacobian);
     for (std::size_t i = 0; i + 2 < gradients.size(); i += 3) {
-        const Vector g{gradients[i], gradients[i + 1], gradients[i + 2]};
+        const Vector3 g{gradients[i], gradients[i + 1], gradients[i + 2]};
         for (std::size_t j = 0; j < 3; ++j)
             gradients[i + j] = inverse[j] * g[0] + inverse[3 + j] * g[1] + inverse[6 + j] * g[2];
     }
 }
 
-Inversion invert_mapping(elvis_shape shape, const MappingFunction& mapping, const std::array<double, 3>& target) {
+Inversion invert_mapping(elvis_shape shape, const MappingFunction& mapping, const Vector3& target) {
     const Search first = search(shape, mapping, target, reference_centroid(shape), false);
     if (first.outcome == Inversion::Outcome::inside ||
         (first.outcome == Inversion::Outcome::outside && first.excess > clearly_outside))
         return {first.outcome, first.xi};
     bool is_outside = first.outcome == Inversion::Outcome::outside;
-    for (const Vector& start : nearest_starts(shape, mapping, target)) {
+    for (const Vector3& start : nearest_starts(shape, mapping, target)) {
         const Search next = search(shape, mapping, target, start, true);
         if (next.outcome == Inversion::Outcome::inside)
             return {next.outcome, next.xi};

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/probe/point_evaluator.hpp>
 #include <elvis/element.h>
 
@@ -20,7 +21,7 @@ using MappingFunction =
  * it is known to be one to one: a prediction outside is moved into the shape first, and the linear model from there says on
  * which side of a face the target lies. Several starts: the centroid, then points whose images come closest to the target.
  */
-Inversion invert_mapping(elvis_shape shape, const MappingFunction& mapping, const std::array<double, 3>& target);
+Inversion invert_mapping(elvis_shape shape, const MappingFunction& mapping, const Vector3& target);
 
 /** Of a 3 x 3 matrix, row by row; infinities or NaN if it is singular. */
 std::array<double, 9> invert_matrix(const std::array<double, 9>& matrix);

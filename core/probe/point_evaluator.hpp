@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/expression/expression.hpp>
 
 #include <array>
@@ -17,7 +18,7 @@ namespace elvis {
 /** Whether an element contains a position. */
 struct InversionQuery {
     std::uint64_t element = 0;
-    std::array<double, 3> position{};
+    Vector3 position{};
 };
 
 struct Inversion {
@@ -28,13 +29,13 @@ struct Inversion {
     };
     Outcome outcome = Outcome::failed;
     /** Meaningful if inside. */
-    std::array<double, 3> xi{};
+    Vector3 xi{};
 };
 
 /** A point of an element. */
 struct ReferencePoint {
     std::uint64_t element = 0;
-    std::array<double, 3> xi{};
+    Vector3 xi{};
 };
 
 /** Components of a field and their gradients in world coordinates (three numbers a component). */
@@ -48,7 +49,7 @@ struct FieldSample {
 /** An expression and its gradient in world coordinates. */
 struct ExpressionSample {
     double value = 0;
-    std::array<double, 3> gradient{};
+    Vector3 gradient{};
     /** Rests on differences of what the plugin gives. */
     bool value_is_estimated = false;
     bool gradient_is_estimated = false;

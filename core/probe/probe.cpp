@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/cpu_evaluator.hpp>
 #include <core/probe/device_evaluator.hpp>
@@ -42,8 +43,8 @@ Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_vol
 
     std::vector<double> boxes(6 * volume.n_elements());
     volume.bounds(0, volume.n_elements(), boxes);
-    std::array<double, 3> lower{};
-    std::array<double, 3> upper{};
+    Vector3 lower{};
+    Vector3 upper{};
     for (std::size_t d = 0; d < 3 && !boxes.empty(); ++d) {
         lower[d] = boxes[d];
         upper[d] = boxes[3 + d];
@@ -57,7 +58,7 @@ Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_vol
     m_hierarchy = Hierarchy(boxes, {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2});
 }
 
-std::vector<ProbedPoint> Prober::probe(std::span<const std::array<double, 3>> positions, std::uint32_t time_step,
+std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::uint32_t time_step,
                                        std::span<const std::shared_ptr<const Expression>> expressions) {
     if (time_step >= m_volume->times().size())
         throw UsageError(m_volume->path(), "there is no time step " + std::to_string(time_step) + "; the volume has " +

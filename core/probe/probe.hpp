@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/probe/point_evaluator.hpp>
@@ -30,10 +31,10 @@ struct ProbeOptions {
 };
 
 struct ProbedPoint {
-    std::array<double, 3> position{};
+    Vector3 position{};
     /** Number of the element that contains the point; the lowest if several do. */
     std::optional<std::int64_t> element;
-    std::array<double, 3> xi{};
+    Vector3 xi{};
     /** One for each field of the volume; empty if no element contains the point. */
     std::vector<FieldSample> fields;
     /** One for each expression asked for; empty likewise. */
@@ -51,7 +52,7 @@ public:
     explicit Prober(const RuntimeVolume& volume, const ProbeOptions& options = {});
 
     /** One answer a position, in the same order. A position that is not finite lies in no element. */
-    std::vector<ProbedPoint> probe(std::span<const std::array<double, 3>> positions, std::uint32_t time_step,
+    std::vector<ProbedPoint> probe(std::span<const Vector3> positions, std::uint32_t time_step,
                                    std::span<const std::shared_ptr<const Expression>> expressions = {});
 
 private:

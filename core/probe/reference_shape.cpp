@@ -1,12 +1,14 @@
 #include <core/probe/reference_shape.hpp>
 
+#include <core/base/vector3.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace elvis {
 
-double reference_excess(elvis_shape shape, const std::array<double, 3>& xi) {
+double reference_excess(elvis_shape shape, const Vector3& xi) {
     const auto [x, y, z] = xi;
     switch (shape) {
     case ELVIS_SHAPE_HEXAHEDRON:
@@ -21,7 +23,7 @@ double reference_excess(elvis_shape shape, const std::array<double, 3>& xi) {
     }
 }
 
-std::array<double, 3> project_into_shape(elvis_shape shape, const std::array<double, 3>& xi) {
+Vector3 project_into_shape(elvis_shape shape, const Vector3& xi) {
     auto [x, y, z] = xi;
     // The slanted faces first, along their normal; then the others in an order in which each clamp keeps what came before.
     switch (shape) {
@@ -45,7 +47,7 @@ std::array<double, 3> project_into_shape(elvis_shape shape, const std::array<dou
     }
 }
 
-std::array<double, 3> reference_centroid(elvis_shape shape) {
+Vector3 reference_centroid(elvis_shape shape) {
     switch (shape) {
     case ELVIS_SHAPE_HEXAHEDRON:
         return {0, 0, 0};

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
+
 #include <elvis/element.h>
 
 #include <array>
@@ -11,11 +13,11 @@
 namespace elvis {
 
 /** Largest violation of a face constraint; <= 0 in the closed shape. Three-dimensional shapes only. */
-double reference_excess(elvis_shape shape, const std::array<double, 3>& xi);
+double reference_excess(elvis_shape shape, const Vector3& xi);
 
 /** A point of the shape near xi; xi itself if it lies in the shape. */
-std::array<double, 3> project_into_shape(elvis_shape shape, const std::array<double, 3>& xi);
+Vector3 project_into_shape(elvis_shape shape, const Vector3& xi);
 
-std::array<double, 3> reference_centroid(elvis_shape shape);
+Vector3 reference_centroid(elvis_shape shape);
 
 } // namespace elvis

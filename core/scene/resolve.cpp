@@ -1,3 +1,4 @@
+#include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
 #include <core/scene/resolve.hpp>
@@ -23,10 +24,6 @@ Vector3 default_direction(std::span<const CutPlane> planes) {
 }
 
 double slope_of(const Camera& camera) { return std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180); }
-
-Vector3 centre_of(const std::array<double, 6>& bounds) {
-    return {0.5 * (bounds[0] + bounds[3]), 0.5 * (bounds[1] + bounds[4]), 0.5 * (bounds[2] + bounds[5])};
-}
 
 std::vector<Vector3> corners_of(const std::array<double, 6>& bounds) {
     std::vector<Vector3> corners;
@@ -102,7 +99,7 @@ bool is_placed(const SceneCamera& camera) {
 Camera fitted(const Camera& camera, const VolumeExtent& extent, const PictureRoom& room) {
     Camera result = camera;
     const Vector3 to_eye = unit(minus(camera.eye, camera.look_at));
-    result.look_at = centre_of(extent.bounds);
+    result.look_at = middle_of(extent.bounds);
     stand_back(result, to_eye, fit(points_of(extent), result.look_at, to_eye, camera, room));
     result.image_shift = shift_into(room);
     return result;
@@ -114,7 +111,7 @@ Camera resolve_camera(const Scene& scene, const VolumeExtent& extent, std::span<
     camera.orthographic = own.orthographic.value_or(own.height.has_value());
     camera.field_of_view = own.field_of_view.value_or(60.0);
     camera.image_shift = own.image_shift;
-    camera.look_at = own.look_at.value_or(centre_of(extent.bounds));
+    camera.look_at = own.look_at.value_or(middle_of(extent.bounds));
     Vector3 to_eye = default_direction(planes);
     if (own.eye) {
         to_eye = minus(*own.eye, camera.look_at);

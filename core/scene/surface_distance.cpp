@@ -52,7 +52,7 @@ std::string from_axis(const Vector3& point, const std::string& height) {
  * apex is sharper than that. Roots of zero, which have no derivative, are kept away from.
  */
 std::string distance_to(const Cone& cone) {
-    const Vector3 axis = {cone.to[0] - cone.from[0], cone.to[1] - cone.from[1], cone.to[2] - cone.from[2]};
+    const Vector3 axis = minus(cone.to, cone.from);
     const double length = std::hypot(axis[0], axis[1], axis[2]), growth = cone.to_radius - cone.from_radius;
     const double side = std::hypot(length, growth);
     const std::string height = along(unit(axis), cone.from);

@@ -107,10 +107,4 @@ std::vector<std::uint32_t> compile_shader(const std::string& text, const std::st
     return spirv;
 }
 
-void warm_up_compiler() {
-    static std::once_flag warm;
-    // The first compilation builds the tables of built-in functions.
-    std::call_once(warm, [] { run_compiler("#version 460\nvoid main() {}\n", "warm-up"); });
-}
-
 } // namespace elvis

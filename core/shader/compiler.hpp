@@ -22,10 +22,4 @@ std::string_view shader_source(std::string_view path);
  */
 std::vector<std::uint32_t> compile_shader(const std::string& text, const std::string& name);
 
-/**
- * The first compilation of a process takes a tenth of a second longer than others. This spends that time now: call it on a
- * thread of its own while something else, such as reading the volume, is done. Compilation is safe from any number of threads.
- */
-void warm_up_compiler();
-
 } // namespace elvis

@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 #include <core/surface/mesh_cursor.hpp>
 
 #include <charconv>
@@ -102,7 +103,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
     return words;
 }
 
-std::optional<std::string> MeshBuilder::fault_of(const std::array<double, 3>& point) {
+std::optional<std::string> MeshBuilder::fault_of(const Vector3& point) {
     for (const double coordinate : point) {
         // Not for NaN either.
         if (!(std::abs(coordinate) <= largest_mesh_coordinate)) {

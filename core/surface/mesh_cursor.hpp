@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/surface/triangle_mesh.hpp>
 
 #include <cstddef>
@@ -55,8 +56,8 @@ public:
     explicit MeshBuilder(const MeshCursor& cursor) : m_cursor(&cursor) {}
 
     /** What is wrong with a point, or nothing. */
-    static std::optional<std::string> fault_of(const std::array<double, 3>& point);
-    void add_point(const std::array<double, 3>& point) { mesh.points.push_back(point); }
+    static std::optional<std::string> fault_of(const Vector3& point);
+    void add_point(const Vector3& point) { mesh.points.push_back(point); }
     /** A fan of triangles; the corners are known to exist. */
     void add_polygon(std::span<const std::uint32_t> corners);
 
@@ -67,7 +68,6 @@ private:
 };
 
 /** All of a file, and the ending of its name in lower case. */
-std::string read_mesh_text(const std::string& path);
 std::string mesh_ending(const std::string& path);
 
 /** The readers. */

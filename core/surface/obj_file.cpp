@@ -1,5 +1,6 @@
 // Wavefront OBJ: lines "v x y z" and "f a/.. b/.. c/.. ...", indices from 1, or from -1 backwards. Normals, texture
 // coordinates, groups and materials mean nothing here; free-form curves and surfaces are refused rather than left out.
+#include <core/base/vector3.hpp>
 #include <core/surface/mesh_cursor.hpp>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ TriangleMesh read_obj(const std::string& path, std::string_view text) {
             if (words.size() < 4) {
                 cursor.fail("a point needs three coordinates");
             }
-            const std::array<double, 3> point = {cursor.number(words[1]), cursor.number(words[2]), cursor.number(words[3])};
+            const Vector3 point = {cursor.number(words[1]), cursor.number(words[2]), cursor.number(words[3])};
             if (const auto fault = MeshBuilder::fault_of(point)) {
                 cursor.fail(*fault);
             }

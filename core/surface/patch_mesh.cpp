@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/whole_file.hpp>
 #include <core/surface/mesh_cursor.hpp>
 #include <core/surface/patch_mesh.hpp>
 
@@ -89,7 +90,7 @@ PatchMesh read_patch_mesh(const std::string& path) {
     if (mesh_ending(path) != ".bpt") {
         throw Error(path, "is no file of Bezier patches that can be read: its name does not end in .bpt");
     }
-    return read_bpt(path, read_mesh_text(path));
+    return read_bpt(path, read_whole_file(path));
 }
 
 } // namespace elvis

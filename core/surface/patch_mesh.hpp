@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -14,7 +16,7 @@ namespace elvis {
 
 /** Control point i, j (of u, v) is points[4 i + j]. */
 struct BezierPatch {
-    std::array<std::array<double, 3>, 16> points{};
+    std::array<Vector3, 16> points{};
 
     /** The part over [u0, u0 + h] x [v0, v0 + h], by blossoming. */
     BezierPatch part(double u0, double v0, double h) const;

@@ -1,5 +1,6 @@
 // PLY: a header in text that lists elements with properties, then the data as text or binary, in either byte order. Read are x,
 // y, z of "vertex" and the list "vertex_indices" (or "vertex_index") of "face"; all else is skipped.
+#include <core/base/vector3.hpp>
 #include <core/surface/mesh_cursor.hpp>
 
 #include <algorithm>
@@ -210,7 +211,7 @@ TriangleMesh read_ply(const std::string& path, std::string_view text) {
         // Without properties there is nothing to read, however many there are.
         const std::uint64_t count = element.properties.empty() ? 0 : element.count;
         for (std::uint64_t i = 0; i < count; ++i) {
-            std::array<double, 3> point{};
+            Vector3 point{};
             std::vector<std::uint32_t> corners;
             for (const Property& property : element.properties) {
                 const std::size_t n = property.count_type ? numbers.count(*property.count_type) : 1;

@@ -1,3 +1,4 @@
+#include <core/base/bounds.hpp>
 #include <core/base/float_rounding.hpp>
 #include <core/surface/shape_frame.hpp>
 
@@ -166,15 +167,6 @@ std::vector<std::array<double, 4>> torus_rows(const Torus& torus, const Vector& 
             row(rounded, 0), row(center - rounded, 0)};
 }
 
-/** Where the coordinates on the device are relative to: the middle of the mesh. */
-Vector3 middle_of(const std::array<double, 6>& box) {
-    Vector3 middle{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        middle[i] = exact_in_float(0.5 * (box[i] + box[i + 3]));
-    }
-    return middle;
-}
-
 bool has_ends(const CutShape& shape) { return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Cone>(shape); }
 
 /** Of a ball. */
@@ -214,7 +206,11 @@ ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
     return {solver, quadric_rows(std::visit(FormOf{convert(reference)}, shape))};
 }
 
-Vector3 shape_middle(const CutShape& shape) { return middle_of(shape_bounds(shape)); }
+Vector3 shape_middle(const CutShape& shape) {
+    Vector3 middle = middle_of(shape_bounds(shape));
+    std::ranges::transform(middle, middle.begin(), exact_in_float);
+    return middle;
+}
 
 std::array<double, 6> shape_bounds(const CutShape& shape) {
     struct Bounds {

@@ -1,5 +1,6 @@
 // STL: binary (80 bytes, a count, 50 bytes a triangle, little-endian) if the size of the file fits that, else text
 // ("facet normal . . . outer loop vertex x y z ... endloop endfacet").
+#include <core/base/vector3.hpp>
 #include <core/surface/mesh_cursor.hpp>
 
 #include <bit>
@@ -20,7 +21,7 @@ std::uint32_t little_word(const char* bytes) {
     return word;
 }
 
-void add_triangle(MeshBuilder& builder, const std::array<std::array<double, 3>, 3>& corners) {
+void add_triangle(MeshBuilder& builder, const std::array<Vector3, 3>& corners) {
     const auto first = static_cast<std::uint32_t>(builder.mesh.points.size());
     for (const auto& corner : corners) {
         builder.add_point(corner);
@@ -37,7 +38,7 @@ TriangleMesh read_binary(MeshCursor& cursor, std::size_t n_triangles) {
     for (std::size_t triangle = 0; triangle < n_triangles; ++triangle) {
         // A normal, three corners, two bytes of no meaning.
         const std::span<const char> record = cursor.bytes(record_bytes);
-        std::array<std::array<double, 3>, 3> corners{};
+        std::array<Vector3, 3> corners{};
         for (std::size_t i = 0; i < 9; ++i) {
             corners[i / 3][i % 3] = static_cast<double>(std::bit_cast<float>(little_word(record.data() + 12 + 4 * i)));
         }
@@ -73,7 +74,7 @@ TriangleMesh read_text(MeshCursor& cursor) {
         }
         expect(cursor.word(), "outer");
         expect(cursor.word(), "loop");
-        std::array<std::array<double, 3>, 3> corners{};
+        std::array<Vector3, 3> corners{};
         for (auto& corner : corners) {
             expect(cursor.word(), "vertex");
             for (double& coordinate : corner) {

@@ -1,25 +1,13 @@
 #include <core/base/error.hpp>
+#include <core/base/whole_file.hpp>
 #include <core/surface/mesh_cursor.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace elvis {
-
-std::string read_mesh_text(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path)) {
-        throw Error(path, "cannot be read");
-    }
-    std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    if (file.bad()) {
-        throw Error(path, "cannot be read to its end");
-    }
-    return text;
-}
 
 std::string mesh_ending(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
@@ -47,7 +35,7 @@ TriangleMesh read_triangle_mesh(const std::string& path) {
     if (ending != ".obj" && ending != ".stl" && ending != ".ply") {
         throw Error(path, "is no mesh of triangles that can be read: its name ends in none of .obj, .stl, .ply");
     }
-    const std::string text = read_mesh_text(path);
+    const std::string text = read_whole_file(path);
     TriangleMesh mesh = ending == ".obj"   ? read_obj(path, text)
                         : ending == ".stl" ? read_stl(path, text)
                                            : read_ply(path, text);

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -13,7 +15,7 @@ namespace elvis {
 
 struct TriangleMesh {
     std::string path;
-    std::vector<std::array<double, 3>> points;
+    std::vector<Vector3> points;
     /** Indices of points; every triangle has three that exist. */
     std::vector<std::array<std::uint32_t, 3>> triangles;
 

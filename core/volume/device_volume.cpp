@@ -1,4 +1,6 @@
 #include <core/base/float_rounding.hpp>
+#include <core/base/milliseconds.hpp>
+#include <core/base/vector3.hpp>
 #include <core/expression/glsl.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/element/element_records.hpp>
@@ -19,9 +21,6 @@ namespace {
 constexpr std::uint64_t block_numbers = 4u << 20;
 
 using Clock = std::chrono::steady_clock;
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 } // namespace
 
@@ -238,7 +237,7 @@ void DeviceVolume::fill(std::uint32_t index, const Slot& slot, PluginBuffer& buf
     buffer.is_filled = true;
 }
 
-std::array<double, 3> DeviceVolume::origin(std::uint64_t element) const {
+Vector3 DeviceVolume::origin(std::uint64_t element) const {
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         const ClassInfo& info = m_volume.classes()[index];
         if (element < info.first_element + info.n_elements) {

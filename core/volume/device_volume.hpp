@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/base/vector3.hpp>
 #include <core/expression/glsl.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
@@ -47,10 +48,10 @@ public:
 
     const std::array<double, 6>& bounds() const { return m_bounds; }
     /** What the hierarchies' bounds are relative to; exact in single precision. */
-    const std::array<double, 3>& centre() const { return m_centre; }
+    const Vector3& centre() const { return m_centre; }
     Precision precision() const { return m_precision; }
     /** What the snippet's positions in an element are relative to; zero where they are the world's. */
-    std::array<double, 3> origin(std::uint64_t element) const;
+    Vector3 origin(std::uint64_t element) const;
     /** Changes whenever select() has given the elements another shape. */
     std::uint64_t geometry_version() const { return m_geometry_version; }
 
@@ -150,7 +151,7 @@ private:
     Precision m_precision;
     const TaskControl* m_control;
     std::array<double, 6> m_bounds{};
-    std::array<double, 3> m_centre{};
+    Vector3 m_centre{};
     /** Three numbers an element, exact in single precision. */
     std::vector<double> m_origins;
     std::vector<ClassData> m_classes;

@@ -1,6 +1,7 @@
 #include <core/vulkan/kernel.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
 #include <core/vulkan/dispatch_pace.hpp>
@@ -278,8 +279,7 @@ void Kernel::dispatch_from(const Groups& first, std::span<const BoundBuffer> bin
         std::transform(first.begin(), first.end(), part.first.begin(), part.first.begin(), std::plus<>());
         const auto start = std::chrono::steady_clock::now();
         impl.run(part, push_constants);
-        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-        impl.pace.took(part.n_groups(), time.count());
+        impl.pace.took(part.n_groups(), milliseconds_since(start));
         done += part.n_groups();
     }
 }

@@ -1,9 +1,14 @@
 #include "cell_split.hpp"
 
+#include <elvis/native/space.hpp>
+
 #include <algorithm>
 #include <utility>
 
 namespace generator {
+
+namespace native = elvis::native;
+
 namespace {
 
 Vec3 position(CellCorner corner) {
@@ -19,24 +24,11 @@ double determinant(const std::array<Vec3, 3>& a) {
            a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
 }
 
-// Corners that span the axes from corner 0, and local faces by corners, as in elvis/element.h.
+// Corners that span the axes from corner 0.
 std::array<std::size_t, 3> axis_corners(elvis_shape shape) {
     if (shape == ELVIS_SHAPE_TETRAHEDRON)
         return {1, 2, 3};
     return {1, 3, 4};
-}
-
-std::vector<std::vector<std::size_t>> local_faces(elvis_shape shape) {
-    switch (shape) {
-    case ELVIS_SHAPE_HEXAHEDRON:
-        return {{0, 1, 2, 3}, {0, 1, 5, 4}, {1, 2, 6, 5}, {3, 2, 6, 7}, {0, 3, 7, 4}, {4, 5, 6, 7}};
-    case ELVIS_SHAPE_PRISM:
-        return {{0, 1, 2, 3}, {0, 1, 4}, {1, 2, 5, 4}, {3, 2, 5}, {0, 3, 5, 4}};
-    case ELVIS_SHAPE_PYRAMID:
-        return {{0, 1, 2, 3}, {0, 1, 4}, {1, 2, 4}, {3, 2, 4}, {0, 3, 4}};
-    default:
-        return {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {0, 2, 3}};
-    }
 }
 
 // Exchanges corners so that xi1 runs backwards. Collapsed vertices stay where they are.
@@ -65,12 +57,14 @@ SubElement make(elvis_shape shape, std::vector<CellCorner> corners, bool left_ha
         mirror(element);
         set_axes(element);
     }
-    for (const std::vector<std::size_t>& face : local_faces(shape)) {
+    const native::Shape reference{shape};
+    for (int local_face = 0; local_face < native::n_faces(reference); ++local_face) {
         int side = -1;
         for (int d = 0; d < 3; ++d)
             for (int high = 0; high < 2; ++high)
-                if (std::ranges::all_of(face, [&](std::size_t i) {
-                        return element.corners[i] != cell_centre && (element.corners[i] >> d & 1) == high;
+                if (std::ranges::all_of(native::face_corners(reference, local_face), [&](int corner) {
+                        const CellCorner at = element.corners[static_cast<std::size_t>(corner)];
+                        return at != cell_centre && (at >> d & 1) == high;
                     }))
                     side = 2 * d + high;
         element.sides.push_back(side);

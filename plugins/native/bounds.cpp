@@ -35,9 +35,7 @@ void Volume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> 
     for_each_run(first, count, [&](std::size_t element_class, std::uint64_t local, std::uint64_t n_run, std::uint64_t offset) {
         native::RangeBounder bounder(geometry_space(element_class));
         const std::size_t n_modes = native::n_modes(geometry_space(element_class));
-        for (std::uint64_t done = 0; done < n_run; done += elements_at_once) {
-            m_host.check_cancelled();
-            const std::uint64_t n = std::min(elements_at_once, n_run - done);
+        for_each_block(n_run, elements_at_once, [&](std::uint64_t done, std::uint64_t n) {
             const std::vector<double> coefficients = read_geometry(element_class, local + done, n);
             for (std::uint64_t element = 0; element < n; ++element)
                 for (std::size_t direction = 0; direction < 3; ++direction) {
@@ -53,7 +51,7 @@ void Volume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> 
                     box[direction] = range.lower;
                     box[direction + 3] = range.upper;
                 }
-        }
+        });
     });
 }
 
@@ -83,9 +81,7 @@ elvis_certainty Volume::field_ranges(std::size_t field, std::size_t time_step, s
         }
         native::RangeBounder bounder(space);
         const std::size_t n_modes = native::n_modes(space);
-        for (std::uint64_t done = 0; done < n_run; done += elements_at_once) {
-            m_host.check_cancelled();
-            const std::uint64_t n = std::min(elements_at_once, n_run - done);
+        for_each_block(n_run, elements_at_once, [&](std::uint64_t done, std::uint64_t n) {
             const std::vector<double> coefficients = read_field(field, time_step, element_class, local + done, n);
             for (std::uint64_t i = 0; i < n * n_components; ++i) {
                 const native::Range range = bounder(std::span(coefficients).subspan(i * n_modes, n_modes));
@@ -93,7 +89,7 @@ elvis_certainty Volume::field_ranges(std::size_t field, std::size_t time_step, s
                 out[0] = range.lower;
                 out[1] = range.upper;
             }
-        }
+        });
     });
     return transformed ? ELVIS_ESTIMATED : ELVIS_CERTIFIED;
 }
@@ -102,11 +98,9 @@ void Volume::check_jacobians(std::uint64_t first, double tolerance, std::span<na
     for_each_run(first, checks.size(),
                  [&](std::size_t element_class, std::uint64_t local, std::uint64_t n_run, std::uint64_t offset) {
                      native::JacobianChecker checker(geometry_space(element_class), {.tolerance = tolerance});
-                     for (std::uint64_t done = 0; done < n_run; done += elements_at_once) {
-                         m_host.check_cancelled();
-                         const std::uint64_t n = std::min(elements_at_once, n_run - done);
+                     for_each_block(n_run, elements_at_once, [&](std::uint64_t done, std::uint64_t n) {
                          checker(read_geometry(element_class, local + done, n), checks.subspan(offset + done, n));
-                     }
+                     });
                  });
 }
 

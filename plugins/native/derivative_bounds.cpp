@@ -20,9 +20,7 @@ void Volume::derivative_bounds(std::size_t field, std::size_t time_step, std::ui
         const native::DerivativeBounder& bounder = derivative_bounder(field_space(element_class, field));
         const std::size_t n_modes = native::n_modes(field_space(element_class, field));
         const std::uint64_t at_once = std::max<std::uint64_t>(1, (std::size_t{1} << 19) / (n_components * n_modes));
-        for (std::uint64_t done = 0; done < n_run; done += at_once) {
-            m_host.check_cancelled();
-            const std::uint64_t n = std::min(at_once, n_run - done);
+        for_each_block(n_run, at_once, [&](std::uint64_t done, std::uint64_t n) {
             const std::vector<double> coefficients = read_field(field, time_step, element_class, local + done, n);
             for (std::uint64_t i = 0; i < n * n_components; ++i) {
                 const native::DerivativeBound bound = bounder(std::span(coefficients).subspan(i * n_modes, n_modes));
@@ -30,7 +28,7 @@ void Volume::derivative_bounds(std::size_t field, std::size_t time_step, std::ui
                 out[0] = bound.first;
                 out[1] = bound.second;
             }
-        }
+        });
     });
 }
 

@@ -93,6 +93,13 @@ private:
 
     /** Calls visit(element_class, first local, count, offset of the first in the request) for runs of elements of one class. */
     template <class Visit> void for_each_run(std::uint64_t first, std::uint64_t count, Visit visit) const;
+    /** Calls visit(first, count) for one block after the other, unless the host wants to stop. */
+    template <class Visit> void for_each_block(std::uint64_t n, std::uint64_t block, Visit visit) const {
+        for (std::uint64_t first = 0; first < n; first += block) {
+            m_host.check_cancelled();
+            visit(first, std::min(block, n - first));
+        }
+    }
 
     std::vector<double> read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count) const;
     std::vector<double> read_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,

@@ -72,11 +72,6 @@ TEST_CASE("degenerate shapes cover nothing") {
     CHECK(covered(polygon_mask(std::vector<Point2>{})) == 0);
     CHECK(covered(polygon_mask(std::vector<Point2>{{1, 1}, {4, 9}})) == 0);
     CHECK(covered(polygon_mask(std::vector<Point2>{{1, 1}, {4, 1}, {9, 1}})) == 0);
-    CHECK(covered(line_mask({3, 3}, {3, 3}, 2)) == 0);
-}
-
-TEST_CASE("a line covers its length times its thickness") {
-    CHECK(covered(line_mask({1.3, 2.1}, {17.9, 8.4}, 1.7)) == Approx(1.7 * std::hypot(16.6, 6.3)).epsilon(1e-6));
 }
 
 TEST_CASE("a grown mask covers a disc around a pixel") {

@@ -29,7 +29,7 @@ TEST_CASE("A turntable and time steps become numbered pictures, the same as sing
     INFO(turned.err);
     REQUIRE(turned.status == 0);
     CHECK(n_pictures(place.path("turn")) == 6);
-    const auto stats = nlohmann::json::parse(read_file(place.path("stats.json")));
+    const auto stats = nlohmann::json::parse(place.read("stats.json"));
     REQUIRE(stats["frames"].size() == 6);
     CHECK(stats["frames"][1]["time_step"] == 0);
     CHECK(stats["frames"][2]["time_step"] == 1);
@@ -40,12 +40,12 @@ TEST_CASE("A turntable and time steps become numbered pictures, the same as sing
     REQUIRE(place.run("render wave.h5 -o steps --time-steps 2:0:2 --range -1,1 " + view).status == 0);
     CHECK(n_pictures(place.path("steps")) == 2);
     REQUIRE(place.run("render wave.h5 -o last.png --time-step 2 --range -1,1 " + view).status == 0);
-    CHECK(read_file(place.path("steps/frame_0000.png")) == read_file(place.path("last.png")));
-    CHECK(read_file(place.path("steps/frame_0001.png")) != read_file(place.path("last.png")));
+    CHECK(place.read("steps/frame_0000.png") == place.read("last.png"));
+    CHECK(place.read("steps/frame_0001.png") != place.read("last.png"));
     // Without one it is the range over all steps that are drawn.
     REQUIRE(place.run("render wave.h5 -o free --time-steps 2:0:2 " + view).status == 0);
     REQUIRE(place.run("render wave.h5 -o free.png --time-step 2 " + view).status == 0);
-    CHECK(read_file(place.path("free/frame_0000.png")) != read_file(place.path("free.png")));
+    CHECK(place.read("free/frame_0000.png") != place.read("free.png"));
 }
 
 TEST_CASE("An animation that was stopped goes on where it was") {
@@ -54,17 +54,17 @@ TEST_CASE("An animation that was stopped goes on where it was") {
         "animation": {"key_frames": [{"frame": 0, "eye": [3, 0, 1]}, {"frame": 4, "eye": [0, 3, 1]}]}})");
     REQUIRE(place.run("render scene.json -o path").status == 0);
     CHECK(n_pictures(place.path("path")) == 5);
-    const std::string third = read_file(place.path("path/frame_0002.png"));
+    const std::string third = place.read("path/frame_0002.png");
     fs::remove(place.path("path/frame_0002.png"));
     place.write("path/frame_0004.png", "kept");
     const Outcome resumed = place.run("render scene.json -o path --resume --stats stats.json");
     INFO(resumed.err);
     REQUIRE(resumed.status == 0);
-    CHECK(read_file(place.path("path/frame_0002.png")) == third);
-    CHECK(read_file(place.path("path/frame_0004.png")) == "kept");
-    CHECK(nlohmann::json::parse(read_file(place.path("stats.json")))["frames"].size() == 1);
+    CHECK(place.read("path/frame_0002.png") == third);
+    CHECK(place.read("path/frame_0004.png") == "kept");
+    CHECK(nlohmann::json::parse(place.read("stats.json"))["frames"].size() == 1);
     REQUIRE(place.run("render scene.json -o path").status == 0);
-    CHECK(read_file(place.path("path/frame_0004.png")) != "kept");
+    CHECK(place.read("path/frame_0004.png") != "kept");
 }
 
 TEST_CASE("A film is made where there is ffmpeg, and else it is said before anything is drawn") {

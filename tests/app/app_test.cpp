@@ -28,7 +28,7 @@ TEST_CASE("Elements with a negative Jacobian are listed with a point where it is
 
 TEST_CASE("A volume is converted, described, probed and drawn") {
     const Workplace place;
-    const auto report = nlohmann::json::parse(read_file(place.path("report.json")));
+    const auto report = nlohmann::json::parse(place.read("report.json"));
     CHECK(report["fields"][0]["name"] == "sphere");
     CHECK(report["fields"][0]["exact"] == true);
     CHECK(report["fields"][1]["exact"] == false);
@@ -56,14 +56,14 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
                   "--size 64x64 --validation -o ball.png --stats stats.json");
     INFO(contours.err);
     REQUIRE(contours.status == 0);
-    CHECK(nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["contour_pixels"].get<int>() > 20);
+    CHECK(nlohmann::json::parse(place.read("stats.json"))["counts"]["contour_pixels"].get<int>() > 20);
 
     const Outcome levels =
         place.run("render ball.h5 --field sphere --isosurface 0.3 --isosurface 0.6 --size 64x64 --lighting default "
                   "--validation -o ball.png --stats stats.json");
     INFO(levels.err);
     REQUIRE(levels.status == 0);
-    const auto of_levels = nlohmann::json::parse(read_file(place.path("stats.json")))["counts"];
+    const auto of_levels = nlohmann::json::parse(place.read("stats.json"))["counts"];
     CHECK(of_levels["isosurface_pixels"].get<int>() > 400);
     CHECK(of_levels["undecided_isosurface_pixels"].get<int>() < 10);
     CHECK(of_levels["excluded_pieces"].get<int>() > 100);
@@ -71,22 +71,22 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     for (const std::string options :
          {"", "--lighting default", "--lighting none", "--boundary", "--boundary --lighting none"}) {
         REQUIRE(place.run("render ball.h5 --field sphere --isosurface 0.3 --size 32x32 -o light.png " + options).status == 0);
-        pictures.push_back(read_file(place.path("light.png")));
+        pictures.push_back(place.read("light.png"));
     }
     CHECK(pictures[0] == pictures[1]);
     CHECK(pictures[0] != pictures[2]);
     CHECK(pictures[3] == pictures[4]);
     place.write("unlit.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "field": "sphere", "lighting": "none"})");
     REQUIRE(place.run("render unlit.json --isosurface 0.3 --size 32x32 -o light.png").status == 0);
-    CHECK(read_file(place.path("light.png")) == pictures[2]);
+    CHECK(place.read("light.png") == pictures[2]);
 
     for (const std::string precision : {"float32", "float64"}) {
         const Outcome render = place.run("render ball.h5 --field sphere --cut-plane 0,0,1,0 --size 64x64 --precision " +
                                          precision + " --validation -o ball.png --buffers ball.buffers.h5 --stats stats.json");
         INFO(render.err);
         REQUIRE(render.status == 0);
-        CHECK(read_file(place.path("ball.png")).substr(1, 3) == "PNG");
-        const auto counts = nlohmann::json::parse(read_file(place.path("stats.json")))["counts"];
+        CHECK(place.read("ball.png").substr(1, 3) == "PNG");
+        const auto counts = nlohmann::json::parse(place.read("stats.json"))["counts"];
         CHECK(counts["pixels"] == 64 * 64);
         CHECK(counts["hit_pixels"].get<int>() > 1000);
         CHECK(counts["newton_failures"] == 0);
@@ -123,7 +123,7 @@ TEST_CASE("A scene file and the same options give the same picture") {
             .run("render ball.h5 --field 'velocity[0]' --size 80x60 --color-map coolwarm --range -1,1 --cut-plane 1,0,0.5,0 "
                  "-o options.png")
             .status == 0);
-    CHECK(read_file(place.path("scene.png")) == read_file(place.path("options.png")));
+    CHECK(place.read("scene.png") == place.read("options.png"));
 }
 
 TEST_CASE("A picture is annotated only if that is asked for, from a scene file as from the command line") {
@@ -136,7 +136,7 @@ TEST_CASE("A picture is annotated only if that is asked for, from a scene file a
         const Outcome outcome = place.run("render " + arguments + " -o annotated.png");
         INFO(outcome.err);
         REQUIRE(outcome.status == 0);
-        return read_file(place.path("annotated.png"));
+        return place.read("annotated.png");
     };
     const std::string plain = picture("ball.h5 --size 320x240");
     const std::string annotated = picture("ball.h5 --size 320x240 --annotation default");
@@ -167,7 +167,7 @@ TEST_CASE("Surfaces are lit only if that is asked for, and each by itself") {
         const Outcome outcome = place.run("render " + arguments + " --validation -o lit.png");
         INFO(outcome.err);
         REQUIRE(outcome.status == 0);
-        return read_file(place.path("lit.png"));
+        return place.read("lit.png");
     };
     const std::string plain = picture("ball.h5 --boundary --size 80x60");
     const std::string lit = picture("ball.h5 --boundary --size 80x60 --lighting default");
@@ -191,7 +191,7 @@ TEST_CASE("Volume rendering is added to surfaces, counted, and turned off") {
                   "--volume-step 0.1 -o both.png --stats stats.json");
     INFO(both.err);
     REQUIRE(both.status == 0);
-    const auto counts = nlohmann::json::parse(read_file(place.path("stats.json")))["counts"];
+    const auto counts = nlohmann::json::parse(place.read("stats.json"))["counts"];
     CHECK(counts["hit_pixels"] > 100);
     for (const char* key : {"volume_pixels", "inexact_volume_pixels", "volume_segments", "empty_segments", "volume_steps",
                             "volume_breakpoints"}) {
@@ -199,7 +199,7 @@ TEST_CASE("Volume rendering is added to surfaces, counted, and turned off") {
     }
     REQUIRE(place.run("render scene.json --volume none -o none.png").status == 0);
     REQUIRE(place.run("render ball.h5 --size 40x30 -o plain.png").status == 0);
-    CHECK(read_file(place.path("none.png")) == read_file(place.path("plain.png")));
+    CHECK(place.read("none.png") == place.read("plain.png"));
 }
 
 TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with one") {
@@ -220,7 +220,7 @@ TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with
         const Outcome outcome = draw(surface);
         INFO(surface << ": " << outcome.err);
         REQUIRE(outcome.status == 0);
-        return nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["hit_pixels"].get<int>();
+        return nlohmann::json::parse(place.read("stats.json"))["counts"]["hit_pixels"].get<int>();
     };
     CHECK(hits(R"({"type": "sphere", "center": [0, 0, 0], "radius": 0.5})") > 100);
     CHECK(hits(R"({"type": "cylinder", "from": [0, 0, -0.5], "to": [0, 0, 0.5], "radius": 0.4, "capped": false})") > 100);
@@ -377,7 +377,7 @@ TEST_CASE("A plane that misses the volume is a stated empty picture") {
     const Outcome outcome = place.run("render ball.h5 --cut-plane 0,0,1,-9 --size 16x16 -o empty.png --stats stats.json");
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.err, Catch::Contains("nothing is hit"));
-    CHECK(nlohmann::json::parse(read_file(place.path("stats.json")))["counts"]["hit_pixels"] == 0);
+    CHECK(nlohmann::json::parse(place.read("stats.json"))["counts"]["hit_pixels"] == 0);
 }
 
 TEST_CASE("a plugin that crashes is named before the program ends") {

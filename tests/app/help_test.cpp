@@ -92,8 +92,7 @@ TEST_CASE("Completion knows every option of every command, and bash completes a 
             }
         }
         if (has_program(shell)) {
-            CHECK(std::system(
-                      (std::string(shell) + " -n '" + place.path(std::string("elvis.") + shell).string() + "'").c_str()) == 0);
+            CHECK(std::system((std::string(shell) + " -n '" + place.path(std::string("elvis.") + shell) + "'").c_str()) == 0);
         }
     }
     place.write("complete.sh", R"(source ./elvis.bash
@@ -110,8 +109,8 @@ complete_words elvis render ball.h5 --precision float6
 complete_words elvis render ba
 complete_words elvis help inf
 )");
-    REQUIRE(std::system(("cd '" + place.path("").string() + "' && bash complete.sh >words.txt").c_str()) == 0);
-    CHECK(read_file(place.path("words.txt")) == "render\n--isosurface\nfloat64\n\ninfo\n");
+    REQUIRE(std::system(("cd '" + place.path().string() + "' && bash complete.sh >words.txt").c_str()) == 0);
+    CHECK(place.read("words.txt") == "render\n--isosurface\nfloat64\n\ninfo\n");
 }
 
 TEST_CASE("Every command has a manual page that groff takes without a warning") {
@@ -120,7 +119,7 @@ TEST_CASE("Every command has a manual page that groff takes without a warning") 
     std::vector<std::string> pages{"elvis.1"};
     for (const std::string& command : commands_in(place.run("--help").out)) {
         pages.push_back("elvis-" + command + ".1");
-        const std::string text = read_file(place.path("man/" + pages.back()));
+        const std::string text = place.read("man/" + pages.back());
         CHECK(text == place.run("manual " + command).out);
         for (const std::string& option : options_in(place.run(command + " --help").out)) {
             std::string escaped;
@@ -136,9 +135,9 @@ TEST_CASE("Every command has a manual page that groff takes without a warning") 
         REQUIRE(fs::exists(place.path("man/" + page)));
         if (has_program("groff")) {
             const std::string formatted =
-                "cd '" + place.path("man").string() + "' && groff -man -ww -Tascii " + page + " >page.txt 2>warnings.txt";
+                "cd '" + place.path("man") + "' && groff -man -ww -Tascii " + page + " >page.txt 2>warnings.txt";
             CHECK(std::system(formatted.c_str()) == 0);
-            CHECK(read_file(place.path("man/warnings.txt")).empty());
+            CHECK(place.read("man/warnings.txt").empty());
         }
     }
 }

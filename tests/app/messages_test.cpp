@@ -2,8 +2,6 @@
 
 #include "workplace.hpp"
 
-#include <tests/support/files.hpp>
-
 #include <nlohmann/json.hpp>
 
 using namespace elvis::test;
@@ -80,7 +78,7 @@ TEST_CASE("A boundary on which the field hardly changes is cut open by default, 
     const Workplace place;
     const auto picture = [&](const std::string& options) {
         REQUIRE(place.run("render ball.h5 --size 64x48 -o x.png " + options).status == 0);
-        return read_file(place.path("x.png"));
+        return place.read("x.png");
     };
     // The square of the distance from the middle is 1 on the boundary of the ball.
     CHECK(picture("") != picture("--boundary"));

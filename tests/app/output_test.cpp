@@ -56,5 +56,5 @@ TEST_CASE("Percentiles are of the volume, not of elements or pixels") {
     const std::string view = " --field 'velocity[0]' --range 5%,95% --cut-plane 0,0,1,0.1 --eye 2,1,3 --size 24x24 -o ";
     REQUIRE(place.run("render box.h5 --time-steps 0:2:2" + view + "steps").status == 0);
     REQUIRE(place.run("render box.h5 --time-step 2" + view + "one.png").status == 0);
-    CHECK(read_file(place.path("steps/frame_0001.png")) != read_file(place.path("one.png")));
+    CHECK(place.read("steps/frame_0001.png") != place.read("one.png"));
 }

@@ -21,10 +21,6 @@ using Clock = std::chrono::steady_clock;
 const std::string plugins = "ELVIS_PLUGIN_PATH='" ELVIS_FIXTURES "'";
 const std::string plugin = "org.elvis.test.troubled-source";
 
-std::size_t n_files(const Workplace& place) {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(place.path("")), fs::directory_iterator()));
-}
-
 std::string arguments(const std::string& trouble) {
     return "--quiet convert bad.tetrahedron --plugin " + plugin + " --separate-process -o bad.h5 --options '{\"trouble\": \"" +
            trouble + "\"}'";
@@ -36,7 +32,7 @@ void check_refusal(const std::string& trouble, const std::string& word, const st
     const Workplace place;
     place.write("bad.tetrahedron", "");
     place.run("--version"); // Makes the files that take what is printed.
-    const std::size_t before = n_files(place);
+    const std::size_t before = names_in(place).size();
     const Outcome outcome = place.run(arguments(trouble) + more, plugins);
     INFO(outcome.err);
     CHECK(outcome.status == 1);
@@ -44,11 +40,11 @@ void check_refusal(const std::string& trouble, const std::string& word, const st
         CHECK(outcome.err.find(part) != std::string::npos);
     }
     CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-    CHECK(n_files(place) == before);
+    CHECK(names_in(place).size() == before);
 }
 
 pid_t start(const Workplace& place, const std::string& trouble) {
-    const std::string folder = place.path("").string();
+    const std::string folder = place.path().string();
     const std::string options = "{\"trouble\": \"" + trouble + "\"}";
     const pid_t child = ::fork();
     if (child == 0) {
@@ -139,17 +135,17 @@ TEST_CASE("A conversion plugin that never returns can be interrupted") {
     const Workplace place;
     place.write("bad.tetrahedron", "");
     place.run("--version");
-    const std::size_t before = n_files(place);
+    const std::size_t before = names_in(place).size();
     const auto [status, seconds] = interrupt(place, 1);
     CHECK(status == 1);
     CHECK(seconds > 2); // It is given time to end by itself.
     CHECK(seconds < 8);
-    CHECK(n_files(place) == before);
-    CHECK(read_file(place.path("err.txt")).find(plugin) != std::string::npos);
+    CHECK(names_in(place).size() == before);
+    CHECK(place.read("err.txt").find(plugin) != std::string::npos);
     const auto [at_once, shorter] = interrupt(place, 2);
     CHECK(at_once == 1);
     CHECK(shorter < 2);
-    CHECK(n_files(place) == before);
+    CHECK(names_in(place).size() == before);
 }
 
 TEST_CASE("A separate conversion ends with the program that started it") {

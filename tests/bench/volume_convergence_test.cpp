@@ -3,13 +3,13 @@
 #include <core/bench/volume/volume.hpp>
 #include <core/bench/volume/volume_convergence.hpp>
 #include <core/render/renderer.hpp>
+#include <tests/support/device.hpp>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <random>
 
 using namespace elvis;
@@ -27,15 +27,10 @@ const PluginRegistry& registry() {
     return the_registry;
 }
 
-const Device& device() {
-    static const Device the_device("");
-    return the_device;
-}
-
 class Scene {
 public:
     Scene(const BenchFolder& folder, const std::string& shape, const std::array<std::uint32_t, 3>& n, Precision precision)
-        : m_volume(sphere_volume(registry(), folder, shape, n)), m_renderer(device(), m_volume, precision),
+        : m_volume(sphere_volume(registry(), folder, shape, n)), m_renderer(test::device(), m_volume, precision),
           m_request(volume_picture(m_renderer.bounds(), size)) {
         m_request.volume.emplace();
     }
@@ -199,10 +194,7 @@ TEST_CASE("convergence is written as tables and plots") {
     }
     result.comparison.resize(2);
     write_volume_convergence(folder.path() / "plots", result);
-    const auto text_of = [&folder](const char* name) {
-        std::ifstream file(folder.path() / "plots" / name);
-        return std::string(std::istreambuf_iterator<char>(file), {});
-    };
+    const auto text_of = [&folder](const char* name) { return test::read_file(folder.path() / "plots" / name); };
     const auto n_lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
     const std::string table = text_of("volume-convergence.csv");
     CHECK(n_lines(table) == 19);

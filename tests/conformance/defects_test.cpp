@@ -1,23 +1,18 @@
 // `elvis check-plugin` finds every defect planted in a plugin, and nothing in the plugin without one.
 
+#include <tests/support/program_folder.hpp>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <sstream>
 #include <string>
 
-namespace {
+using namespace elvis::test;
 
-namespace fs = std::filesystem;
+namespace {
 
 struct Planted {
     const char* check;
@@ -116,35 +111,21 @@ constexpr Planted all_planted[] = {
     {"source-conversion", "source-changing"},
 };
 
-class Workplace {
+class Workplace : public ProgramFolder {
 public:
-    Workplace() : m_folder(fs::temp_directory_path() / ("elvis-defects-" + std::to_string(::getpid()))) {
-        fs::create_directories(m_folder);
-        std::ofstream(m_folder / "volume.defective") << "defective 1\n0.75\n";
-    }
-    ~Workplace() {
-        std::error_code ignored;
-        fs::remove_all(m_folder, ignored);
-    }
+    Workplace() { write("volume.defective", "defective 1\n0.75\n"); }
 
     /** What a run with a defect prints; exit status in `status`. */
     std::string print(const std::string& defect, const std::string& arguments, int& status) const {
-        const std::string command = "cd '" + m_folder.string() + "' && ELVIS_DEFECT='" + defect +
-                                    "' '" ELVIS_PROGRAM "' check-plugin '" DEFECTIVE_PLUGIN "' --volume volume.defective " +
-                                    arguments + " >out.txt 2>err.txt";
-        const int result = std::system(command.c_str());
-        status = WIFEXITED(result) ? WEXITSTATUS(result) : -1;
-        std::stringstream text;
-        text << std::ifstream(m_folder / "out.txt").rdbuf();
-        return text.str();
+        const Outcome checked =
+            run("check-plugin '" DEFECTIVE_PLUGIN "' --volume volume.defective " + arguments, "ELVIS_DEFECT='" + defect + "'");
+        status = checked.status;
+        return checked.out;
     }
 
     nlohmann::json check(const std::string& defect, const std::string& arguments, int& status) const {
         return nlohmann::json::parse(print(defect, "--json " + arguments, status));
     }
-
-private:
-    fs::path m_folder;
 };
 
 } // namespace
@@ -205,13 +186,9 @@ TEST_CASE("A forgotten origin is told from a wrong mapping") {
 }
 
 TEST_CASE("Every check has a planted defect") {
-    const Workplace place;
-    const std::string list = (fs::temp_directory_path() / ("elvis-checks-" + std::to_string(::getpid()))).string();
-    REQUIRE(std::system(("'" ELVIS_PROGRAM "' check-plugin --list --json >'" + list + "'").c_str()) == 0);
-    std::stringstream text;
-    text << std::ifstream(list).rdbuf();
-    fs::remove(list);
-    for (const auto& check : nlohmann::json::parse(text.str())) {
+    const Outcome list = ProgramFolder().run("check-plugin --list --json");
+    REQUIRE(list.status == 0);
+    for (const auto& check : nlohmann::json::parse(list.out)) {
         const std::string name = check["name"];
         INFO(name);
         CHECK(std::any_of(std::begin(all_planted), std::end(all_planted),

@@ -23,7 +23,7 @@ ConvertedVolume::ConvertedVolume(const elvis::SourceVolume& source, const elvis:
     const TemporaryFolder folder;
     const std::string path = folder.path("volume.h5");
     m_report = elvis::convert(source, path, options, {});
-    CHECK(folder.content().size() == 1);
+    CHECK(names_in(folder).size() == 1);
     const native::Reader reader(path);
     m_description = reader.description();
     m_place.resize(m_description.n_elements());

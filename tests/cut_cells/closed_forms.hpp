@@ -7,6 +7,7 @@
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/renderer.hpp>
+#include <tests/support/device.hpp>
 
 #include <cmath>
 #include <map>
@@ -19,11 +20,6 @@ inline constexpr double radius = 0.8;
 inline const std::string ball = CUT_CELLS_SAMPLES "/ball.cut", gyroid = CUT_CELLS_SAMPLES "/gyroid.cut";
 
 inline RuntimeVolume open(const std::string& path) { return RuntimeVolume(Plugin::load(CUT_CELLS_PLUGIN), path); }
-
-inline const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
 
 /** The ray through a pixel's middle, of a parallel view along `along`, from a plane through `eye`. */
 struct View {

@@ -113,7 +113,7 @@ TEST_CASE("the analytic plugin and the host's defaults agree with the formulas")
         points.push_back({xis[i], i % 27, 0});
     }
     for (const Precision precision : {Precision::float64, Precision::float32}) {
-        DeviceVolume on_device(test::device(), volume, precision, nullptr);
+        DeviceVolume on_device(test::validated_device(), volume, precision, nullptr);
         for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
             const std::uint32_t n_components = volume.fields()[field].n_components;
             on_device.select(field, 0, std::vector<double>(n_components, 0.0));

@@ -41,9 +41,9 @@ inline std::vector<Checked> check_snippet(const SnippetInstance& instance, Preci
     request.instances = {instance};
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
     request.push_constant_bytes = 4;
-    const ComposedKernel kernel(device(), request);
-    const Buffer input(device(), points.size() * sizeof(CheckPoint));
-    const Buffer output(device(), points.size() * sizeof(Checked));
+    const ComposedKernel kernel(validated_device(), request);
+    const Buffer input(validated_device(), points.size() * sizeof(CheckPoint));
+    const Buffer output(validated_device(), points.size() * sizeof(Checked));
     input.write_items(std::span<const CheckPoint>(points));
     const auto n = static_cast<std::uint32_t>(points.size());
     const std::array<const Buffer*, 2> bindings{&input, &output};

@@ -121,4 +121,6 @@ TEST_CASE("the default gradient stays inside the element and is exact for polyno
     }
 }
 
-TEST_CASE("the validation layer has nothing to say about the defaults") { CHECK(test::device().validation_messages().empty()); }
+TEST_CASE("the validation layer has nothing to say about the defaults") {
+    CHECK(test::validated_device().validation_messages().empty());
+}

@@ -1,46 +1,22 @@
 /**
  * @file points.hpp
- * A device, and reference points of every shape.
+ * The device, and reference points of every shape.
  */
 #pragma once
 
-#include <core/vulkan/device.hpp>
-#include <elvis/element.h>
+#include <elvis/native/space.hpp>
+#include <tests/support/device.hpp>
 
-#include <array>
 #include <cstdint>
 #include <random>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace elvis::test {
 
-using Point = std::array<double, 3>;
+using native::Point;
 
-inline const Device& device() {
-    static const Device only({}, true);
-    return only;
-}
-
-inline const char* shape_name(elvis_shape shape) {
-    const char* names[] = {"hexahedron", "prism", "pyramid", "tetrahedron"};
-    return names[shape];
-}
-
-/** From the cube into the shape (Karniadakis & Sherwin). */
-inline Point expand(elvis_shape shape, Point eta) {
-    auto [x, y, z] = eta;
-    if (shape == ELVIS_SHAPE_PRISM || shape == ELVIS_SHAPE_PYRAMID) {
-        x = 0.5 * (1 + x) * (1 - z) - 1;
-    }
-    if (shape == ELVIS_SHAPE_PYRAMID || shape == ELVIS_SHAPE_TETRAHEDRON) {
-        y = 0.5 * (1 + y) * (1 - z) - 1;
-    }
-    if (shape == ELVIS_SHAPE_TETRAHEDRON) {
-        x = 0.5 * (1 + x) * (-y - z) - 1;
-    }
-    return {x, y, z};
-}
+inline std::string_view shape_name(elvis_shape shape) { return native::name(native::Shape{shape}); }
 
 /** Points all over the shape, exact in float32; `on_boundary`: faces, edges and corners too, and points close to them. */
 inline std::vector<Point> points_in(elvis_shape shape, int count, bool on_boundary) {
@@ -58,7 +34,7 @@ inline std::vector<Point> points_in(elvis_shape shape, int count, bool on_bounda
                 coordinate = random() % 2 == 0 ? 1 - distance : distance - 1;
             }
         }
-        Point xi = expand(shape, eta);
+        Point xi = native::expand(native::Shape{shape}, eta);
         for (double& coordinate : xi) {
             coordinate = static_cast<double>(static_cast<float>(coordinate));
         }

@@ -15,11 +15,11 @@ using namespace elvis;
 TEST_CASE("the sampled range of a field without ranges is close to the true one, and inside it") {
     const RuntimeVolume volume(Plugin::load(ELVIS_ANALYTIC_PLUGIN), ELVIS_ANALYTIC_SAMPLES "/twisted_box.txt");
     REQUIRE_FALSE(volume.has_field_ranges());
-    DeviceVolume on_device(test::device(), volume, Precision::float64, nullptr);
+    DeviceVolume on_device(test::validated_device(), volume, Precision::float64, nullptr);
     // One Gaussian of height 2 and a wave of amplitude 1, both with their extremes inside the box. Samples lie 1/9 apart: the
     // maximum of a Gaussian of width 0.7 is missed by at most 2 (3 (1/18)^2) / 0.7^2 = 0.04.
     on_device.select(volume.field_index("mixed"), 0, {0, 0, 0});
-    const std::vector<FieldRange> ranges = ranges_from_samples(test::device(), volume, on_device, 3);
+    const std::vector<FieldRange> ranges = ranges_from_samples(test::validated_device(), volume, on_device, 3);
     REQUIRE(ranges.size() == 3);
     std::cout << "sampled ranges: wave [" << ranges[0].lower << ", " << ranges[0].upper << "] of [-1, 1], bump up to "
               << ranges[1].upper << " of 2\n";
@@ -36,10 +36,10 @@ TEST_CASE("refined samples find the extrema of a field that is known on the devi
     const RuntimeVolume volume(Plugin::load(ELVIS_ANALYTIC_PLUGIN), ELVIS_ANALYTIC_SAMPLES "/twisted_box.txt");
     REQUIRE_FALSE(volume.has_evaluation());
     const bool is_single = GENERATE(true, false);
-    DeviceVolume on_device(test::device(), volume, is_single ? Precision::float32 : Precision::float64, nullptr);
+    DeviceVolume on_device(test::validated_device(), volume, is_single ? Precision::float32 : Precision::float64, nullptr);
     on_device.select(volume.field_index("mixed"), 0, {0, 0, 0});
     const auto extrema_of = [&](int component) {
-        return extrema_from_samples(test::device(), volume, on_device, component, 3);
+        return extrema_from_samples(test::validated_device(), volume, on_device, component, 3);
     };
     // Samples are 3^-9 of an element apart in the end, and the field is flat there.
     const double tolerance = is_single ? 2e-6 : 1e-8;

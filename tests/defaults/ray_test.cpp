@@ -66,9 +66,9 @@ void main() {
     request.instances = {instance};
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
     request.push_constant_bytes = 4;
-    const ComposedKernel kernel(test::device(), request);
-    const Buffer input(test::device(), rays.size() * sizeof(Ray));
-    const Buffer output(test::device(), rays.size() * sizeof(Segments));
+    const ComposedKernel kernel(test::validated_device(), request);
+    const Buffer input(test::validated_device(), rays.size() * sizeof(Ray));
+    const Buffer output(test::validated_device(), rays.size() * sizeof(Segments));
     input.write_items(std::span<const Ray>(rays));
     const auto n = static_cast<std::uint32_t>(rays.size());
     const std::array<const Buffer*, 2> bindings{&input, &output};
@@ -317,7 +317,7 @@ TEST_CASE("rays that leave through an edge or a corner are neither lost nor coun
 
 TEST_CASE("the segments of the analytic plugin's elements tile a ray without gap or overlap") {
     const RuntimeVolume volume(Plugin::load(ELVIS_ANALYTIC_PLUGIN), ELVIS_ANALYTIC_SAMPLES "/twisted_box.txt");
-    DeviceVolume on_device(test::device(), volume, Precision::float64, nullptr);
+    DeviceVolume on_device(test::validated_device(), volume, Precision::float64, nullptr);
     on_device.select(0, 0, {0});
     std::vector<Ray> rays;
     constexpr std::uint32_t n_elements = 27;

@@ -4,6 +4,7 @@
 #include <core/expression/glsl.hpp>
 #include <core/expression/volume_point.hpp>
 #include <core/volume/device_volume.hpp>
+#include <tests/support/device.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -15,11 +16,6 @@ using test::ClassPlan;
 using test::TestVolume;
 
 namespace {
-
-const Device& device() {
-    static const Device only({}, true);
-    return only;
-}
 
 constexpr std::uint32_t n_points = 64;
 constexpr std::uint32_t n_elements = 3;
@@ -71,8 +67,9 @@ std::vector<Real> run(KernelRequest request, const char* kernel, const std::vect
     request.kernel_text = kernel;
     request.defines = {{"CORE_FLAG_ESTIMATED", "2048u"}};
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
-    const ComposedKernel composed(device(), request);
-    const Buffer input(device(), given.size() * sizeof(Real)), output(device(), n_points * n_results * sizeof(Real));
+    const ComposedKernel composed(test::validated_device(), request);
+    const Buffer input(test::validated_device(), given.size() * sizeof(Real)),
+        output(test::validated_device(), n_points * n_results * sizeof(Real));
     input.write_items<Real>(std::vector<Real>(given.begin(), given.end()));
     const Buffer* const bindings[]{&input, &output};
     composed.dispatch(bindings, {}, n_points / 32);
@@ -175,7 +172,7 @@ TEST_CASE("expressions give on the device what they give on the CPU") {
         const char* const text = texts[index];
         const auto expression = std::make_shared<const Expression>(text, volume.fields());
         for (const Precision precision : {Precision::float32, Precision::float64}) {
-            DeviceVolume data(device(), volume, precision, nullptr);
+            DeviceVolume data(test::validated_device(), volume, precision, nullptr);
             const bool is_double = precision == Precision::float64;
             // Single precision differs in nothing but digits: one shape of the four is enough.
             const std::uint32_t first = is_double ? 0 : static_cast<std::uint32_t>(index) % 4;
@@ -313,7 +310,8 @@ Containment check_models(const RuntimeVolume& volume, DeviceVolume& data, const 
 TEST_CASE("models of random expressions contain samples") {
     const RuntimeVolume volume = curved_volume().open();
     test::Random random(11);
-    DeviceVolume single(device(), volume, Precision::float32, nullptr), twice(device(), volume, Precision::float64, nullptr);
+    DeviceVolume single(test::validated_device(), volume, Precision::float32, nullptr),
+        twice(test::validated_device(), volume, Precision::float64, nullptr);
     std::size_t n_known = 0, n_all = 0;
     double ratio = 0;
     for (int trial = 0; trial < 12; ++trial) {
@@ -336,7 +334,7 @@ TEST_CASE("models of random expressions contain samples") {
 
 TEST_CASE("models of expressions without bounds are estimated, and labelled") {
     const RuntimeVolume volume = curved_volume().open();
-    DeviceVolume data(device(), volume, Precision::float64, nullptr);
+    DeviceVolume data(test::validated_device(), volume, Precision::float64, nullptr);
     for (const char* const text : {"q_criterion(u)", "laplacian(p)", "p + x"}) {
         const auto expression = std::make_shared<const Expression>(text, volume.fields());
         const Containment found = check_models<double>(volume, data, expression, 0, 4e-3);
@@ -348,4 +346,6 @@ TEST_CASE("models of expressions without bounds are estimated, and labelled") {
     }
 }
 
-TEST_CASE("the validation layer has nothing to say about expressions") { CHECK(device().validation_messages().empty()); }
+TEST_CASE("the validation layer has nothing to say about expressions") {
+    CHECK(test::validated_device().validation_messages().empty());
+}

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 using elvis::Hierarchy;
@@ -161,33 +160,6 @@ TEST_CASE("degenerate sets of boxes give valid trees") {
         }
         check_structure(Hierarchy(boxes, {0, 0, 0}));
     }
-}
-
-TEST_CASE("node ranges contain those of their items, and unknown ones are infinite") {
-    const auto boxes = random_boxes(300, {0, 0, 0}, 0.1, 5);
-    const Hierarchy hierarchy(boxes, {0, 0, 0});
-    std::vector<double> item_ranges;
-    for (int i = 0; i < 300; ++i) {
-        item_ranges.insert(item_ranges.end(), {0.1 * i, 0.1 * i + 0.05});
-    }
-    auto ranges = hierarchy.node_ranges(item_ranges);
-    CHECK(static_cast<double>(ranges[0].lower) <= 0);
-    CHECK(static_cast<double>(ranges[0].upper) >= 0.1 * 299 + 0.05);
-    CHECK(ranges[0].upper < 29.951f);
-    const auto nodes = hierarchy.nodes();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (nodes[i].is_leaf()) {
-            CHECK(static_cast<double>(ranges[i].lower) <= item_ranges[2 * nodes[i].child]);
-            CHECK(static_cast<double>(ranges[i].upper) >= item_ranges[2 * nodes[i].child + 1]);
-        } else {
-            CHECK(ranges[i].lower <= std::min(ranges[nodes[i].child].lower, ranges[nodes[i].child + 1].lower));
-            CHECK(ranges[i].upper >= std::max(ranges[nodes[i].child].upper, ranges[nodes[i].child + 1].upper));
-        }
-    }
-    item_ranges[2 * 77] = std::numeric_limits<double>::quiet_NaN();
-    ranges = hierarchy.node_ranges(item_ranges);
-    CHECK(ranges[0].lower == -std::numeric_limits<float>::infinity());
-    CHECK(ranges[0].upper < 29.951f);
 }
 
 TEST_CASE("a volume of many elements is built on two threads as on one") {

@@ -14,16 +14,16 @@ TEST_CASE("Without commit nothing is left behind") {
     {
         Writer writer(folder.path("volume.h5"), data.description);
         write_blocks(writer, data);
-        CHECK(folder.content().size() == 1); // the temporary file lies beside the target
-        CHECK(folder.content()[0] != "volume.h5");
+        CHECK(names_in(folder).size() == 1); // the temporary file lies beside the target
+        CHECK(names_in(folder)[0] != "volume.h5");
     }
-    CHECK(folder.content().empty());
+    CHECK(names_in(folder).empty());
     try {
         Writer writer(folder.path("volume.h5"), data.description);
         throw 1;
     } catch (int) {
     }
-    CHECK(folder.content().empty());
+    CHECK(names_in(folder).empty());
 }
 
 TEST_CASE("What was there stays until commit") {
@@ -37,7 +37,7 @@ TEST_CASE("What was there stays until commit") {
     CHECK(identical(read_all(folder.path("volume.h5")), data));
     writer.commit();
     CHECK(identical(read_all(folder.path("volume.h5")), changed));
-    CHECK(folder.content() == std::vector<std::string>{"volume.h5"});
+    CHECK(names_in(folder) == std::vector<std::string>{"volume.h5"});
 }
 
 TEST_CASE("Two writers of one file do not disturb each other") {
@@ -52,7 +52,7 @@ TEST_CASE("Two writers of one file do not disturb each other") {
     a.commit();
     b.commit();
     CHECK(identical(read_all(folder.path("volume.h5")), second));
-    CHECK(folder.content().size() == 1);
+    CHECK(names_in(folder).size() == 1);
 }
 
 TEST_CASE("Commit refuses what is incomplete and names it") {
@@ -84,7 +84,7 @@ TEST_CASE("Commit refuses what is incomplete and names it") {
     CHECK_THROWS_WITH(commit_without("permutation"), Contains("no element has the number"));
     CHECK_THROWS_WITH(commit_without("field"), Contains("field 'p'") && Contains("time step 1"));
     CHECK_THROWS_WITH(commit_without("faces"), Contains("faces") && Contains("row 5"));
-    CHECK(folder.content().empty());
+    CHECK(names_in(folder).empty());
     CHECK_NOTHROW(commit_without("nothing"));
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("A folder that cannot be written is an error that names the file") {
         write_blocks(writer, data);
         CHECK_THROWS_AS(writer.commit(), FileError);
     }
-    CHECK(folder.content().size() == 2);
+    CHECK(names_in(folder).size() == 2);
 }
 
 TEST_CASE("The writer refuses descriptions that no reader would accept") {
@@ -130,7 +130,7 @@ TEST_CASE("The writer refuses descriptions that no reader would accept") {
         for (ElementClass& element_class : d.classes)
             element_class.fields.push_back(element_class.fields[0]);
     });
-    CHECK(folder.content().empty());
+    CHECK(names_in(folder).empty());
 }
 
 TEST_CASE("The writer refuses numbers and faces out of range") {

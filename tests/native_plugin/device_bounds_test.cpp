@@ -4,6 +4,8 @@
 #include "../defaults/bound_rows.hpp"
 #include "volume_fixture.hpp"
 
+#include <tests/support/device.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -14,11 +16,6 @@ using test::ClassPlan;
 using test::TestVolume;
 
 namespace {
-
-const Device& device() {
-    static const Device only({}, true);
-    return only;
-}
 
 /** Largest sum of slopes and size less the offset at random points, by the CPU. */
 std::array<double, 2> sample(const RuntimeVolume& volume, std::uint32_t field, std::uint64_t element, native::Shape shape,
@@ -56,14 +53,14 @@ TEST_CASE("bounds on the device are certified for polynomials, estimated for the
                            {"u", "", 3, native::Continuity::discontinuous, native::Transform::covariant, std::nan("")}});
     const RuntimeVolume volume = file.open();
     for (const Precision precision : {Precision::float32, Precision::float64}) {
-        DeviceVolume data(device(), volume, precision, nullptr);
+        DeviceVolume data(test::validated_device(), volume, precision, nullptr);
         for (std::uint32_t field = 0; field < (precision == Precision::float64 ? 1u : 2u); ++field) {
             const std::uint32_t n_components = volume.fields()[field].n_components;
             data.select(field, 0, std::vector<double>(n_components, 0.25));
             data.provide_derivative_bounds();
             for (std::uint32_t i = 0; i < classes.size(); ++i) {
                 INFO(test::describe(classes[i].geometry));
-                const auto rows = test::bound_rows(device(), data, i, 3, n_components);
+                const auto rows = test::bound_rows(test::validated_device(), data, i, 3, n_components);
                 const bool is_polynomial = field == 0 && (classes[i].geometry.shape != native::Shape::pyramid ||
                                                           classes[i].geometry.basis == native::Basis::orthogonal);
                 for (std::size_t element = 0; element < 3; ++element) {
@@ -86,5 +83,5 @@ TEST_CASE("bounds on the device are certified for polynomials, estimated for the
             }
         }
     }
-    CHECK(device().validation_messages().empty());
+    CHECK(test::validated_device().validation_messages().empty());
 }

@@ -10,7 +10,6 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <fstream>
 #include <iostream>
 
 using namespace elvis;
@@ -256,23 +255,21 @@ TEST_CASE("a bad file is refused with a message that names it") {
         return answer;
     };
 
-    const std::string missing = test::temporary_path("-missing.h5");
+    const TemporaryFolder folder;
+    const std::string missing = folder.path("missing.h5");
     CHECK(confidence(missing) == 0);
     CHECK_THAT(message(missing), Catch::Contains(missing) && Catch::Contains("does not exist"));
 
-    const std::string text = test::temporary_path(".txt");
-    std::ofstream(text) << "not a volume\n";
+    const std::string text = folder.write("volume.txt", "not a volume\n");
     CHECK(confidence(text) == 0);
     CHECK_THAT(message(text), Catch::Contains(text) && !Catch::Contains("accepted"));
-    std::filesystem::remove(text);
 
     const TestVolume file(all_classes(2, 3, 1), {scalar_field("p")});
     CHECK(confidence(file.path()) == 100);
-    const std::string cut = test::temporary_path("-cut.h5");
+    const std::string cut = folder.path("cut.h5");
     std::filesystem::copy_file(file.path(), cut);
     std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
     CHECK_THAT(message(cut), Catch::Contains(cut));
-    std::filesystem::remove(cut);
 
     const native::Space high{native::Shape::hexahedron, native::Basis::modified, {2, 2, 17}};
     const native::Space low{native::Shape::hexahedron, native::Basis::modified, {1, 1, 1}};
@@ -283,7 +280,7 @@ TEST_CASE("a bad file is refused with a message that names it") {
 
 TEST_CASE("a NaN in the geometry is an error that names the element, one in a field an unbounded range") {
     const native::Space space{native::Shape::prism, native::Basis::modified, {2, 2, 2}};
-    const std::string path = test::temporary_path(".h5");
+    const TemporaryFile file("volume.h5");
     native::Description description;
     description.classes = {{space, {space}, 2}};
     description.fields = {scalar_field("p")};
@@ -292,7 +289,7 @@ TEST_CASE("a NaN in the geometry is an error that names the element, one in a fi
     geometry.back() = std::nan("");
     field.front() = std::nan("");
     const std::array<std::int64_t, 2> numbers{1, 0};
-    native::Writer writer(path, description);
+    native::Writer writer(file.path(), description);
     writer.write_geometry(0, 0, 2, geometry);
     writer.write_field(0, 0, 0, 0, 2, field);
     writer.write_numbers(0, 0, 2, numbers);
@@ -300,11 +297,10 @@ TEST_CASE("a NaN in the geometry is an error that names the element, one in a fi
 
     const RuntimeVolume volume(test::native_plugin(), path);
     std::array<double, 12> boxes{};
-    CHECK_THROWS_WITH(volume.bounds(0, 2, boxes), Catch::Contains(path) && Catch::Contains("element 0"));
+    CHECK_THROWS_WITH(volume.bounds(0, 2, boxes), Catch::Contains(file.path()) && Catch::Contains("element 0"));
     std::array<FieldRange, 2> ranges;
     CHECK(volume.field_ranges(0, 0, 0, 2, ranges) == ELVIS_CERTIFIED);
     CHECK(ranges[0].lower == -std::numeric_limits<double>::infinity());
     CHECK(ranges[0].upper == std::numeric_limits<double>::infinity());
     CHECK(std::isfinite(ranges[1].upper));
-    std::filesystem::remove(path);
 }

@@ -5,6 +5,7 @@
 
 #include <core/shader/composer.hpp>
 #include <core/vulkan/buffer.hpp>
+#include <tests/support/device.hpp>
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -18,11 +19,6 @@ using test::ClassPlan;
 using test::TestVolume;
 
 namespace {
-
-const Device& device() {
-    static const Device only({}, true);
-    return only;
-}
 
 /** As in shaders/conformance/snippet_check.comp. */
 struct CheckPoint {
@@ -62,18 +58,18 @@ public:
             const elvis_fill_request request{
                 sizeof(elvis_fill_request), i, field, 0, 0, info.n_records, offset.data(), origins.data()};
             volume.fill_buffer(request, numbers.data());
-            m_buffers.push_back(
-                std::make_unique<RecordBuffer>(device(), RecordKind::real, precision, info.n_records, info.record_size));
+            m_buffers.push_back(std::make_unique<RecordBuffer>(test::validated_device(), RecordKind::real, precision,
+                                                               info.n_records, info.record_size));
             m_buffers.back()->write_reals(0, numbers);
             instance.buffers.push_back({info.name, m_buffers.back().get()});
         }
         m_request.instances = {instance};
-        m_kernel.emplace(device(), m_request);
+        m_kernel.emplace(test::validated_device(), m_request);
     }
 
     std::vector<double> evaluate(const std::vector<CheckPoint>& points) const {
-        const Buffer input(device(), points.size() * sizeof(CheckPoint));
-        const Buffer output(device(), points.size() * m_n_numbers * sizeof(double));
+        const Buffer input(test::validated_device(), points.size() * sizeof(CheckPoint));
+        const Buffer output(test::validated_device(), points.size() * m_n_numbers * sizeof(double));
         input.write_items(std::span<const CheckPoint>(points));
         const auto n = static_cast<std::uint32_t>(points.size());
         const std::array<const Buffer*, 2> bindings{&input, &output};
@@ -390,4 +386,4 @@ TEST_CASE("volumes with transformed fields announce no second derivatives of fie
     CHECK((volume.snippet(0).capabilities & ELVIS_SNIPPET_MAPPING_HESSIAN) != 0);
 }
 
-TEST_CASE("the validation layer has nothing to say") { CHECK(device().validation_messages().empty()); }
+TEST_CASE("the validation layer has nothing to say") { CHECK(test::validated_device().validation_messages().empty()); }

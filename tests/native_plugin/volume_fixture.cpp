@@ -4,18 +4,9 @@
 
 #include <Eigen/Dense>
 
-#include <atomic>
 #include <cmath>
 
-#include <unistd.h>
-
 namespace elvis::test {
-
-std::string temporary_path(const std::string& suffix) {
-    static std::atomic<int> counter{0};
-    const std::string name = "elvis-native-plugin-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + suffix;
-    return (std::filesystem::temp_directory_path() / name).string();
-}
 
 std::shared_ptr<const Plugin> native_plugin() {
     static const std::shared_ptr<const Plugin> plugin = Plugin::load(ELVIS_NATIVE_PLUGIN);
@@ -54,8 +45,7 @@ std::vector<double> unit_noise(const native::Space& space, Random& random) {
 } // namespace
 
 TestVolume::TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field> fields, std::vector<double> times,
-                       double centre, double bend, const std::function<double(const native::Point&)>& function)
-    : m_path(temporary_path(".h5")) {
+                       double centre, double bend, const std::function<double(const native::Point&)>& function) {
     m_description.fields = std::move(fields);
     m_description.times = std::move(times);
     m_description.boundary_groups = {"wall", "inflow"};
@@ -90,7 +80,7 @@ TestVolume::TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field
                 }
             }
 
-    native::Writer writer(m_path, m_description);
+    native::Writer writer(path(), m_description);
     const auto n_elements = static_cast<std::int64_t>(m_description.n_elements());
     std::int64_t number = n_elements;
     for (std::size_t i = 0; i < classes.size(); ++i) {
@@ -109,11 +99,6 @@ TestVolume::TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field
         writer.write_faces(0, 1, std::span(&face, 1));
     }
     writer.commit();
-}
-
-TestVolume::~TestVolume() {
-    std::error_code ignored;
-    std::filesystem::remove(m_path, ignored);
 }
 
 std::uint64_t TestVolume::first_element(std::size_t element_class) const {
@@ -136,6 +121,6 @@ std::span<const double> TestVolume::field(std::size_t field, std::size_t time_st
     return std::span(numbers).subspan((local * m_description.fields[field].n_components + component) * n, n);
 }
 
-RuntimeVolume TestVolume::open() const { return RuntimeVolume(native_plugin(), m_path); }
+RuntimeVolume TestVolume::open() const { return RuntimeVolume(native_plugin(), path()); }
 
 } // namespace elvis::test

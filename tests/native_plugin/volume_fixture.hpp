@@ -6,10 +6,10 @@
 
 #include "spaces.hpp"
 
+#include <core/base/temporary_folder.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <elvis/native/volume_file.hpp>
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -32,11 +32,8 @@ public:
      */
     TestVolume(std::vector<ClassPlan> classes, std::vector<native::Field> fields, std::vector<double> times = {0.0},
                double centre = 0, double bend = 0.02, const std::function<double(const native::Point&)>& function = {});
-    ~TestVolume();
-    TestVolume(const TestVolume&) = delete;
-    TestVolume& operator=(const TestVolume&) = delete;
 
-    const std::string& path() const { return m_path; }
+    const std::string& path() const { return m_file.path(); }
     const native::Description& description() const { return m_description; }
     std::uint64_t first_element(std::size_t element_class) const;
 
@@ -50,15 +47,12 @@ public:
     static native::Face example_face() { return {2, 0, 1, 3, 1}; }
 
 private:
-    std::string m_path;
+    TemporaryFile m_file{"volume.h5"};
     native::Description m_description;
     std::vector<std::vector<double>> m_geometry;
     /** [(field * n_times + time) * n_classes + class] */
     std::vector<std::vector<double>> m_fields;
 };
-
-/** A path in the folder for temporary files that no other test uses. */
-std::string temporary_path(const std::string& suffix);
 
 /** The plugin under test. */
 std::shared_ptr<const Plugin> native_plugin();

@@ -1,52 +1,20 @@
 // The NURBS plugin as a user meets it: exact circles, reproduction of coordinates, every visualization, the conformance checks.
 
+#include <tests/support/program_folder.hpp>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <string>
 
+using namespace elvis::test;
+
 namespace {
 
-namespace fs = std::filesystem;
-
 const std::string pipe_file = NURBS_SAMPLES "/pipe.nurbs";
-
-class Workplace {
-public:
-    Workplace() : m_folder(fs::temp_directory_path() / ("elvis-nurbs-" + std::to_string(::getpid()))) {
-        fs::create_directories(m_folder);
-    }
-    ~Workplace() {
-        std::error_code ignored;
-        fs::remove_all(m_folder, ignored);
-    }
-    fs::path path(const std::string& name) const { return m_folder / name; }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
-
-    /** Exit status; what it printed is in out.txt, errors in err.txt. */
-    int run(const std::string& arguments) const {
-        const int status =
-            std::system(("cd '" + m_folder.string() + "' && '" ELVIS_PROGRAM "' " + arguments + " >out.txt 2>err.txt").c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    std::string read(const std::string& name) const {
-        std::stringstream text;
-        text << std::ifstream(path(name)).rdbuf();
-        return text.str();
-    }
-
-private:
-    fs::path m_folder;
-};
 
 /** A straight quarter of a pipe with radii 1 and 2, one span: x = r cos a, y = r sin a exactly. */
 std::string quarter_annulus() {
@@ -63,23 +31,23 @@ std::string quarter_annulus() {
     return text.str();
 }
 
-nlohmann::json probe(const Workplace& place, const std::string& file, const std::vector<std::array<double, 3>>& points) {
+nlohmann::json probe(const ProgramFolder& place, const std::string& file, const std::vector<std::array<double, 3>>& points) {
     std::ostringstream text;
     text << std::setprecision(17);
     for (const auto& x : points) {
         text << x[0] << " " << x[1] << " " << x[2] << "\n";
     }
     place.write("points.txt", text.str());
-    const int status = place.run("probe '" + file + "' --points points.txt --json");
-    INFO(place.read("err.txt"));
-    REQUIRE(status == 0);
-    return nlohmann::json::parse(place.read("out.txt"))["points"];
+    const Outcome probed = place.run("probe '" + file + "' --points points.txt --json");
+    INFO(probed.err);
+    REQUIRE(probed.status == 0);
+    return nlohmann::json::parse(probed.out)["points"];
 }
 
 } // namespace
 
 TEST_CASE("Circular arcs are circles") {
-    const Workplace place;
+    const ProgramFolder place;
     place.write("annulus.nurbs", quarter_annulus());
     std::vector<std::array<double, 3>> points;
     for (int i = 1; i < 40; ++i) {
@@ -88,7 +56,7 @@ TEST_CASE("Circular arcs are circles") {
             points.push_back({r * std::cos(a), r * std::sin(a), 0.4});
         }
     }
-    const auto found = probe(place, place.path("annulus.nurbs").string(), points);
+    const auto found = probe(place, place.path("annulus.nurbs"), points);
     for (std::size_t i = 0; i < points.size(); ++i) {
         INFO(i);
         const bool is_inside = i % 4 == 1 || i % 4 == 2;
@@ -97,7 +65,7 @@ TEST_CASE("Circular arcs are circles") {
 }
 
 TEST_CASE("A field with the coordinate's coefficients is the coordinate, derivatives included") {
-    const Workplace place;
+    const ProgramFolder place;
     std::vector<std::array<double, 3>> points;
     for (int i = 0; i < 200; ++i) {
         points.push_back({0.1 * (i % 20), 0.25 * (i / 20 % 10), 0.02 * i});
@@ -117,15 +85,16 @@ TEST_CASE("A field with the coordinate's coefficients is the coordinate, derivat
 }
 
 TEST_CASE("Every visualization draws a NURBS volume") {
-    const Workplace place;
+    const ProgramFolder place;
     place.write("transfer.json", R"({"color": [[290, 0, 0, 1], [320, 1, 0, 0]], "density": [[290, 0], [320, 2]]})");
     for (const char* options :
          {"--cut-plane 0,0,1,-1.5 --contours 300,305 --mesh-lines", "--boundary --contours 300,310 --mesh-lines",
           "--isosurface 305", "--volume transfer.json", "--boundary --field \"norm(grad(temperature))\""}) {
         INFO(options);
-        const int status = place.run("render '" + pipe_file + "' " + options + " --size 48x48 -o out.png --stats stats.json");
-        INFO(place.read("err.txt"));
-        REQUIRE(status == 0);
+        const Outcome drawn =
+            place.run("render '" + pipe_file + "' " + options + " --size 48x48 -o out.png --stats stats.json");
+        INFO(drawn.err);
+        REQUIRE(drawn.status == 0);
         const auto counts = nlohmann::json::parse(place.read("stats.json"))["counts"];
         CHECK(counts["newton_failures"] == 0);
         CHECK(counts["nan_pixels"] == 0);
@@ -133,14 +102,13 @@ TEST_CASE("Every visualization draws a NURBS volume") {
 }
 
 TEST_CASE("The NURBS plugin passes the conformance checks") {
-    const Workplace place;
-    const int status = place.run("check-plugin '" NURBS_PLUGIN "' --volume '" + pipe_file + "'");
-    INFO(place.read("out.txt"));
-    CHECK(status == 0);
+    const Outcome checked = ProgramFolder().run("check-plugin '" NURBS_PLUGIN "' --volume '" + pipe_file + "'");
+    INFO(checked.out);
+    CHECK(checked.status == 0);
 }
 
 TEST_CASE("Files with mistakes are refused with their line") {
-    const Workplace place;
+    const ProgramFolder place;
     const std::string good = quarter_annulus();
     const auto damaged = [&](const std::string& what, const std::string& by) {
         std::string text = good;
@@ -158,8 +126,9 @@ TEST_CASE("Files with mistakes are refused with their line") {
     };
     for (const auto& [text, message] : cases) {
         place.write("bad.nurbs", text);
-        CHECK(place.run("info bad.nurbs") == 1);
-        INFO(place.read("err.txt"));
-        CHECK(place.read("err.txt").find(message) != std::string::npos);
+        const Outcome refused = place.run("info bad.nurbs");
+        CHECK(refused.status == 1);
+        INFO(refused.err);
+        CHECK(refused.err.find(message) != std::string::npos);
     }
 }

@@ -9,8 +9,6 @@
 #include <hdf5.h>
 
 #include <bit>
-#include <fstream>
-#include <sstream>
 
 using namespace elvis;
 using namespace elvis::test;
@@ -67,12 +65,6 @@ std::vector<std::pair<std::uint32_t, std::string>> bits_attribute(hid_t file) {
     return bits;
 }
 
-std::string read_page() {
-    std::stringstream text;
-    text << std::ifstream(ELVIS_BUFFERS_PAGE).rdbuf();
-    return text.str();
-}
-
 } // namespace
 
 TEST_CASE("A file of buffers says what its datasets are, in which unit, and of which view") {
@@ -103,7 +95,7 @@ TEST_CASE("A file of buffers says what its datasets are, in which unit, and of w
 }
 
 TEST_CASE("Every flag is one bit of its own, and the page on buffers has its number and name") {
-    const std::string page = read_page();
+    const std::string page = test::read_file(ELVIS_BUFFERS_PAGE);
     std::uint32_t before = 0;
     for (const PixelFlag& flag : pixel_flags()) {
         INFO(flag.name);

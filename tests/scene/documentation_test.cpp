@@ -6,25 +6,16 @@
 
 #include <catch2/catch.hpp>
 
-#include <fstream>
 #include <sstream>
 #include <string>
 
 using namespace elvis;
 
-namespace {
-
-std::string read_page() {
-    std::stringstream text;
-    text << std::ifstream(ELVIS_SCENE_PAGE).rdbuf();
-    return text.str();
-}
-
-} // namespace
+namespace {} // namespace
 
 TEST_CASE("Every scene of the page on scenes is read") {
     const test::TemporaryFolder folder;
-    std::istringstream lines(read_page());
+    std::istringstream lines(test::read_file(ELVIS_SCENE_PAGE));
     int n = 0;
     bool is_open = false;
     std::string scene;
@@ -45,7 +36,7 @@ TEST_CASE("Every scene of the page on scenes is read") {
 }
 
 TEST_CASE("The page on scenes and the schema name every colour map") {
-    const std::string page = read_page();
+    const std::string page = test::read_file(ELVIS_SCENE_PAGE);
     const std::string schema(scene_schema_text());
     for (const std::string& name : color_map_names()) {
         INFO(name);

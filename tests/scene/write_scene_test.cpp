@@ -1,16 +1,14 @@
 // Scenes as files: what is written is what was read, for every key that the schema knows.
 
 #include <core/base/error.hpp>
+#include <core/base/temporary_folder.hpp>
 #include <core/scene/scene.hpp>
 #include <core/scene/write/write_scene.hpp>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
 
@@ -22,10 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Folder {
+class Folder : public TemporaryFolder {
 public:
-    Folder() : m_path(fs::temp_directory_path() / ("elvis-write-scene-" + std::to_string(::getpid()))) {
-        fs::create_directories(m_path);
+    Folder() {
         write("shape.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         std::string patch = "1\n3 3\n";
         for (int i = 0; i < 16; ++i) {
@@ -33,21 +30,6 @@ public:
         }
         write("shape.bpt", patch);
     }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(m_path, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(path(name)) << text;
-        return path(name);
-    }
-    std::string path(const std::string& name) const { return (m_path / name).string(); }
-
-private:
-    fs::path m_path;
 };
 
 /** Scenes in the form in which they are written; together they hold every key. */

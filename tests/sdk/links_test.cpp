@@ -1,12 +1,12 @@
 // Links of the pages for plugin authors lead somewhere, in the sources and where they are installed.
 
+#include <tests/support/files.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
 
 namespace {
@@ -17,9 +17,7 @@ const fs::path api = ELVIS_PLUGIN_API;
 
 /** Follows the relative links of a page; returns how many. */
 int follow_links(const fs::path& page) {
-    std::stringstream text;
-    text << std::ifstream(page).rdbuf();
-    const std::string all = text.str();
+    const std::string all = elvis::test::read_file(page);
     const std::regex links(R"(\]\(([^)#]+)(#[^)]*)?\))");
     int n = 0;
     for (std::sregex_iterator found(all.begin(), all.end(), links), end; found != end; ++found) {

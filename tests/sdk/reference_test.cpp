@@ -2,24 +2,21 @@
 
 #include <core/shader/snippet_check.hpp>
 
+#include <tests/support/files.hpp>
+
 #include <catch2/catch.hpp>
 
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
+using elvis::test::read_file;
+
 namespace {
 
 const std::string api = ELVIS_PLUGIN_API;
-
-std::string read_file(const std::string& path) {
-    std::stringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
 
 /** "elvis_runtime.get_info" for every function pointer of every struct in a header. */
 std::vector<std::string> table_functions(const std::string& header) {

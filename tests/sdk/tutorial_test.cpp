@@ -1,28 +1,25 @@
 // The tutorial cannot rot: its commands are run in order on a new project, with the files of each step, and its listings are
 // parts of those files.
 
+#include <tests/support/files.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
+
+using elvis::test::read_file;
 
 namespace {
 
 namespace fs = std::filesystem;
 
 const fs::path api = ELVIS_PLUGIN_API;
-
-std::string read_file(const fs::path& path) {
-    std::stringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
 
 /** One fenced block of the page. */
 struct Block {

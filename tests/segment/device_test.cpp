@@ -5,6 +5,7 @@
 #include <core/segment/crossings.hpp>
 #include <core/segment/fit.hpp>
 #include <core/shader/composer.hpp>
+#include <tests/support/device.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -14,11 +15,6 @@ using namespace elvis;
 using namespace elvis::segment;
 
 namespace {
-
-const Device& device() {
-    static const Device only({}, true);
-    return only;
-}
 
 constexpr std::uint32_t n_trials = 512;
 constexpr std::uint32_t group_size = 64;
@@ -40,8 +36,9 @@ layout(set = 0, binding = 1, std430) writeonly buffer results_block { elvis_real
     request.text = segment_glsl(plan);
     request.precision = sizeof(Real) == 8 ? Precision::float64 : Precision::float32;
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
-    const ComposedKernel kernel(device(), request);
-    const Buffer input(device(), given.size() * sizeof(Real)), output(device(), n_trials * n_results * sizeof(Real));
+    const ComposedKernel kernel(test::validated_device(), request);
+    const Buffer input(test::validated_device(), given.size() * sizeof(Real)),
+        output(test::validated_device(), n_trials * n_results * sizeof(Real));
     input.write_items<Real>(given);
     const Buffer* const bindings[]{&input, &output};
     kernel.dispatch(bindings, {}, n_trials / group_size);
@@ -323,4 +320,6 @@ TEMPLATE_TEST_CASE("Fits on the device are those on the CPU", "", float, double)
     CHECK(worst_error < 256 * static_cast<double>(roundoff<TestType>));
 }
 
-TEST_CASE("the validation layer has nothing to say about segments") { CHECK(device().validation_messages().empty()); }
+TEST_CASE("the validation layer has nothing to say about segments") {
+    CHECK(test::validated_device().validation_messages().empty());
+}

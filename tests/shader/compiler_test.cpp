@@ -1,3 +1,5 @@
+#include "fixture.hpp"
+
 #include <core/base/cache.hpp>
 #include <core/base/error.hpp>
 #include <core/shader/compiler.hpp>
@@ -5,29 +7,16 @@
 #include <catch2/catch.hpp>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <span>
 #include <thread>
 
-#include <unistd.h>
-
 using namespace elvis;
+using elvis::test::CacheFolder;
 namespace fs = std::filesystem;
 
 namespace {
-
-/** A cache folder of the test's own. */
-struct PrivateCache {
-    fs::path folder = fs::temp_directory_path() / ("elvis-cache-" + std::to_string(::getpid()));
-    PrivateCache() { ::setenv("ELVIS_CACHE_PATH", folder.c_str(), 1); }
-    ~PrivateCache() {
-        ::unsetenv("ELVIS_CACHE_PATH");
-        std::error_code ignored;
-        fs::remove_all(folder, ignored);
-    }
-};
 
 const char* const text = "#version 460\n#extension GL_GOOGLE_cpp_style_line_directive : require\n"
                          "layout(local_size_x = 8) in;\nlayout(std430, binding = 0) buffer B { float x[]; };\n"
@@ -36,12 +25,12 @@ const char* const text = "#version 460\n#extension GL_GOOGLE_cpp_style_line_dire
 } // namespace
 
 TEST_CASE("Compiling twice gives the same words, the second time from the cache") {
-    const PrivateCache cache;
+    const CacheFolder cache;
     const auto first = compile_shader(text, "test");
     REQUIRE(first.size() > 20);
     REQUIRE(first.front() == 0x07230203u);
     std::size_t n_entries = 0;
-    for (const auto& entry : fs::directory_iterator(cache.folder)) {
+    for (const auto& entry : fs::directory_iterator(cache.path())) {
         ++n_entries;
         // Damage it: the next compilation must notice.
         std::fstream file(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
@@ -54,9 +43,9 @@ TEST_CASE("Compiling twice gives the same words, the second time from the cache"
 }
 
 TEST_CASE("A second compilation is served by the cache") {
-    const PrivateCache cache;
+    const CacheFolder cache;
     compile_shader(text, "test");
-    const std::string entry = fs::directory_iterator(cache.folder)->path().filename().string();
+    const std::string entry = fs::directory_iterator(cache.path())->path().filename().string();
     const std::vector<std::uint32_t> mark{1, 2, 3};
     REQUIRE(write_cache_entry(entry, std::as_bytes(std::span(mark))));
     CHECK(compile_shader(text, "test") == mark);
@@ -70,7 +59,7 @@ TEST_CASE("Without a place for the cache, shaders compile all the same") {
 }
 
 TEST_CASE("Includes reach the library, and their errors name its files") {
-    const PrivateCache cache;
+    const CacheFolder cache;
     const std::string with_types = "#version 460\n#define ELVIS_REAL_IS_DOUBLE 0\n#include \"arithmetic/types.glsl\"\n"
                                    "elvis_real f() { return elvis_real(1); }\nvoid main() {}\n";
     CHECK(compile_shader(with_types, "test").size() > 20);
@@ -80,13 +69,12 @@ TEST_CASE("Includes reach the library, and their errors name its files") {
 }
 
 TEST_CASE("Threads may compile at the same time") {
-    const PrivateCache cache;
+    const CacheFolder cache;
     std::array<std::vector<std::uint32_t>, 4> results;
     {
         std::vector<std::jthread> threads;
         for (std::size_t t = 0; t < results.size(); ++t) {
             threads.emplace_back([&results, t] {
-                warm_up_compiler();
                 for (int i = 0; i < 5; ++i) {
                     // The same function under names of different kernels, so that each is compiled.
                     results[t] = compile_shader(std::string(text) + "// " + std::to_string(10 * t) + std::to_string(i), "test");
@@ -100,7 +88,7 @@ TEST_CASE("Threads may compile at the same time") {
 }
 
 TEST_CASE("An error names file and line") {
-    const PrivateCache cache;
+    const CacheFolder cache;
     const std::string bad = std::string(text) + "#line 7 \"plugin/heat.glsl\"\nfloat f() { return missing; }\n";
     REQUIRE_THROWS_WITH(compile_shader(bad, "test"), Catch::Contains("plugin/heat.glsl:7:") && Catch::Contains("missing"));
 }

@@ -4,17 +4,19 @@
  */
 #pragma once
 
-#include <core/base/temporary_file.hpp>
-
+#include <core/base/temporary_folder.hpp>
 #include <core/convert/convert.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
+#include <tests/support/device.hpp>
 
 #include <cstdlib>
 #include <fstream>
 #include <string>
 
 namespace elvis::oracle {
+
+using test::device;
 
 /** The plugins of this build. */
 inline const PluginRegistry& plugins() {

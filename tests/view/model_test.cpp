@@ -6,12 +6,11 @@
 #include <apps/elvis/view/model/model.hpp>
 #include <apps/elvis/view/model/settings.hpp>
 
+#include <core/base/temporary_folder.hpp>
 #include <core/scene/write/write_scene.hpp>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -231,11 +230,9 @@ TEST_CASE("Everything that can be added can be hidden, copied, removed, and writ
         CHECK(exists(scene, copy));
         CHECK(items_of(scene).size() == (info.item == NewItem::volume ? 1u : 2u));
 
-        const std::string path =
-            (std::filesystem::temp_directory_path() / ("elvis-model-" + std::to_string(::getpid()) + ".json")).string();
-        write_scene(scene, path);
-        CHECK(scene_json(read_scene(path), path) == scene_json(scene, path));
-        std::filesystem::remove(path);
+        const TemporaryFile file("model.json");
+        write_scene(scene, file.path());
+        CHECK(scene_json(read_scene(file.path()), file.path()) == scene_json(scene, file.path()));
         remove(scene, copy);
         CHECK(items_of(scene).size() == (info.item == NewItem::volume ? 0u : 1u));
     }
@@ -258,7 +255,8 @@ TEST_CASE("A histogram counts values, and knows their percentiles") {
 }
 
 TEST_CASE("Settings are kept, and no file of them can do harm") {
-    const auto file = std::filesystem::temp_directory_path() / ("elvis-settings-" + std::to_string(::getpid())) / "view.json";
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "settings/view.json";
     Settings settings;
     settings.window_size = {900, 700};
     settings.is_dark = false;
@@ -281,5 +279,4 @@ TEST_CASE("Settings are kept, and no file of them can do harm") {
         CHECK(read_settings(file).window_size[0] == Settings{}.window_size[0]);
     }
     CHECK(read_settings("/no/such/file").recent_files.empty());
-    std::filesystem::remove_all(file.parent_path());
 }

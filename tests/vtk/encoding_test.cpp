@@ -135,7 +135,7 @@ TEST_CASE("points that cells share make a field continuous", "[vtk]") {
 
 TEST_CASE("the order of a hexahedron's nodes is told by its version and by its points", "[vtk]") {
     // MFEM's data set has version 0.1 and the order of VTK 8. Here the version alone is changed: the points decide.
-    std::string content = content_of(sample_file("small_raw.vtu"));
+    std::string content = read_file(sample_file("small_raw.vtu"));
     content.replace(content.find("version=\"2.2\""), 13, "version=\"0.1\"");
     const TemporaryFolder folder;
     const SourceVolume source = open_vtk({folder.write("old.vtu", content)});

@@ -88,7 +88,7 @@ TEST_CASE("a mesh that changes in time is refused", "[vtk]") {
 }
 
 TEST_CASE("appended data that end early are refused", "[vtk]") {
-    std::string content = content_of(sample_file("small_raw.vtu"));
+    std::string content = read_file(sample_file("small_raw.vtu"));
     const std::size_t end = content.rfind("\n  </AppendedData>");
     CHECK_THAT(failure_of(content.substr(0, end - 500) + content.substr(end)), Contains("bytes") || Contains("data end"));
     CHECK_THAT(failure_of(content.substr(0, end - 500)), Contains("not complete"));

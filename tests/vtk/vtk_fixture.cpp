@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 namespace {
 
@@ -40,14 +39,6 @@ elvis::SourceVolume open_vtk(const std::vector<std::string>& paths) {
 }
 
 std::string sample_file(const std::string& name) { return elvis::test::data_file("vtk/" + name); }
-
-std::string content_of(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream content;
-    content << file.rdbuf();
-    REQUIRE(file);
-    return content.str();
-}
 
 std::string failure_of(const std::string& content, const std::string& name) {
     const TemporaryFolder folder;

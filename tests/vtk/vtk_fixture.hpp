@@ -15,9 +15,6 @@ elvis::SourceVolume open_vtk(const std::vector<std::string>& paths);
 /** A file of tests/data/vtk. */
 std::string sample_file(const std::string& name);
 
-/** The whole file. */
-std::string content_of(const std::string& path);
-
 /** What opening a file of that content says is wrong with it, or "no failure". */
 std::string failure_of(const std::string& content, const std::string& name = "wrong.vtu");
 

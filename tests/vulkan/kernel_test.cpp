@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/temporary_folder.hpp>
 #include <core/shader/compiler.hpp>
 #include <core/vulkan/kernel.hpp>
 
@@ -82,9 +83,8 @@ TEST_CASE("A kernel reads its bindings and push constants, and validation has no
 
 TEST_CASE("Pipelines are cached on disk for the device, and a damaged cache is ignored") {
     namespace fs = std::filesystem;
-    std::string folder = (fs::temp_directory_path() / "elvis-pipelines-XXXXXX").string();
-    REQUIRE(mkdtemp(folder.data()) != nullptr);
-    setenv("ELVIS_CACHE_PATH", folder.c_str(), 1);
+    const TemporaryFolder folder;
+    setenv("ELVIS_CACHE_PATH", folder.path().c_str(), 1);
     const auto use = [] {
         DeviceOptions options;
         options.validation = true;
@@ -93,7 +93,7 @@ TEST_CASE("Pipelines are cached on disk for the device, and a damaged cache is i
         return device.validation_messages();
     };
     const auto entry = [&] {
-        for (const auto& file : fs::directory_iterator(folder)) {
+        for (const auto& file : fs::directory_iterator(folder.path())) {
             if (file.path().extension() == ".pipelines") {
                 return file.path();
             }
@@ -110,7 +110,6 @@ TEST_CASE("Pipelines are cached on disk for the device, and a damaged cache is i
     CHECK(use().empty());
     CHECK(fs::file_size(entry()) == bytes); // Written anew.
     unsetenv("ELVIS_CACHE_PATH");
-    fs::remove_all(folder);
 }
 
 TEST_CASE("A kernel that exceeds the device's limits says which") {

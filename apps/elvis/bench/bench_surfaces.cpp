@@ -14,7 +14,6 @@ nlohmann::ordered_json to_json(const SurfaceResult& result) {
             {"size", result.size},
             {"milliseconds", result.milliseconds},
             {"wall_milliseconds", result.wall_milliseconds},
-            {"ratio_to_prototype", result.ratio_to_prototype},
             {"evaluations_a_pixel", result.evaluations_a_pixel},
             {"newton_steps_a_pixel", result.newton_steps_a_pixel},
             {"estimated_share", result.estimated_share},
@@ -32,17 +31,17 @@ nlohmann::ordered_json to_json(const SurfaceResult& result) {
 nlohmann::ordered_json run_surface(const Bench& bench, BenchView view) {
     const BenchArguments& arguments = bench.arguments;
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    bench_surface(
-        bench.device, bench.registry, bench.folder, view, arguments.elements, arguments.orders, arguments.sizes, bench.unit,
-        [&](const SurfaceResult& result) {
-            list.push_back(to_json(result));
-            say(arguments,
-                "%2u^3  p%-2u %4u^2  %8.1f ms %9.3g U  %5.2f of the prototype   wall %7.1f ms   a pixel: %.2f values, %.2f "
-                "steps   bytes: field x %.2f, geometry x %.2f, hierarchy %.0f an element\n",
-                result.elements_a_side, result.order, result.size, result.milliseconds, 1e6 * result.milliseconds / bench.unit,
-                result.ratio_to_prototype, result.wall_milliseconds, result.evaluations_a_pixel, result.newton_steps_a_pixel,
-                result.field_overhead, result.geometry_overhead, result.hierarchy_bytes_an_element);
-        });
+    bench_surface(bench.device, bench.registry, bench.folder, view, arguments.elements, arguments.orders, arguments.sizes,
+                  [&](const SurfaceResult& result) {
+                      list.push_back(to_json(result));
+                      say(arguments,
+                          "%2u^3  p%-2u %4u^2  %8.1f ms %9.3g U   wall %7.1f ms   a pixel: %.2f values, %.2f "
+                          "steps   bytes: field x %.2f, geometry x %.2f, hierarchy %.0f an element\n",
+                          result.elements_a_side, result.order, result.size, result.milliseconds,
+                          1e6 * result.milliseconds / bench.unit, result.wall_milliseconds, result.evaluations_a_pixel,
+                          result.newton_steps_a_pixel, result.field_overhead, result.geometry_overhead,
+                          result.hierarchy_bytes_an_element);
+                  });
     return list;
 }
 

@@ -15,7 +15,7 @@ nlohmann::ordered_json run_volume(const Bench& bench) {
     const std::vector<std::uint32_t> sizes = arguments.names_sizes ? arguments.sizes : std::vector<std::uint32_t>{512};
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     bench_volume(bench.device, bench.registry, bench.folder, integrators, arguments.elements, arguments.orders, sizes,
-                 bench.unit, [&](const VolumeResult& result) {
+                 [&](const VolumeResult& result) {
                      list.push_back({{"transfer", name_of(result.transfer)},
                                      {"integrator", name_of(result.integrator)},
                                      {"elements_a_side", result.elements_a_side},
@@ -23,7 +23,6 @@ nlohmann::ordered_json run_volume(const Bench& bench) {
                                      {"size", result.size},
                                      {"milliseconds", result.milliseconds},
                                      {"wall_milliseconds", result.wall_milliseconds},
-                                     {"ratio_to_prototype", result.ratio_to_prototype},
                                      {"evaluations_a_pixel", result.evaluations_a_pixel},
                                      {"mappings_a_pixel", result.mappings_a_pixel},
                                      {"segments_a_pixel", result.segments_a_pixel},
@@ -32,13 +31,13 @@ nlohmann::ordered_json run_volume(const Bench& bench) {
                                      {"breakpoints_a_pixel", result.breakpoints_a_pixel},
                                      {"inexact_share", result.inexact_share}});
                      say(arguments,
-                         "%-9s %-18s %2u^3  p%-2u %4u^2  %8.1f ms %9.3g U  %5.2f of the prototype   a pixel: %.1f values, %.1f "
+                         "%-9s %-18s %2u^3  p%-2u %4u^2  %8.1f ms %9.3g U   a pixel: %.1f values, %.1f "
                          "mappings, "
                          "%.1f segments (%.1f empty), %.1f steps, %.1f breakpoints; inexact %.4f\n",
                          name_of(result.transfer), name_of(result.integrator), result.elements_a_side, result.order,
-                         result.size, result.milliseconds, 1e6 * result.milliseconds / bench.unit, result.ratio_to_prototype,
-                         result.evaluations_a_pixel, result.mappings_a_pixel, result.segments_a_pixel,
-                         result.empty_segments_a_pixel, result.steps_a_pixel, result.breakpoints_a_pixel, result.inexact_share);
+                         result.size, result.milliseconds, 1e6 * result.milliseconds / bench.unit, result.evaluations_a_pixel,
+                         result.mappings_a_pixel, result.segments_a_pixel, result.empty_segments_a_pixel, result.steps_a_pixel,
+                         result.breakpoints_a_pixel, result.inexact_share);
                  });
     return list;
 }

@@ -9,6 +9,7 @@
 
 #include <core/annotation/font.hpp>
 #include <core/base/error.hpp>
+#include <core/base/milliseconds.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/color/color_map.hpp>
 #include <core/scene/frame_request.hpp>
@@ -28,10 +29,6 @@ namespace elvis::commands {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /** When the command began, and what loading the volume took. */
 struct Times {

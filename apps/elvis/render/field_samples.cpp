@@ -1,6 +1,7 @@
 #include "field_samples.hpp"
 
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 #include <core/expression/expression.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/scene/surface_distance.hpp>
@@ -26,7 +27,7 @@ std::vector<double> field_samples(Prober& prober, const RuntimeVolume& volume, c
         expressions.push_back(choice.expression);
     }
     std::mt19937 random(piece + 1);
-    std::vector<std::array<double, 3>> positions(n_points_a_piece);
+    std::vector<Vector3> positions(n_points_a_piece);
     for (auto& position : positions) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             position[axis] = std::uniform_real_distribution<double>(bounds[axis], bounds[axis + 3])(random);

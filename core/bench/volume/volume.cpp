@@ -14,27 +14,8 @@ namespace elvis {
 namespace {
 
 constexpr int n_runs = 3;
-/** The unit of the prototype's times, in nanoseconds. */
-constexpr double prototype_unit = 550;
-/** World length of its steps. */
-constexpr double prototype_step = 3.8 / 256;
-
-struct PrototypeTime {
-    std::uint32_t elements_a_side, order, size;
-    double milliseconds;
-};
-/** Measured before this program was written, on two cores: 256 samples a ray. */
-constexpr std::array<PrototypeTime, 6> prototype_times{
-    {{16, 3, 512, 1160}, {16, 6, 512, 1751}, {16, 8, 512, 2978}, {32, 3, 512, 1535}, {32, 6, 512, 2331}, {32, 8, 512, 3332}}};
-
-double prototype_milliseconds(std::uint32_t elements_a_side, std::uint32_t order, std::uint32_t size) {
-    for (const PrototypeTime& time : prototype_times) {
-        if (time.elements_a_side == elements_a_side && time.order == order && time.size == size) {
-            return time.milliseconds;
-        }
-    }
-    return 0;
-}
+/** World length of a step. */
+constexpr double step = 3.8 / 256;
 
 constexpr double range_end = 1.5;
 constexpr std::array<Integrator, 5> integrators{Integrator::riemann, Integrator::trapezoid, Integrator::categories,
@@ -117,13 +98,13 @@ FrameRequest waves_volume_picture(std::uint32_t size, BenchTransfer transfer, In
     VolumeRendering& volume = request.volume.emplace();
     volume.transfer = bench_transfer(transfer);
     volume.integrator = integrator;
-    volume.step = prototype_step;
+    volume.step = step;
     return request;
 }
 
 void bench_volume(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
                   const std::vector<Integrator>& wanted, const std::vector<std::uint32_t>& elements_a_side,
-                  const std::vector<std::uint32_t>& orders, const std::vector<std::uint32_t>& sizes, double unit_nanoseconds,
+                  const std::vector<std::uint32_t>& orders, const std::vector<std::uint32_t>& sizes,
                   const std::function<void(const VolumeResult&)>& report) {
     for (const std::uint32_t n : elements_a_side) {
         for (const std::uint32_t order : orders) {
@@ -145,9 +126,6 @@ void bench_volume(const Device& device, const PluginRegistry& registry, const Be
                         const Frame& frame = repeated.frame;
                         result.milliseconds = repeated.milliseconds;
                         result.wall_milliseconds = repeated.wall_milliseconds;
-                        const double prototype = prototype_milliseconds(n, order, size);
-                        result.ratio_to_prototype =
-                            prototype > 0 ? result.milliseconds / unit_nanoseconds / (prototype / prototype_unit) : 0;
                         n_pixels = std::max(n_pixels, frame.counts.volume_pixels);
                         const auto a_pixel = [n_pixels](std::uint64_t count) {
                             return static_cast<double>(count) / static_cast<double>(n_pixels);

@@ -27,7 +27,7 @@ const char* name_of(Integrator integrator);
 /** Throws an Error that names what there is. */
 Integrator integrator_of(const std::string& name);
 
-/** The waves picture of the volume alone. Steps, where the integrator takes them, are those of the prototype's 256 a ray. */
+/** The waves picture of the volume alone. Steps, where the integrator takes them, are about 256 a ray. */
 FrameRequest waves_volume_picture(std::uint32_t size, BenchTransfer transfer, Integrator integrator);
 
 struct VolumeResult {
@@ -38,11 +38,6 @@ struct VolumeResult {
     std::uint32_t size = 0;
     double milliseconds = 0;
     double wall_milliseconds = 0;
-    /**
-     * In the same unit, over the prototype's 256 samples a ray with U = 550 ns, whose transfer function was the first one; 0
-     * where the prototype has no figure.
-     */
-    double ratio_to_prototype = 0;
     /** Of pixels whose rays meet the volume. */
     double evaluations_a_pixel = 0, mappings_a_pixel = 0, segments_a_pixel = 0, empty_segments_a_pixel = 0, steps_a_pixel = 0,
            breakpoints_a_pixel = 0, inexact_share = 0;
@@ -50,7 +45,7 @@ struct VolumeResult {
 /** Calls `report` after each picture. */
 void bench_volume(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
                   const std::vector<Integrator>& integrators, const std::vector<std::uint32_t>& elements_a_side,
-                  const std::vector<std::uint32_t>& orders, const std::vector<std::uint32_t>& sizes, double unit_nanoseconds,
+                  const std::vector<std::uint32_t>& orders, const std::vector<std::uint32_t>& sizes,
                   const std::function<void(const VolumeResult&)>& report);
 
 } // namespace elvis

@@ -83,12 +83,7 @@ void write_volume_convergence(const std::filesystem::path& folder, const VolumeC
                           const PlotAxis& y_axis, const Number& y) {
         const std::vector<PlotSeries> series = lines(result, figure, x, y);
         if (!series.empty()) {
-            Plot plot;
-            plot.title = title;
-            plot.x = x_axis;
-            plot.y = y_axis;
-            plot.series = series;
-            write_svg(folder / (std::string(name) + ".svg"), plot);
+            write_svg(folder / (std::string(name) + ".svg"), {title, x_axis, y_axis, series});
         }
     };
     draw("composite-rules", "One breakpoint (6.1)", "6.1", {"samples", true}, samples, error_axis, error);

@@ -3,10 +3,12 @@
  * Checks of opening: files that are no volumes, damaged ones, options, repetition, cancelling.
  */
 #include <core/base/error.hpp>
+#include <core/base/temporary_folder.hpp>
+#include <core/base/whole_file.hpp>
 #include <core/conformance/check.hpp>
 #include <core/conformance/damage.hpp>
 #include <core/conformance/description.hpp>
-#include <core/conformance/scratch.hpp>
+#include <core/conformance/random.hpp>
 #include <core/conformance/test_host.hpp>
 #include <core/plugin_host/host_services.hpp>
 
@@ -74,7 +76,7 @@ void check_failure(Context& context, const std::string& where, elvis_result resu
 }
 
 void check_bad_files(Context& context) {
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     struct BadFile {
         const char* what;
         std::string path;
@@ -125,7 +127,7 @@ void check_damaged(Context& context) {
                 throw Skipped(file + " is no regular file below 64 MiB");
             }
         }
-        const ScratchFolder scratch;
+        const TemporaryFolder scratch;
         for (std::uint64_t index = 0; index < n_damages && std::chrono::steady_clock::now() - begin < time_limit; ++index) {
             const std::size_t which = index % originals.size();
             const Damaged damaged = damage(contents[which], seed, index);

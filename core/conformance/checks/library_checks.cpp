@@ -3,8 +3,9 @@
  * Checks of a library by itself: descriptor, tables, and what `probe` says to files that are not the plugin's.
  */
 #include <core/base/error.hpp>
+#include <core/base/temporary_folder.hpp>
 #include <core/conformance/check.hpp>
-#include <core/conformance/scratch.hpp>
+#include <core/conformance/random.hpp>
 #include <core/conformance/test_host.hpp>
 
 #include <dlfcn.h>
@@ -93,7 +94,7 @@ void check_tables(Context& context) {
 }
 
 void probe_files(Context& context, Interface interface, elvis_result (*probe)(const elvis_host*, const char*, std::uint32_t*)) {
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     const std::vector<std::pair<const char*, std::string>> files{
         {"a file that does not exist", scratch.path("missing.bin")},
         {"an empty file", scratch.write("empty.bin", "")},

@@ -4,7 +4,7 @@
  */
 #include <core/conformance/checks/device_check_tools.hpp>
 #include <core/probe/device_evaluator.hpp>
-#include <core/volume/element/reference_corners.hpp>
+#include <elvis/native/space.hpp>
 
 #include <random>
 
@@ -138,15 +138,19 @@ void check_neighbours(Context& context, const RuntimeVolume& volume, const Devic
     std::mt19937_64 random(context.subject().seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (const SharedFace& face : shared_faces(volume, context.subject().seed)) {
-        const elvis_shape shape = volume.classes()[class_of(volume, face.element)].shape;
-        const std::string_view corners = face_corners(shape, face.local_face);
+        const native::Shape shape{volume.classes()[class_of(volume, face.element)].shape};
+        const auto local_face = static_cast<int>(face.local_face);
+        if (local_face >= native::n_faces(shape)) {
+            continue; // The check of faces says so.
+        }
+        const std::span<const int> corners = native::face_corners(shape, local_face);
         for (std::size_t i = 0; i < n_face_points; ++i) {
             // A convex combination of the corners; the power brings it near to edges, too.
             Point xi{};
             double sum = 0;
-            for (const char digit : corners) {
+            for (const int index : corners) {
                 const double weight = std::pow(uniform(random), 4);
-                const Point corner = reference_corner(shape, static_cast<std::uint32_t>(digit - '0'));
+                const Point corner = native::corner(shape, index);
                 for (std::size_t k = 0; k < 3; ++k) {
                     xi[k] += weight * corner[k];
                 }

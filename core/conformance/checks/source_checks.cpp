@@ -5,14 +5,15 @@
 #include <core/base/cancel.hpp>
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
+#include <core/base/temporary_folder.hpp>
 #include <core/conformance/check.hpp>
 #include <core/conformance/description.hpp>
 #include <core/conformance/differences.hpp>
 #include <core/conformance/pieces.hpp>
+#include <core/conformance/random.hpp>
 #include <core/conformance/reference_points.hpp>
-#include <core/conformance/scratch.hpp>
 #include <core/convert/convert.hpp>
-#include <core/volume/element/reference_corners.hpp>
+#include <elvis/native/space.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -91,9 +92,11 @@ void check_corners(Context& context) {
     int n_complaints = 0;
     for (std::uint64_t element = 0; element < n && n_complaints < 5; ++element) {
         const elvis_source_element described = element_of(source, element);
+        const native::Shape shape{described.shape};
+        const auto n_corners = static_cast<std::size_t>(native::n_corners(shape));
         std::vector<double> xi;
-        for (std::uint32_t corner = 0; corner < n_corners(described.shape); ++corner) {
-            const Point at = reference_corner(described.shape, corner);
+        for (std::size_t corner = 0; corner < n_corners; ++corner) {
+            const Point at = native::corner(shape, static_cast<int>(corner));
             xi.insert(xi.end(), at.begin(), at.end());
         }
         std::vector<double> x(xi.size());
@@ -102,11 +105,11 @@ void check_corners(Context& context) {
         for (std::size_t i = 3; i < x.size(); ++i) {
             size = std::max(size, std::abs(x[i] - x[i % 3]));
         }
-        for (std::uint32_t corner = 0; corner < n_corners(described.shape); ++corner) {
+        for (std::size_t corner = 0; corner < n_corners; ++corner) {
             const Point here{x[3 * corner], x[3 * corner + 1], x[3 * corner + 2]};
             const auto [known, is_new] = positions.try_emplace(described.corners[corner], here);
             const Point& there = known->second;
-            const double distance = std::hypot(here[0] - there[0], here[1] - there[1], here[2] - there[2]);
+            const double distance = length(minus(here, there));
             if (!is_new && !(distance <= 1e-4 * size)) {
                 ++n_complaints;
                 context.fail("get_elements: corner id " + std::to_string(described.corners[corner]) + " of element " +
@@ -173,7 +176,7 @@ void check_sampling(Context& context) {
 
 void check_exactness(Context& context) {
     const SourceVolume source = open_source(context);
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     const TaskControl control;
     context.progress("conversion");
     const ConvertReport report = convert(source, scratch.path("converted.h5"), {}, control);
@@ -203,7 +206,7 @@ void check_exactness(Context& context) {
 }
 
 void check_conversion_repeated(Context& context) {
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     const TaskControl control;
     std::vector<ConvertReport> reports;
     for (int run = 0; run < 2; ++run) {

@@ -8,11 +8,9 @@
 #include <core/conformance/description.hpp>
 #include <core/conformance/pieces.hpp>
 #include <core/conformance/reference_points.hpp>
-#include <core/conformance/scratch.hpp>
-#include <core/volume/element/reference_corners.hpp>
+#include <elvis/native/space.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -124,23 +122,13 @@ void check_volume_threads(Context& context) {
     check_threads(context, queries(volume, 512));
 }
 
-/** Of two-dimensional shapes the faces of a volume are edges. */
-std::string_view corners_of_face(elvis_shape shape, std::uint32_t local_face) {
-    static constexpr std::array<std::string_view, 4> quadrilateral = {"01", "12", "32", "03"};
-    static constexpr std::array<std::string_view, 3> triangle = {"01", "12", "02"};
-    return shape == ELVIS_SHAPE_QUADRILATERAL ? quadrilateral.at(local_face)
-           : shape == ELVIS_SHAPE_TRIANGLE    ? triangle.at(local_face)
-                                              : face_corners(shape, local_face);
-}
-
 /** Positions of the corners of a local face, through evaluate_mapping. */
-std::vector<Point> corner_positions(const RuntimeVolume& volume, std::uint64_t element, std::uint32_t local_face) {
-    const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
+std::vector<Point> corner_positions(const RuntimeVolume& volume, std::uint64_t element, std::int32_t local_face) {
+    const native::Shape shape{volume.classes()[class_of(volume, element)].shape};
     std::vector<Point> positions;
-    for (const char corner : corners_of_face(shape, local_face)) {
-        const Point xi = reference_corner(shape, static_cast<std::uint32_t>(corner - '0'));
+    for (const int corner : native::face_corners(shape, local_face)) {
         Point x{};
-        volume.evaluate_mapping(element, xi, x, {});
+        volume.evaluate_mapping(element, native::corner(shape, corner), x, {});
         positions.push_back(x);
     }
     return positions;
@@ -152,7 +140,7 @@ double corner_distance(const std::vector<Point>& a, const std::vector<Point>& b)
     for (const Point& x : a) {
         double nearest = std::numeric_limits<double>::infinity();
         for (const Point& y : b) {
-            nearest = std::min(nearest, std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]));
+            nearest = std::min(nearest, length(minus(x, y)));
         }
         largest = std::max(largest, nearest);
     }
@@ -180,7 +168,7 @@ std::vector<BoundaryFace> boundary_faces(const RuntimeVolume& volume, const std:
         for (const Point& x : entry.corners) {
             const Point& first = entry.corners[0];
             entry.place += (0.5 * x[0] + 0.7071 * x[1] + 0.5001 * x[2]) / static_cast<double>(entry.corners.size());
-            entry.size = std::max(entry.size, std::hypot(x[0] - first[0], x[1] - first[1], x[2] - first[2]));
+            entry.size = std::max(entry.size, length(minus(x, first)));
         }
         found.push_back(std::move(entry));
     }
@@ -217,13 +205,11 @@ void note_coinciding_boundary(Context& context, const RuntimeVolume& volume, con
 
 /** Of a face that two elements share. */
 bool check_corners(Context& context, const RuntimeVolume& volume, const elvis_face& face) {
-    const auto here =
-        corner_positions(volume, static_cast<std::uint64_t>(face.element), static_cast<std::uint32_t>(face.local_face));
-    const auto there = corner_positions(volume, static_cast<std::uint64_t>(face.neighbour),
-                                        static_cast<std::uint32_t>(face.neighbour_local_face));
+    const auto here = corner_positions(volume, static_cast<std::uint64_t>(face.element), face.local_face);
+    const auto there = corner_positions(volume, static_cast<std::uint64_t>(face.neighbour), face.neighbour_local_face);
     double size = 0;
     for (const Point& x : here) {
-        size = std::max(size, std::hypot(x[0] - here[0][0], x[1] - here[0][1], x[2] - here[0][2]));
+        size = std::max(size, length(minus(x, here[0])));
     }
     // Sources round corners to as few as five digits.
     const double distance = std::max(corner_distance(here, there), corner_distance(there, here));
@@ -247,7 +233,7 @@ void check_faces(Context& context) {
     const auto add = [&](std::int64_t element, std::int32_t local_face) {
         const elvis_shape shape = volume.classes()[class_of(volume, static_cast<std::uint64_t>(element))].shape;
         const std::string which = "local face " + std::to_string(local_face) + " of element " + std::to_string(element);
-        if (local_face < 0 || static_cast<std::uint32_t>(local_face) >= n_faces(shape)) {
+        if (local_face < 0 || local_face >= native::n_faces(native::Shape{shape})) {
             context.fail("get_faces: " + which + ", which is a " + shape_name(shape));
             return false;
         }
@@ -272,7 +258,7 @@ void check_faces(Context& context) {
     if (n == volume.n_faces()) {
         std::uint64_t n_local_faces = 0;
         for (const ClassInfo& info : volume.classes()) {
-            n_local_faces += info.n_elements * n_faces(info.shape);
+            n_local_faces += info.n_elements * static_cast<std::uint64_t>(native::n_faces(native::Shape{info.shape}));
         }
         if (seen.size() < n_local_faces) {
             context.fail("get_faces: of " + std::to_string(n_local_faces) + " local faces only " + std::to_string(seen.size()) +

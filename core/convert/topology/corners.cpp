@@ -1,6 +1,8 @@
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 #include <core/convert/blocks.hpp>
 #include <core/convert/topology/corners.hpp>
+#include <core/convert/topology/grid_cell.hpp>
 #include <elvis/native/space.hpp>
 
 #include <algorithm>
@@ -15,23 +17,19 @@ namespace {
 
 constexpr std::uint64_t part_size = 4096;
 constexpr std::uint64_t block_size = 65536;
-using Position = std::array<double, 3>;
 
 /** Distinct positions, found through a grid of cells much larger than the tolerance. */
 class PositionNumbers {
 public:
     explicit PositionNumbers(double tolerance) : m_tolerance(tolerance), m_cell(16 * tolerance) {}
 
-    std::uint32_t number(const Position& x) {
-        std::array<std::int64_t, 3> low{}, high{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = static_cast<std::int64_t>(std::floor((x[axis] - m_tolerance) / m_cell));
-            high[axis] = static_cast<std::int64_t>(std::floor((x[axis] + m_tolerance) / m_cell));
-        }
+    std::uint32_t number(const Vector3& x) {
+        const GridCell low = cell_of(minus(x, {m_tolerance, m_tolerance, m_tolerance}), m_cell);
+        const GridCell high = cell_of(plus(x, {m_tolerance, m_tolerance, m_tolerance}), m_cell);
         for (std::int64_t i = low[0]; i <= high[0]; ++i) {
             for (std::int64_t j = low[1]; j <= high[1]; ++j) {
                 for (std::int64_t k = low[2]; k <= high[2]; ++k) {
-                    const auto [first, last] = m_cells.equal_range(hash({i, j, k}));
+                    const auto [first, last] = m_cells.equal_range(hash_of({i, j, k}));
                     for (auto candidate = first; candidate != last; ++candidate) {
                         if (is_near(m_positions[candidate->second], x)) {
                             return candidate->second;
@@ -41,33 +39,20 @@ public:
             }
         }
         const auto number = static_cast<std::uint32_t>(m_positions.size());
-        std::array<std::int64_t, 3> cell{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            cell[axis] = static_cast<std::int64_t>(std::floor(x[axis] / m_cell));
-        }
-        m_cells.emplace(hash(cell), number);
+        m_cells.emplace(hash_of(cell_of(x, m_cell)), number);
         m_positions.push_back(x);
         return number;
     }
 
 private:
-    static std::uint64_t hash(const std::array<std::int64_t, 3>& cell) {
-        std::uint64_t value = 0;
-        for (const std::int64_t index : cell) {
-            value = (value ^ static_cast<std::uint64_t>(index)) * 0x9e3779b97f4a7c15u;
-            value ^= value >> 29;
-        }
-        return value;
-    }
-
-    bool is_near(const Position& a, const Position& b) const {
-        const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-        return x * x + y * y + z * z <= m_tolerance * m_tolerance;
+    bool is_near(const Vector3& a, const Vector3& b) const {
+        const Vector3 between = minus(a, b);
+        return dot(between, between) <= m_tolerance * m_tolerance;
     }
 
     double m_tolerance;
     double m_cell;
-    std::vector<Position> m_positions;
+    std::vector<Vector3> m_positions;
     std::unordered_multimap<std::uint64_t, std::uint32_t> m_cells;
 };
 
@@ -80,7 +65,7 @@ std::vector<double> corner_points(elvis_shape shape) {
     return xi;
 }
 
-double shortest_distance(const std::vector<Position>& corners) {
+double shortest_distance(const std::vector<Vector3>& corners) {
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t a = 0; a < corners.size(); ++a) {
         for (std::size_t b = 0; b < a; ++b) {
@@ -102,7 +87,7 @@ public:
 
     std::size_t n_corners(std::uint64_t element) const { return m_xi[m_shapes[element]].size() / 3; }
 
-    void evaluate(std::uint64_t element, std::vector<Position>& positions) const {
+    void evaluate(std::uint64_t element, std::vector<Vector3>& positions) const {
         const std::vector<double>& points = m_xi[m_shapes[element]];
         positions.resize(points.size() / 3);
         m_source.evaluate_mapping(element, points, std::span<double>(positions.front().data(), points.size()));
@@ -117,18 +102,18 @@ private:
 void measure_extent(Corners& corners, const CornerPositions& positions, const SourceVolume& source,
                     const TaskControl& control) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Position lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+    Vector3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
     double shortest = infinity;
     std::mutex mutex;
     for_each_part(source.info().n_elements, part_size, [&](std::uint64_t first, std::uint64_t last) {
         control.check();
-        std::vector<Position> of_element;
-        Position part_lower{infinity, infinity, infinity}, part_upper{-infinity, -infinity, -infinity};
+        std::vector<Vector3> of_element;
+        Vector3 part_lower{infinity, infinity, infinity}, part_upper{-infinity, -infinity, -infinity};
         double part_shortest = infinity;
         for (std::uint64_t element = first; element < last; ++element) {
             positions.evaluate(element, of_element);
             part_shortest = std::min(part_shortest, shortest_distance(of_element));
-            for (const Position& x : of_element) {
+            for (const Vector3& x : of_element) {
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     part_lower[axis] = std::min(part_lower[axis], x[axis]);
                     part_upper[axis] = std::max(part_upper[axis], x[axis]);
@@ -175,7 +160,7 @@ void number_positions(Corners& corners, const CornerPositions& positions, const 
                       const TaskControl& control) {
     const std::uint64_t n_elements = source.info().n_elements;
     PositionNumbers numbers(corners.tolerance);
-    std::vector<std::vector<Position>> block(std::min(block_size, n_elements));
+    std::vector<std::vector<Vector3>> block(std::min(block_size, n_elements));
     for (std::uint64_t first = 0; first < n_elements; first += block_size) {
         control.check();
         const std::uint64_t count = std::min(block_size, n_elements - first);

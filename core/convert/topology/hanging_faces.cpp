@@ -1,8 +1,8 @@
 #include <core/base/vector3.hpp>
+#include <core/convert/topology/grid_cell.hpp>
 #include <core/convert/topology/hanging_faces.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace elvis {
@@ -119,11 +119,11 @@ public:
         // All faces shrunk to points: any cell will do.
         m_cell = m_cell > 0 ? m_cell : 1;
         for (std::uint32_t index = 0; index < faces.size(); ++index) {
-            const auto low = cell(faces[index].lower()), high = cell(faces[index].upper());
+            const auto low = cell_of(faces[index].lower(), m_cell), high = cell_of(faces[index].upper(), m_cell);
             for (std::int64_t i = low[0]; i <= high[0]; ++i) {
                 for (std::int64_t j = low[1]; j <= high[1]; ++j) {
                     for (std::int64_t k = low[2]; k <= high[2]; ++k) {
-                        m_faces[hash({i, j, k})].push_back(index);
+                        m_faces[hash_of({i, j, k})].push_back(index);
                     }
                 }
             }
@@ -133,28 +133,11 @@ public:
     /** Faces that may cover a point. */
     const std::vector<std::uint32_t>& at(const Vector3& point) const {
         static const std::vector<std::uint32_t> none;
-        const auto found = m_faces.find(hash(cell(point)));
+        const auto found = m_faces.find(hash_of(cell_of(point, m_cell)));
         return found == m_faces.end() ? none : found->second;
     }
 
 private:
-    std::array<std::int64_t, 3> cell(const Vector3& x) const {
-        std::array<std::int64_t, 3> result;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            result[axis] = static_cast<std::int64_t>(std::floor(x[axis] / m_cell));
-        }
-        return result;
-    }
-
-    static std::uint64_t hash(const std::array<std::int64_t, 3>& cell) {
-        std::uint64_t value = 0;
-        for (const std::int64_t index : cell) {
-            value = (value ^ static_cast<std::uint64_t>(index)) * 0x9e3779b97f4a7c15u;
-            value ^= value >> 29;
-        }
-        return value;
-    }
-
     double m_cell = 0;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> m_faces;
 };

@@ -1,23 +1,16 @@
 #include <core/base/error.hpp>
+#include <core/base/whole_file.hpp>
 #include <core/scene/read/json_reader.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 namespace elvis {
 
 using nlohmann::json;
 
 json parse_json_file(const std::string& path) {
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    if (!file) {
-        throw Error(path, "cannot be read");
-    }
-    const std::string content = text.str();
+    const std::string content = read_whole_file(path);
     try {
         return json::parse(content);
     } catch (const json::parse_error& error) {

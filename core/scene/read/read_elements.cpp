@@ -1,21 +1,23 @@
 #include <core/scene/read/read_parts.hpp>
 
-#include <elvis/element.h>
+#include <elvis/native/space.hpp>
 
-#include <map>
+#include <string_view>
 
 namespace elvis {
 
 namespace {
 
-const std::map<std::string, elvis_shape>& shape_names() {
-    static const std::map<std::string, elvis_shape> names = {{"hexahedron", ELVIS_SHAPE_HEXAHEDRON},
-                                                             {"prism", ELVIS_SHAPE_PRISM},
-                                                             {"pyramid", ELVIS_SHAPE_PYRAMID},
-                                                             {"tetrahedron", ELVIS_SHAPE_TETRAHEDRON},
-                                                             {"quadrilateral", ELVIS_SHAPE_QUADRILATERAL},
-                                                             {"triangle", ELVIS_SHAPE_TRIANGLE}};
-    return names;
+std::uint32_t read_shape(const JsonObject& object, const std::string& name) {
+    std::string list;
+    for (std::uint32_t shape = 0; shape < native::n_shapes; ++shape) {
+        const std::string_view known = native::name(native::Shape{shape});
+        if (name == known) {
+            return shape;
+        }
+        list += (list.empty() ? "" : ", ") + std::string(known);
+    }
+    object.fail("shapes", "has no shape '" + name + "'; there are " + list);
 }
 
 /** Numbers and pairs of numbers. */
@@ -60,15 +62,7 @@ ElementSelection read_selection(const JsonObject& object) {
     }
     if (object.has("shapes")) {
         for (const std::string& name : object.texts("shapes")) {
-            const auto found = shape_names().find(name);
-            if (found == shape_names().end()) {
-                std::string list;
-                for (const auto& [known, shape] : shape_names()) {
-                    list += (list.empty() ? "" : ", ") + known;
-                }
-                object.fail("shapes", "has no shape '" + name + "'; there are " + list);
-            }
-            selection.shapes.push_back(found->second);
+            selection.shapes.push_back(read_shape(object, name));
         }
     }
     if (object.has("orders")) {

@@ -1,7 +1,7 @@
 #include <core/scene/write/write_parts.hpp>
 
 #include <core/base/error.hpp>
-#include <elvis/element.h>
+#include <elvis/native/space.hpp>
 
 #include <type_traits>
 
@@ -11,23 +11,6 @@ namespace {
 
 template <class... Functions> struct Overloaded : Functions... { using Functions::operator()...; };
 template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions...>;
-
-const char* shape_name(std::uint32_t shape) {
-    switch (shape) {
-    case ELVIS_SHAPE_HEXAHEDRON:
-        return "hexahedron";
-    case ELVIS_SHAPE_PRISM:
-        return "prism";
-    case ELVIS_SHAPE_PYRAMID:
-        return "pyramid";
-    case ELVIS_SHAPE_TETRAHEDRON:
-        return "tetrahedron";
-    case ELVIS_SHAPE_QUADRILATERAL:
-        return "quadrilateral";
-    default:
-        return "triangle";
-    }
-}
 
 void add_groups(SceneJson& json, const BoundaryFaces& boundary) {
     if (!boundary.groups.empty()) {
@@ -40,7 +23,7 @@ void add_selection(SceneJson& json, const ElementSelection& selection) {
         json["ids"].push_back(first == last ? SceneJson(first) : SceneJson{first, last});
     }
     for (const std::uint32_t shape : selection.shapes) {
-        json["shapes"].push_back(shape_name(shape));
+        json["shapes"].push_back(native::name(native::Shape{shape}));
     }
     if (selection.orders) {
         json["orders"] = *selection.orders;

@@ -1,11 +1,14 @@
+#include <core/base/vector3.hpp>
 #include <core/volume/boundary/edge_set.hpp>
 #include <core/volume/element/chebyshev.hpp>
-#include <core/volume/element/reference_corners.hpp>
+
+#include <elvis/native/space.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 namespace elvis {
@@ -24,15 +27,28 @@ struct Parameters {
 struct LocalEdge {
     std::uint32_t element = 0;
     std::uint32_t number = 0;
-    std::array<double, 3> origin{};
-    std::array<double, 3> from{}, to{};
+    Vector3 origin{};
+    Vector3 from{}, to{};
 };
+
+/** Of a face, in order around it; none of a face that the shape lacks. An element in two dimensions is a face itself. */
+std::vector<int> corners_around(native::Shape shape, std::uint32_t local_face) {
+    if (native::dimension(shape) == 2) {
+        std::vector<int> corners(static_cast<std::size_t>(native::n_corners(shape)));
+        std::iota(corners.begin(), corners.end(), 0);
+        return corners;
+    }
+    const int face = static_cast<int>(local_face);
+    const auto corners = face < native::n_faces(shape) ? native::face_corners(shape, face) : std::span<const int>();
+    return {corners.begin(), corners.end()};
+}
 
 /** Of the faces of one class, each edge of an element once. */
 std::vector<LocalEdge> local_edges(const ClassInfo& info, const RuntimeVolume& volume, const DeviceVolume& data,
                                    std::span<const ElementFace> faces) {
+    const native::Shape shape{info.shape};
     std::vector<LocalEdge> edges;
-    std::set<std::array<char, 2>> of_element;
+    std::set<std::array<int, 2>> of_element;
     std::uint64_t element = 0;
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const ElementFace& face = faces[i];
@@ -40,17 +56,16 @@ std::vector<LocalEdge> local_edges(const ClassInfo& info, const RuntimeVolume& v
             of_element.clear();
             element = face.element;
         }
-        const std::string_view corners = face_corners(info.shape, face.local_face);
+        const std::vector<int> corners = corners_around(shape, face.local_face);
         for (std::size_t k = 0; k < corners.size(); ++k) {
-            std::array<char, 2> ends = {corners[k], corners[(k + 1) % corners.size()]};
+            std::array<int, 2> ends = {corners[k], corners[(k + 1) % corners.size()]};
             std::ranges::sort(ends);
             if (of_element.insert(ends).second) {
                 std::array<std::int64_t, 1> number{};
                 volume.element_numbers(element, 1, number);
                 edges.push_back({static_cast<std::uint32_t>(element - info.first_element),
-                                 static_cast<std::uint32_t>(number[0]), data.origin(element),
-                                 reference_corner(info.shape, static_cast<std::uint32_t>(ends[0] - '0')),
-                                 reference_corner(info.shape, static_cast<std::uint32_t>(ends[1] - '0'))});
+                                 static_cast<std::uint32_t>(number[0]), data.origin(element), native::corner(shape, ends[0]),
+                                 native::corner(shape, ends[1])});
             }
         }
     }

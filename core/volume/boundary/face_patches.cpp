@@ -181,8 +181,7 @@ void append(const Square& square, const FaceShape& shape, std::uint32_t face, in
 
 } // namespace
 
-void append_patches(const FaceShape& shape, std::uint32_t face, int max_level, const std::array<double, 3>& centre,
-                    FacePatches& patches) {
+void append_patches(const FaceShape& shape, std::uint32_t face, int max_level, const Vector3& centre, FacePatches& patches) {
     append({0, 0, 0, shape.is_triangle}, shape, face, max_level, centre, patches);
 }
 

@@ -5,6 +5,8 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -39,7 +41,6 @@ struct FaceShape {
  * |T_n'| <= n^2, |T_n''| <= n^2 (n^2 - 1) / 3 on [-1, 1]; they hold for the face as a polynomial. `centre`: what the records'
  * coordinates are relative to.
  */
-void append_patches(const FaceShape& shape, std::uint32_t face, int max_level, const std::array<double, 3>& centre,
-                    FacePatches& patches);
+void append_patches(const FaceShape& shape, std::uint32_t face, int max_level, const Vector3& centre, FacePatches& patches);
 
 } // namespace elvis

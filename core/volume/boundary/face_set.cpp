@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/volume/boundary/face_fit.hpp>
 #include <core/volume/boundary/face_patches.hpp>
 #include <core/volume/boundary/face_samples.hpp>
@@ -150,7 +151,7 @@ FaceSet::ClassFaces class_faces(const Device& device, const RuntimeVolume& volum
         }
         coefficients.assign(fitted.coefficients.begin() + static_cast<std::ptrdiff_t>(face * stride),
                             fitted.coefficients.begin() + static_cast<std::ptrdiff_t>((face + 1) * stride));
-        const std::array<double, 3> origin = data.origin(faces[face].element);
+        const Vector3 origin = data.origin(faces[face].element);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             coefficients[axis] += origin[axis];
         }

@@ -1,5 +1,7 @@
 #include <core/volume/field/field_extrema.hpp>
 
+#include <core/base/vector3.hpp>
+
 #include <elvis/native/space.hpp>
 
 #include <algorithm>
@@ -194,7 +196,7 @@ void Search::look(std::uint64_t element, std::span<const Point> etas, bool with_
 /** How far the objective may be, in the box, from its value at the point looked at, which is the box's middle. */
 double Search::reach(std::uint64_t element, std::size_t point, const Box& box) const {
     const native::Shape shape = shape_of(element);
-    std::array<double, 3> r{};
+    Vector3 r{};
     // xi is affine in each collapsed coordinate: the corners' images reach furthest.
     for (unsigned corner = 0; corner < 8; ++corner) {
         Point eta = box.middle;

@@ -1,3 +1,4 @@
+#include <core/base/vector3.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/volume/isosurface/isovalue_set.hpp>
 
@@ -51,7 +52,7 @@ std::vector<std::uint32_t> node_words(const Hierarchy& hierarchy) {
 }
 
 /** Whether an octant with this lower corner shares more than an edge with the shape. */
-bool is_in_shape(elvis_shape shape, const std::array<double, 3>& corner) {
+bool is_in_shape(elvis_shape shape, const Vector3& corner) {
     switch (shape) {
     case ELVIS_SHAPE_TETRAHEDRON:
         return corner[0] + corner[1] + corner[2] < -1;
@@ -69,7 +70,7 @@ void add_octants(std::vector<std::uint32_t>& elements_and_codes, std::uint32_t e
     const double side = 2.0 / (1u << level);
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
         std::uint32_t its_code = level;
-        std::array<double, 3> corner{};
+        Vector3 corner{};
         for (std::uint32_t k = 0; k < 3; ++k) {
             const std::uint32_t shift = 3 + k * octant_place_bits;
             const std::uint32_t place = 2 * ((code >> shift) & ((1u << octant_place_bits) - 1)) + (octant >> k & 1u);

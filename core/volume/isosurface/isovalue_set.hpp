@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/isosurface/linear_models.hpp>
@@ -75,7 +76,7 @@ private:
     const Device& m_device;
     const RuntimeVolume& m_volume;
     Precision m_precision;
-    std::array<double, 3> m_centre;
+    Vector3 m_centre;
     LinearModels m_models;
     std::vector<ClassOctants> m_classes;
     ScalarComponent m_component{0, 0};

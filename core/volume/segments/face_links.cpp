@@ -1,5 +1,7 @@
 #include <core/volume/segments/face_links.hpp>
 
+#include <elvis/native/space.hpp>
+
 #include <algorithm>
 #include <span>
 
@@ -10,21 +12,6 @@ namespace {
 constexpr std::uint64_t faces_a_block = 1u << 16;
 
 } // namespace
-
-std::uint32_t n_faces_of(elvis_shape shape) {
-    switch (shape) {
-    case ELVIS_SHAPE_HEXAHEDRON:
-        return 6;
-    case ELVIS_SHAPE_TETRAHEDRON:
-        return 4;
-    case ELVIS_SHAPE_QUADRILATERAL:
-        return 4;
-    case ELVIS_SHAPE_TRIANGLE:
-        return 3;
-    default:
-        return 5;
-    }
-}
 
 std::vector<std::vector<std::uint32_t>> read_face_links(const RuntimeVolume& volume) {
     std::vector<std::vector<std::uint32_t>> links;
@@ -60,7 +47,8 @@ std::vector<std::vector<std::uint32_t>> read_face_links(const RuntimeVolume& vol
 }
 
 bool has_open_face(const std::vector<std::uint32_t>& links, const ClassInfo& info, std::uint64_t local_element) {
-    const auto own = std::span(links).subspan(links_an_element * local_element, n_faces_of(info.shape));
+    const auto own = std::span(links).subspan(links_an_element * local_element,
+                                              static_cast<std::size_t>(native::n_faces(native::Shape{info.shape})));
     return std::ranges::find(own, no_link) != own.end();
 }
 

@@ -16,8 +16,6 @@ constexpr std::uint32_t no_link = 0xffffffffu;
 /** Words of an element; the last has room for something else. */
 constexpr std::uint32_t links_an_element = 8;
 
-std::uint32_t n_faces_of(elvis_shape shape);
-
 /** For each class, and in it by local element and local face: the neighbour among all elements of the volume. */
 std::vector<std::vector<std::uint32_t>> read_face_links(const RuntimeVolume& volume);
 

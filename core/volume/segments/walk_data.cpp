@@ -2,6 +2,7 @@
 
 #include <core/volume/segments/face_cones.hpp>
 #include <core/volume/segments/face_links.hpp>
+#include <elvis/native/space.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -94,9 +95,10 @@ void WalkData::keep_only(std::vector<std::vector<bool>> kept) {
         walk.is_open.resize(info.n_elements);
         const std::span<const float> curvatures = m_data.curvatures(index);
         const bool is_cut = m_volume.is_cut(index);
+        const auto n_faces = static_cast<std::size_t>(native::n_faces(native::Shape{info.shape}));
         for (std::uint64_t element = 0; element < info.n_elements; ++element) {
             const auto own = std::span(links[index]).subspan(links_an_element * element, links_an_element);
-            for (std::uint32_t& link : own.first(is_all ? 0 : n_faces_of(info.shape))) {
+            for (std::uint32_t& link : own.first(is_all ? 0 : n_faces)) {
                 link = link != no_link && is_kept(link) ? link : no_link;
             }
             walk.is_open[element] = is_cut || has_open_face(links[index], info, element);

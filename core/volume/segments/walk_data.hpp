@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/vector3.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/shader/composer.hpp>
@@ -20,9 +21,9 @@ namespace elvis {
 
 /** A point, and in a parallel view the plane across it that all rays begin in. */
 struct ViewStart {
-    std::array<double, 3> eye{};
+    Vector3 eye{};
     /** Of unit length; none of a perspective view. */
-    std::optional<std::array<double, 3>> direction;
+    std::optional<Vector3> direction;
 
     bool operator==(const ViewStart&) const = default;
 };
@@ -70,7 +71,7 @@ private:
 
     const RuntimeVolume& m_volume;
     const DeviceVolume& m_data;
-    std::array<double, 3> m_centre;
+    Vector3 m_centre;
     std::vector<ClassWalk> m_classes;
     std::optional<ViewStart> m_start;
     bool m_is_anywhere = false;

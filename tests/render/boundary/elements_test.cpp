@@ -16,11 +16,6 @@
 namespace elvis::oracle {
 namespace {
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 FrameRequest request_for(const SurfaceGeometry& geometry, const Vector3& eye, std::uint32_t size) {
     FrameRequest request;
     request.width = request.height = size;

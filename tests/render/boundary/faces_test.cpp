@@ -15,11 +15,6 @@ namespace {
 
 using native::Shape;
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 // The square [-1,1]^2, n cells a side, each a quadrilateral or two triangles, as maps into the plane z = 0.
 std::vector<Map> square(Shape shape, int n) {
     std::vector<Map> maps;

@@ -10,11 +10,6 @@
 
 namespace elvis::oracle {
 
-const Device& surface_device() {
-    static const Device the_device;
-    return the_device;
-}
-
 namespace {
 
 template <class Real>
@@ -54,19 +49,18 @@ LongVector at(const Ray& ray, long double t) { return ray.origin + t * ray.direc
 } // namespace
 
 SurfaceScene::SurfaceScene(const std::string& path, Precision precision)
-    : m_precision(precision), m_volume(open_volume(path)), m_data(surface_device(), m_volume, precision, nullptr) {
+    : m_precision(precision), m_volume(open_volume(path)), m_data(device(), m_volume, precision, nullptr) {
     m_data.select(0, 0, {0.0});
-    m_pass.emplace(surface_device(), m_volume, m_data);
+    m_pass.emplace(device(), m_volume, m_data);
 }
 
 SurfacePicture SurfaceScene::draw(const SurfaceSolver& solver, const CutShape& shape, const Camera& camera, std::uint32_t width,
                                   std::uint32_t height, const std::vector<double>& beyond, bool shows_outside) {
     const std::size_t n = std::size_t{width} * height;
-    const Device& device = surface_device();
-    const Layer layer(device, m_precision, width, height);
+    const Layer layer(device(), m_precision, width, height);
     std::optional<Buffer> behind;
     if (!beyond.empty()) {
-        behind.emplace(device, n * real_bytes(m_precision));
+        behind.emplace(device(), n * real_bytes(m_precision));
         write_reals(*behind, m_precision, beyond);
     }
     layer.marks.fill(0);
@@ -224,7 +218,7 @@ void check_no_gaps(const std::string& volume, const CutShape& shape, const Eigen
     camera.height = height;
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         SurfaceScene scene(volume, precision);
-        const SurfaceSolver solver(surface_device(), precision, shape);
+        const SurfaceSolver solver(device(), precision, shape);
         const SurfacePicture picture = scene.draw(solver, shape, camera, side, side);
         std::size_t missed = 0, undecided = 0;
         for (std::size_t pixel = 0; pixel < picture.element.size(); ++pixel) {

@@ -19,8 +19,6 @@
 
 namespace elvis::oracle {
 
-const Device& surface_device();
-
 /** In place of an element where the surface lies in none and that is shown. */
 inline constexpr std::int64_t outside_element = -2;
 

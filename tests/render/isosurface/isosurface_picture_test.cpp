@@ -16,11 +16,6 @@
 namespace elvis::oracle {
 namespace {
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 FieldChoice expression(const RuntimeVolume& volume, const std::string& text) {
     FieldChoice choice;
     choice.expression = std::make_shared<const Expression>(text, volume.fields(), volume.dimension());

@@ -13,11 +13,6 @@
 namespace elvis::oracle {
 namespace {
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 Camera camera_at(const Vector3& eye, double field_of_view) {
     Camera camera;
     camera.eye = eye;

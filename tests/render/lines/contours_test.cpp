@@ -15,11 +15,6 @@ namespace {
 
 using native::Shape;
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 constexpr std::uint32_t size = 160;
 
 VolumeData volume_of(bool is_curved, std::uint32_t order, const Function& function) {

@@ -12,11 +12,6 @@ namespace {
 
 using native::Shape;
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 constexpr double mild = 0.2;
 
 // Range of x - bend y^2 over the quadrilateral: its extremes lie on the sides, where it is quadratic.

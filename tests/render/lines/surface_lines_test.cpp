@@ -17,11 +17,6 @@ namespace {
 
 using native::Shape;
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 constexpr std::uint32_t size = 120;
 
 FrameRequest view() {
@@ -113,12 +108,8 @@ std::optional<LongVector> cube_point(const Ray& ray) {
     return ray.origin + enter * ray.direction;
 }
 
-} // namespace
-
-TEST_CASE("lines on a sphere are those of its points, or marked undecided") {
-    const TemporaryFile file("sphere_lines.h5");
-    write_volume(file.path(), cube_volume(4));
-    const RuntimeVolume volume = open_volume(file.path());
+/** A sphere with a contour of z + 0.3 x and with mesh lines. */
+FrameRequest sphere_view() {
     FrameRequest request = view();
     Surface surface;
     surface.geometry = CutShape{Sphere{{0.5, 0.5, 0.5}, 0.4}};
@@ -126,29 +117,41 @@ TEST_CASE("lines on a sphere are those of its points, or marked undecided") {
     surface.contours = Contours{{0.7}, {}};
     surface.mesh_lines.emplace();
     request.surfaces = {surface};
-    const LongVector centre(0.5L, 0.5L, 0.5L);
+    return request;
+}
+
+std::optional<LongVector> on_sphere(const Ray& ray) { return sphere_point(ray, LongVector(0.5L, 0.5L, 0.5L), 0.4L); }
+
+/** What is zero on the contour. */
+std::optional<double> contour_on_sphere(const Ray& ray) {
+    const auto x = on_sphere(ray);
+    return x ? std::optional(static_cast<double>(x->z() + 0.3L * x->x() - 0.7L)) : std::nullopt;
+}
+
+std::optional<double> element_on_sphere(const Ray& ray) {
+    const auto x = on_sphere(ray);
+    return x ? std::optional(
+                   static_cast<double>(std::floor(4 * x->x()) + 10 * std::floor(4 * x->y()) + 100 * std::floor(4 * x->z())))
+             : std::nullopt;
+}
+
+} // namespace
+
+TEST_CASE("lines on a sphere are those of its points, or marked undecided") {
+    const TemporaryFile file("sphere_lines.h5");
+    write_volume(file.path(), cube_volume(4));
+    const RuntimeVolume volume = open_volume(file.path());
+    const FrameRequest request = sphere_view();
     for (const Precision precision : {Precision::float64, Precision::float32}) {
         Renderer renderer(device(), volume, precision);
         const Frame frame = renderer.render(request);
-        const Counts contours = compare_lines(
-            request, frame, pixel_flag::contour, pixel_flag::contour_undecided,
-            [&](const Ray& ray) -> std::optional<double> {
-                const auto x = sphere_point(ray, centre, 0.4L);
-                return x ? std::optional(static_cast<double>(x->z() + 0.3L * x->x() - 0.7L)) : std::nullopt;
-            },
-            true);
+        const Counts contours =
+            compare_lines(request, frame, pixel_flag::contour, pixel_flag::contour_undecided, contour_on_sphere, true);
         report("contours on a sphere", contours);
         // Where the surface is seen edge on.
         CHECK(contours.undecided <= contours.hit / 10);
-        const Counts lines = compare_lines(
-            request, frame, pixel_flag::mesh_line, pixel_flag::mesh_line_undecided,
-            [&](const Ray& ray) -> std::optional<double> {
-                const auto x = sphere_point(ray, centre, 0.4L);
-                return x ? std::optional(static_cast<double>(std::floor(4 * x->x()) + 10 * std::floor(4 * x->y()) +
-                                                             100 * std::floor(4 * x->z())))
-                         : std::nullopt;
-            },
-            false);
+        const Counts lines =
+            compare_lines(request, frame, pixel_flag::mesh_line, pixel_flag::mesh_line_undecided, element_on_sphere, false);
         report("mesh lines on a sphere", lines);
         CHECK(lines.undecided <= lines.hit / 8);
     }
@@ -244,26 +247,7 @@ void check_limits(const char* name, FrameRequest request, const RuntimeVolume& v
 TEST_CASE("more subdivision leaves fewer pixels undecided on a sphere, at its silhouette, too") {
     const TemporaryFile file("sphere_limits.h5");
     write_volume(file.path(), cube_volume(4));
-    FrameRequest request = view();
-    Surface surface;
-    surface.geometry = CutShape{Sphere{{0.5, 0.5, 0.5}, 0.4}};
-    surface.colors.points = {{0, {0, 0, 0}}, {2, {1, 1, 1}}};
-    surface.contours = Contours{{0.7}, {}};
-    surface.mesh_lines.emplace();
-    request.surfaces = {surface};
-    const LongVector centre(0.5L, 0.5L, 0.5L);
-    check_limits(
-        "sphere", request, open_volume(file.path()),
-        [&](const Ray& ray) -> std::optional<double> {
-            const auto x = sphere_point(ray, centre, 0.4L);
-            return x ? std::optional(static_cast<double>(x->z() + 0.3L * x->x() - 0.7L)) : std::nullopt;
-        },
-        [&](const Ray& ray) -> std::optional<double> {
-            const auto x = sphere_point(ray, centre, 0.4L);
-            return x ? std::optional(static_cast<double>(std::floor(4 * x->x()) + 10 * std::floor(4 * x->y()) +
-                                                         100 * std::floor(4 * x->z())))
-                     : std::nullopt;
-        });
+    check_limits("sphere", sphere_view(), open_volume(file.path()), contour_on_sphere, element_on_sphere);
 }
 
 TEST_CASE("more subdivision leaves fewer pixels undecided on the boundary of a ball, at its silhouette, too") {

@@ -1,4 +1,5 @@
 // Pictures that are cancelled leave no trace in the next ones.
+#include <core/base/milliseconds.hpp>
 #include <core/oracle/samples/meshes.hpp>
 #include <tests/support/test_volumes.hpp>
 
@@ -14,15 +15,6 @@ namespace elvis::oracle {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
 
 Surface lined(const SurfaceGeometry& geometry, double opacity) {
     Surface surface;

@@ -12,11 +12,6 @@
 namespace elvis::oracle {
 namespace {
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 /** The box [-1, 1]^3 with the field |x|^2, which elements of order 2 hold exactly. */
 void write_box(const std::string& shape, const std::string& path) {
     generate(R"({"generator": 1, "mesh": "box", "shape": ")" + shape +

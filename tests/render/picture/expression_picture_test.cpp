@@ -16,11 +16,6 @@
 namespace elvis::oracle {
 namespace {
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 double wavy(const Vector& x) { return std::sin(3 * x.x()) * std::cos(2 * x.y()) + std::sin(2.5 * x.z() + x.x() * x.y()); }
 
 /** World gradient by differences of sixth order along xi: 1e-12 of it; steps are short because functions of pyramids are

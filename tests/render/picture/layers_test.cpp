@@ -12,11 +12,6 @@
 namespace elvis::oracle {
 namespace {
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 Surface plane(double z, const std::array<double, 3>& rgb, double opacity) {
     Surface surface;
     surface.geometry = CutPlane{{0, 0, 1, -z}};

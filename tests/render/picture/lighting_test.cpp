@@ -16,11 +16,6 @@ namespace {
 
 using native::Shape;
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 Vector vector_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 // The formula of core/render/picture/lighting.hpp, written down again.

@@ -15,11 +15,6 @@ namespace {
 
 using native::Shape;
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 // Draws a plane in both precisions and checks the promises; `size` pixels wide and high.
 void check_plane(const std::string& name, VolumeData data, const CutPlane& plane, std::uint32_t size, double tilt = 17) {
     const TemporaryFile file("picture.h5");

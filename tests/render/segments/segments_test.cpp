@@ -14,11 +14,6 @@ namespace {
 
 using native::Shape;
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 double first_coordinate(const Vector& x) { return x.x(); }
 
 void check(const std::string& path, Precision precision, std::size_t n_rays) {

@@ -15,11 +15,6 @@
 namespace elvis::oracle {
 namespace {
 
-const Device& device() {
-    static const Device the_device;
-    return the_device;
-}
-
 const Vector box_lower(-1, -1, -2), box_upper(1, 1, 4);
 
 std::string box(const std::string& shape, const std::array<int, 3>& n) {

@@ -2,6 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/base/memory.hpp>
+#include <core/base/milliseconds.hpp>
 
 #include <utility>
 
@@ -11,10 +12,6 @@ namespace {
 
 /** Without work for so long, the thread finds the time to give memory back. */
 constexpr std::chrono::milliseconds rest_before_tidying{200};
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 } // namespace
 

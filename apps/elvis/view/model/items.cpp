@@ -2,6 +2,7 @@
 
 #include <apps/elvis/render/surface_names.hpp>
 
+#include <core/base/bounds.hpp>
 #include <core/base/vector3.hpp>
 #include <core/scene/color/color_map.hpp>
 #include <core/scene/resolve.hpp>
@@ -60,18 +61,13 @@ template <class T> T copied_after(std::vector<T>& list, std::size_t index) {
     return copy;
 }
 
-Vector3 middle_of(const VolumeFacts& volume) {
-    const auto& b = volume.bounds;
-    return {0.5 * (b[0] + b[3]), 0.5 * (b[1] + b[4]), 0.5 * (b[2] + b[5])};
-}
-
 double least_extent(const VolumeFacts& volume) {
     const auto& b = volume.bounds;
     return std::max(std::min({b[3] - b[0], b[4] - b[1], b[5] - b[2]}), 1e-6 * volume.diagonal());
 }
 
 SurfaceGeometry new_geometry(const VolumeFacts& volume, NewItem item, double value) {
-    const Vector3 middle = middle_of(volume);
+    const Vector3 middle = middle_of(volume.bounds);
     const double extent = least_extent(volume);
     const Vector3 along = {0, 0, 0.35 * extent};
     switch (item) {
@@ -282,7 +278,7 @@ ItemId add(Scene& scene, const VolumeFacts& volume, NewItem item, double middle)
         Light light;
         if (item == NewItem::point_light) {
             light.type = Light::Type::point;
-            light.vector = plus(middle_of(volume), scaled(unit({1, 1, 1}), volume.diagonal()));
+            light.vector = plus(middle_of(volume.bounds), scaled(unit({1, 1, 1}), volume.diagonal()));
         } else {
             light.vector = {-1, -1, -1};
         }

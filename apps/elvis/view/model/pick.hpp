@@ -4,7 +4,8 @@
  */
 #pragma once
 
-#include <array>
+#include <core/base/vector3.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,15 +16,15 @@ namespace elvis::view {
 struct Picked {
     /** Nothing was hit: then the rest is empty. */
     bool is_hit = false;
-    std::array<double, 3> position{};
+    Vector3 position{};
     double depth = 0;
-    std::array<double, 3> normal{};
+    Vector3 normal{};
     /** Of the field that the surface shows, as drawn. */
     double shown_value = 0;
 
     /** Number of the element, as people know it; none outside of the volume. */
     std::optional<std::int64_t> element;
-    std::array<double, 3> xi{};
+    Vector3 xi{};
     /** Determinant of the mapping's Jacobian, with columns of unit length, and the largest order of the first field. */
     std::optional<double> jacobian, scaled_jacobian, order;
     struct Field {

@@ -2,7 +2,10 @@
 
 #include "camera_motion.hpp"
 
+#include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
+#include <core/base/milliseconds.hpp>
+#include <core/base/vector3.hpp>
 #include <core/expression/expression.hpp>
 #include <core/scene/default_surfaces.hpp>
 #include <core/scene/frame_request.hpp>
@@ -24,10 +27,6 @@ namespace elvis::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 AnnotationPlan annotation_of(const Scene& scene, const FrameRequest& request, const Frame& frame, const RuntimeVolume& volume) {
     return scene.annotation ? plan_annotation(request.width, request.height,
@@ -175,9 +174,9 @@ bool Session::probe(const Ray& ray, std::uint32_t time_step, Picked& picked) {
     }
     // A point of the boundary may be outside by what single precision is off: then a little deeper, or less deep.
     const std::array<double, 6> bounds = m_renderer->bounds();
-    const double diagonal = std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]);
+    const double diagonal = diagonal_of(bounds);
     for (const double shift : {0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4}) {
-        const std::array<double, 3> position = ray.at(picked.depth + shift * diagonal);
+        const Vector3 position = ray.at(picked.depth + shift * diagonal);
         const ProbedPoint point = m_prober->probe(std::span(&position, 1), time_step, expressions).front();
         if (!point.element) {
             continue;

@@ -1,13 +1,13 @@
 #include "volume_facts.hpp"
 
+#include <core/base/bounds.hpp>
 #include <core/plugin_host/plugin.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace elvis::view {
 
-double VolumeFacts::diagonal() const { return std::hypot(bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]); }
+double VolumeFacts::diagonal() const { return diagonal_of(bounds); }
 
 VolumeFacts facts_of(const RuntimeVolume& volume, Renderer& renderer) {
     VolumeFacts facts;
@@ -28,25 +28,6 @@ VolumeFacts facts_of(const RuntimeVolume& volume, Renderer& renderer) {
         }
     }
     return facts;
-}
-
-const char* shape_name(std::uint32_t shape) {
-    switch (shape) {
-    case ELVIS_SHAPE_HEXAHEDRON:
-        return "hexahedron";
-    case ELVIS_SHAPE_PRISM:
-        return "prism";
-    case ELVIS_SHAPE_PYRAMID:
-        return "pyramid";
-    case ELVIS_SHAPE_TETRAHEDRON:
-        return "tetrahedron";
-    case ELVIS_SHAPE_QUADRILATERAL:
-        return "quadrilateral";
-    case ELVIS_SHAPE_TRIANGLE:
-        return "triangle";
-    default:
-        return "other";
-    }
 }
 
 } // namespace elvis::view

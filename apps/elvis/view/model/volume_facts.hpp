@@ -34,7 +34,4 @@ struct VolumeFacts {
 
 VolumeFacts facts_of(const RuntimeVolume& volume, Renderer& renderer);
 
-/** "hexahedron", as scenes call it. */
-const char* shape_name(std::uint32_t shape);
-
 } // namespace elvis::view

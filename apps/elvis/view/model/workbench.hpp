@@ -56,7 +56,6 @@ public:
     /** What is seen at a place of the picture. */
     void pick(const PicturePoint& place);
     const std::optional<Picked>& picked() const { return m_picked; }
-    void forget_picked() { m_picked.reset(); }
 
     /** Of a field or expression at the present time step; asked for when it is not known yet, and nothing until then. */
     std::optional<FieldRange> range(const std::optional<std::string>& field);
@@ -86,8 +85,6 @@ public:
     bool is_settled() const;
     /** What is being done: "drawing", "opening"; empty if nothing. */
     std::string activity() const;
-    /** The last picture could not be drawn, because of this. */
-    const std::string& drawing_error() const { return m_drawing_error; }
     const MotionStatistics& motion() const { return m_motion; }
     CancelTimes cancel_times() const { return m_worker.cancel_times(); }
 

@@ -1,6 +1,7 @@
 #include "panels.hpp"
 
 #include <core/base/vector3.hpp>
+#include <elvis/native/space.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -190,7 +191,8 @@ bool edit(Ui& ui, ElementSelection& selection) {
         is_changed = true;
     }
     for (const std::uint32_t shape : ui.model().volume()->shapes) {
-        is_changed = check_member(ui, std::string("elements/") + shape_name(shape), shape_name(shape), selection.shapes, shape,
+        const std::string name(native::name(native::Shape{shape}));
+        is_changed = check_member(ui, "elements/" + name, name.c_str(), selection.shapes, shape,
                                   "Elements of the shapes that are marked; without any mark, of all shapes") ||
                      is_changed;
     }

@@ -146,20 +146,6 @@ constexpr TrianglePoint electrostatic_12[] = {
     {-0.8080229728, 0.7430814746000001}, {-0.959144379, 0.9182887580000001}
 };
 
-constexpr TrianglePoint fekete_2[] = {
-    {-1, -1}, {1, -1}, {-1, 1}
-};
-
-constexpr TrianglePoint fekete_3[] = {
-    {-1, -1}, {1, -1}, {-1, 1}, {0, -1}, {0, 0}, {-1, 0}
-};
-
-constexpr TrianglePoint fekete_4[] = {
-    {-1, -1}, {1, -1}, {-1, 1}, {-0.44721359540000005, -1}, {0.44721359540000005, -1},
-    {0.44721359540000005, -0.44721359540000005}, {-0.44721359540000005, 0.44721359540000005}, {-1, 0.44721359540000005},
-    {-1, -0.44721359540000005}, {-0.33333333340000004, -0.33333333340000004}
-};
-
 constexpr TrianglePoint fekete_5[] = {
     {-1, -1}, {1, -1}, {-1, 1}, {-0.6546536707999999, -1}, {0, -1}, {0.6546536707999999, -1},
     {0.6546536707999999, -0.6546536707999999}, {0, 0}, {-0.6546536707999999, 0.6546536707999999}, {-1, 0.6546536707999999},
@@ -277,8 +263,10 @@ constexpr std::span<const TrianglePoint> electrostatic[] = {{},
                                                             electrostatic_10,
                                                             electrostatic_11,
                                                             electrostatic_12};
-constexpr std::span<const TrianglePoint> fekete[] = {{},       {},       fekete_2, fekete_3,  fekete_4, fekete_5, fekete_6,
-                                                     fekete_7, fekete_8, fekete_9, fekete_10, {},       fekete_12};
+// The first ones are the electrostatic points.
+constexpr std::span<const TrianglePoint> fekete[] = {{},        {},       electrostatic_2, electrostatic_3, electrostatic_4,
+                                                     fekete_5,  fekete_6, fekete_7,        fekete_8,        fekete_9,
+                                                     fekete_10, {},       fekete_12};
 
 std::vector<TrianglePoint> evenly_spaced(std::uint32_t n) {
     const double step = 2.0 / (n - 1);

@@ -3,6 +3,7 @@
 
 #include <core/volume/segments/face_links.hpp>
 #include <core/volume/segments/walk_data.hpp>
+#include <elvis/native/space.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -15,7 +16,7 @@ namespace {
 
 std::size_t n_open_faces(const std::vector<std::uint32_t>& links, const ClassInfo& info, std::uint64_t element) {
     const auto begin = links.begin() + static_cast<std::ptrdiff_t>(links_an_element * element);
-    return static_cast<std::size_t>(std::count(begin, begin + n_faces_of(info.shape), no_link));
+    return static_cast<std::size_t>(std::count(begin, begin + native::n_faces(native::Shape{info.shape}), no_link));
 }
 
 /** A box of so many elements along each side, and where rays start in it. */
@@ -71,7 +72,7 @@ TEST_CASE("links lead back, from one element class to another too") {
         const ClassInfo& info = volume.classes()[index];
         for (std::uint64_t element = 0; element < info.n_elements; ++element) {
             CHECK(has_open_face(links[index], info, element) == (n_open_faces(links[index], info, element) > 0));
-            for (std::uint32_t face = 0; face < n_faces_of(info.shape); ++face) {
+            for (int face = 0; face < native::n_faces(native::Shape{info.shape}); ++face) {
                 const std::uint32_t link = links[index][links_an_element * element + face];
                 if (link == no_link) {
                     continue;

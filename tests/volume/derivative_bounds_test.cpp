@@ -1,8 +1,8 @@
 /*
  * Estimated bounds of derivatives, for plugins that give none.
  */
-#include "bound_rows.hpp"
-#include "checked_snippet.hpp"
+#include "../defaults/bound_rows.hpp"
+#include "../defaults/checked_snippet.hpp"
 
 #include <core/plugin_host/plugin.hpp>
 
@@ -58,13 +58,13 @@ TEST_CASE("estimated bounds hold what is sampled elsewhere, are labelled, and ar
     const auto n_elements = static_cast<std::uint32_t>(volume.n_elements());
     for (const Precision precision : {Precision::float64, Precision::float32}) {
         for (std::uint32_t field = 0; field < 3; ++field) {
-            DeviceVolume exact(test::device(), volume, Precision::float64, nullptr);
+            DeviceVolume exact(test::validated_device(), volume, Precision::float64, nullptr);
             exact.select(field, 0, {0});
             const auto wanted = sampled(exact, n_elements);
-            DeviceVolume data(test::device(), volume, precision, nullptr);
+            DeviceVolume data(test::validated_device(), volume, precision, nullptr);
             data.select(field, 0, {0});
             data.provide_derivative_bounds();
-            const auto rows = test::bound_rows(test::device(), data, 0, n_elements, 1);
+            const auto rows = test::bound_rows(test::validated_device(), data, 0, n_elements, 1);
             std::array<double, 3> least{1e300, 1e300, 1e300}, largest{};
             for (std::size_t element = 0; element < n_elements; ++element) {
                 CHECK(rows[element][3] == 1);
@@ -92,14 +92,14 @@ TEST_CASE("bounds are those of the selected field, whatever was selected before"
         data.select(field, 0, std::vector<double>(volume.fields()[field].n_components, 0.0));
         data.provide_derivative_bounds();
         data.provide_derivative_bounds();
-        return test::bound_rows(test::device(), data, 0, n_elements, volume.fields()[field].n_components);
+        return test::bound_rows(test::validated_device(), data, 0, n_elements, volume.fields()[field].n_components);
     };
-    DeviceVolume one(test::device(), volume, Precision::float32, nullptr);
+    DeviceVolume one(test::validated_device(), volume, Precision::float32, nullptr);
     const auto first = rows_of(one, 0);
     const auto vector = rows_of(one, 3);
     CHECK(vector.size() == 3 * first.size());
     // Component 1 of the vector is the Gaussian of field 1.
-    DeviceVolume other(test::device(), volume, Precision::float32, nullptr);
+    DeviceVolume other(test::validated_device(), volume, Precision::float32, nullptr);
     const auto second = rows_of(other, 1);
     for (std::size_t element = 0; element < n_elements; ++element) {
         CHECK(vector[3 * element + 1][1] == Approx(second[element][1]).epsilon(1e-3));

@@ -1,5 +1,5 @@
 // Signs of Jacobians as the core sees them: from the native plugin, and from samples where a plugin bounds nothing.
-#include "volume_fixture.hpp"
+#include "../native_plugin/volume_fixture.hpp"
 
 #include <core/plugin_host/plugin.hpp>
 #include <core/volume/element/jacobian_check.hpp>

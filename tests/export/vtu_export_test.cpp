@@ -1,5 +1,5 @@
 // A volume that is exported and converted back is the same volume.
-#include "vtk_fixture.hpp"
+#include "../vtk/vtk_fixture.hpp"
 
 #include <catch2/catch.hpp>
 #include <core/base/error.hpp>
@@ -7,7 +7,6 @@
 #include <core/plugin_host/plugin.hpp>
 
 #include <cmath>
-#include <fstream>
 
 using namespace elvis;
 using Catch::Contains;
@@ -70,7 +69,7 @@ Difference round_trip(const std::string& text, std::uint32_t step = 0) {
     ExportOptions options;
     options.time_step = step;
     export_vtu(volume, vtu, options, {});
-    CHECK(folder.content().size() == 2);
+    CHECK(names_in(folder).size() == 2);
     const SourceVolume source = open_vtk({vtu});
     CHECK(source.times().front() == volume.times()[step]);
     const ConvertedVolume back(source);
@@ -125,7 +124,7 @@ TEST_CASE("what cannot be exported is refused and leaves nothing", "[vtk][export
         try {
             export_vtu(volume, folder.path("volume.vtu"), options, {});
         } catch (const Error& error) {
-            CHECK(folder.content().size() == 1);
+            CHECK(names_in(folder).size() == 1);
             return std::string(error.what());
         }
         return std::string("no failure");
@@ -140,7 +139,7 @@ TEST_CASE("what cannot be exported is refused and leaves nothing", "[vtk][export
     control.cancelled = true;
     const RuntimeVolume volume = native_volume(folder, description("box", "hexahedron", 1, 2, R"("field": "sphere")"));
     CHECK_THROWS_AS(export_vtu(volume, folder.path("volume.vtu"), {}, control), Cancelled);
-    CHECK(folder.content().size() == 1);
+    CHECK(names_in(folder).size() == 1);
 }
 
 TEST_CASE("MFEM's volume comes back from an export", "[vtk][export][data]") {
