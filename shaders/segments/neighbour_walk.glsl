@@ -1,20 +1,22 @@
 // From element to element through shared faces (segments/walk_state.glsl):
 //
-//     walk = where the ray has got to;
-//     goes = core_walk_begin(walk, its end, its status there)
-//     while (goes) {
-//         core_reach reach = core_walk_reach(ray, walk, segment): how far it is in the walk's next element
-//         the ray is in that element from walk.at to reach.leave, where what is settled already does not count
-//         core_walk_go_on(ray, walk, segment, reach, from): the next element
-//         core_walk_help(ray, walk, segment, flags)
-//         goes = core_walk_goes(walk)
+//     walk = core_walk_begin(state.walk, ...)
+//     while (core_walk_goes(walk)) {
+//         while (core_walk_goes(walk)) {
+//             core_reach reach = core_walk_reach(ray, walk, segment): the ray is in the element from walk.at to reach.leave;
+//             what is settled already, up to walk.done, does not count
+//             core_walk_go_on(ray, segment, reach, from, ..., walk): to the next element
+//             if (subgroupAny(core_walk_needs_help(walk))) break;
+//         }
+//         core_walk_help(ray, walk, segment)
 //     }
+//     state.walk = core_walk_end(walk)
 //
-// Few rays need help. The code for it is gone through for all of them where it stands, so kernels whose loops are long have another loop
-// inside, from which all lanes break when one needs it.
+// Few rays need help. All lanes go through its code where it stands, so that it stands outside of the inner loop, which all lanes leave
+// when one needs it.
 //
-// The kernel brings segments/segment.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
-// volume, which links are of; core_extent, the diagonal of the volume's bounds.
+// The kernel brings segments/segment.glsl; arithmetic/driver_limit.glsl; core_links; core_first_element and core_n_elements, the class's
+// among all elements of the volume, which links are of; core_extent, the diagonal of the volume's bounds; core_zero.
 
 #ifndef CORE_WALK_WALK
 #define CORE_WALK_WALK
@@ -129,16 +131,21 @@ bool core_is_own(uint element) { return element >= core_first_element && element
 
 bool core_walk_goes(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_own(walk.element); }
 
-// Whether the ray goes on here, at least to its end; `is_mine`: whether this class has to do with it at all. Behind `to` it has the
-// status `status_at_end`.
-bool core_walk_begin(inout core_walk walk, elvis_real to, uint status_at_end, out bool is_mine) {
-    const bool has_sought = walk.status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && walk.element == CORE_NO_ELEMENT;
-    is_mine = is_without || ((has_sought || walk.status == CORE_RAY_GOES) && core_is_own(walk.element));
+// Of a ray that ends at `to` and then has the status `status_at_end`. `is_ray`: false for lanes without a ray.
+core_walk core_walk_begin(core_walk_state state, bool is_ray, elvis_real to, uint status_at_end) {
+    const uint status = is_ray ? state.status : CORE_RAY_ENDS;
+    const bool has_sought = status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && state.element == CORE_NO_ELEMENT;
+    const bool is_mine = is_without || ((has_sought || status == CORE_RAY_GOES) && core_is_own(state.element));
     const bool begins = is_mine && has_sought && !is_without;
-    walk.start = begins ? walk.at : walk.start;
-    walk.start_element = begins ? walk.element : walk.start_element;
-    walk.status = is_without ? CORE_RAY_ENDS : is_mine && walk.at >= to ? status_at_end : begins ? CORE_RAY_GOES : walk.status;
-    return is_mine && walk.status == CORE_RAY_GOES;
+    return core_walk(state.done, state.at, begins ? state.at : state.start, begins ? state.element : state.start_element, state.element,
+                     is_without ? CORE_RAY_ENDS : is_mine && state.at >= to ? status_at_end : begins ? CORE_RAY_GOES : status,
+                     state.flags, is_mine, 0u, false, false, false, false);
+}
+
+core_walk_state core_walk_end(core_walk walk) {
+    const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = walk.status == CORE_RAY_SEEKS;
+    return core_walk_state(walk.done, seeks ? CORE_FAR : walk.at, walk.start, walk.start_element, seeks ? CORE_NO_ELEMENT : walk.element,
+                           is_cut_short ? CORE_RAY_ENDS : walk.status, walk.flags | (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u));
 }
 
 // A ray in the walk's next element.
@@ -146,8 +153,6 @@ struct core_reach {
     bool is_met;
     // Where it leaves; walk.at if the element is not met.
     elvis_real leave;
-    // CORE_FLAG_...
-    uint flags;
 };
 
 core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
@@ -174,13 +179,13 @@ core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core
     // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
     const elvis_real gap = segment.enter - walk.at - segment.enter_error;
     reach.is_met = ending == CORE_SEGMENT_FOUND && !walk.needs_roughly && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
-    reach.flags = reach.is_met && segment.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+    walk.flags |= reach.is_met && segment.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     reach.leave = reach.is_met ? max(segment.leave, walk.at) : walk.at;
     return reach;
 }
 
-// The next element, where the ray has left this one. `from`: up to where it was settled when it came in.
-void core_walk_go_on(core_traced_ray ray, inout core_walk walk, core_segment segment, core_reach reach, elvis_real from) {
+// To the next element, where the ray has left this one. `from`: up to where it was settled when it came in.
+void core_walk_go_on(core_traced_ray ray, core_segment segment, core_reach reach, elvis_real from, inout core_walk walk) {
     bool stays = walk.needs_roughly;
     walk.is_ahead = walk.is_ahead && stays;
     walk.at = stays ? walk.at : reach.leave;
@@ -197,10 +202,10 @@ void core_walk_go_on(core_traced_ray ray, inout core_walk walk, core_segment seg
 
 bool core_walk_needs_help(core_walk walk) { return walk.needs_roughly || walk.needs_element; }
 
-void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segment segment, inout uint flags) {
+void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
     if (walk.needs_roughly) {
         core_leave_roughly(ray, walk.at, segment);
-        flags |= CORE_FLAG_UNDECIDED;
+        walk.flags |= CORE_FLAG_UNDECIDED;
         walk.has_segment = true;
     }
     if (walk.needs_element) {
@@ -208,7 +213,7 @@ void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segmen
         uint other;
         bool is_lost;
         const uint found = core_find_around(ray, walk.element - core_first_element, probe, other, is_lost);
-        flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
+        walk.flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
         walk.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
         walk.at = probe;
         walk.is_ahead = true;

@@ -89,6 +89,15 @@ struct core_segment {
     uint iterations;
 };
 
+core_segment core_no_segment() {
+    core_segment segment;
+    segment.element = 0u;
+    segment.next = segment.anchor = segment.x = segment.y = segment.z = elvis_real(0);
+    segment.slope_x = segment.slope_y = segment.slope_z = elvis_real(0);
+    segment.iterations = 0u;
+    return segment;
+}
+
 elvis_vec3 core_segment_target(core_traced_ray ray, uint element, elvis_real t) {
     // elvis_origin is zero where the snippet's coordinates are the world's.
     return (CORE_CENTRE - elvis_origin(element)) + (ray.origin + t * ray.direction);

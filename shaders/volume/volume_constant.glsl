@@ -38,6 +38,6 @@ bool core_is_constant(elvis_vec2 range, inout core_held_piece held) {
 }
 
 void core_add_constant(inout core_light light, core_transfer_piece piece, elvis_real length) {
-    const elvis_real through = elvis_exp(-piece.density * length);
-    core_add_light(light, (elvis_real(1) - through) * piece.color, through);
+    const elvis_real transmittance = elvis_exp(-piece.density * length);
+    core_add_light(light, (elvis_real(1) - transmittance) * piece.color, transmittance);
 }
