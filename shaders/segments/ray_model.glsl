@@ -92,6 +92,8 @@ bool core_is_near(elvis_real curvature, elvis_real step) { return elvis_real(4) 
 
 struct core_ray_clip {
     elvis_real possible_from, possible_to, sure_from, sure_to, from, to;
+    // What is surely inside is known, and not empty.
+    bool is_sure;
     // The faces that bound from and to; CORE_NO_FACE where the interval does.
     int from_face, to_face;
 #if ELVIS_HAS_INSIDE

@@ -218,147 +218,72 @@ bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segmen
     return is_found;
 }
 
-// Before the entry: where the interval is open, and whether the ray enters in it.
-void core_seek_entry(core_traced_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_segment segment) {
-    const elvis_real begin = segment.begin, end = segment.end;
-    const bool is_nothing = clip.possible_from > clip.possible_to;
-    segment.last = end == segment.last ? (is_nothing ? begin : clip.possible_to) : segment.last;
-    const bool is_joined = clip.sure_to >= end && segment.known_from <= end;
-    segment.known_to = is_sure && !is_joined ? clip.sure_to : segment.known_to;
-    segment.known_from = is_sure ? clip.sure_from : segment.known_from;
-    const bool is_found = !is_nothing && is_sure && (is_exact || clip.sure_from - clip.possible_from <= ray.tolerance);
+#include "segments/segment_ends.glsl"
 
-    const elvis_real open_end = is_sure ? clip.sure_from : clip.possible_to;
-    const bool is_shrunk = open_end - clip.possible_from <= elvis_real(0.5LF) * (end - begin);
-    const elvis_real middle = elvis_real(0.5LF) * (clip.possible_from + open_end);
-    // Too short to matter, and not decided: left out.
-    const bool is_left_out = !is_nothing && !is_found && open_end - clip.possible_from <= ray.tolerance;
-    const bool is_over = is_nothing || is_left_out;
-    segment.enter = is_found ? clamp(clip.from, clip.possible_from, clip.sure_from) : segment.enter;
-    segment.enter_error = is_found ? error : segment.enter_error;
-    segment.enter_face = is_found ? clip.from_face : segment.enter_face;
-    segment.is_inside = is_found;
-    segment.begin = is_found ? segment.known_to : is_nothing ? end : is_left_out ? open_end : clip.possible_from;
-    const bool is_bounded = segment.known_to == clip.sure_to && clip.possible_to < end;
-    // Twice as far as what was decided.
-    const elvis_real farther = min(segment.last, end + elvis_real(2) * (end - begin));
-    segment.end = is_found ? (is_bounded ? clip.possible_to : segment.last) : is_over ? farther : is_shrunk ? open_end : middle;
-#if ELVIS_HAS_INSIDE
-    // What is left may be rounding's alone, along which faces do not bound: where the ray leaves is looked for from further inside.
-    const elvis_real further = max(segment.known_to - elvis_real(4) * (segment.end - segment.known_to), clip.sure_from);
-    segment.begin = is_found && is_bounded ? min(segment.begin, further) : segment.begin;
-#endif
-    segment.next = is_found || is_over || !is_sure || !is_shrunk ? elvis_real(0.5LF) * (segment.begin + segment.end)
-                                                              : clamp(clip.from, segment.begin, segment.end);
-}
+// What an evaluation of the mapping at segment.next tells of the ray.
+struct core_ray_evaluation {
+    core_ray_model model;
+    core_frame frame;
+    // The point evaluated at: as predicted, and in the shape.
+    elvis_vec3 predicted, xi;
+    bool is_sound;
+};
 
-// Inside: where the ray leaves. True if that is found.
-bool core_seek_exit(core_traced_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_segment segment) {
-    const elvis_real begin = segment.begin, end = segment.end;
-    const bool is_contradicted = clip.possible_from > min(clip.possible_to, begin + ray.tolerance);
-    const bool is_continued = is_sure && clip.sure_from <= begin + ray.tolerance;
-    segment.last = end == segment.last && !is_contradicted ? clip.possible_to : segment.last;
-    const bool is_all_inside = is_continued && clip.sure_to >= end;
-    const bool is_last = is_all_inside && end >= segment.last;
-    // Rounding may say that the ray is out already where it was surely inside.
-    const bool is_at_begin = is_exact && clip.to <= begin + error && clip.to >= begin - error && clip.from <= clip.to;
-    // Where nothing but the interval ends, the ray may go on.
-    const bool is_cut_off = clip.to_face == CORE_NO_FACE && end < segment.last;
-    const bool is_narrow = clip.possible_to - clip.sure_to <= ray.tolerance && !is_cut_off;
-    const bool is_found = is_at_begin || (is_continued && !is_all_inside && (is_exact || is_narrow));
-    const elvis_real open_begin = is_continued ? clip.sure_to : begin;
-    const elvis_real open_end = is_continued ? clip.possible_to : min(clip.possible_to, elvis_real(0.5LF) * (begin + end));
-    // Too short to matter, and not decided: as predicted.
-    const bool is_short = !is_all_inside && !is_found && open_end - open_begin <= ray.tolerance;
-    const elvis_real middle = elvis_real(0.5LF) * (open_begin + open_end);
-    const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < segment.last;
-    const bool is_shrunk = open_end - open_begin <= elvis_real(0.5LF) * (end - begin);
-    const bool is_over = is_contradicted || is_last || is_found || (is_short && !is_passed);
-    segment.leave = is_contradicted && !is_at_begin ? begin : is_at_begin ? clip.to : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
-    segment.leave_error = is_found ? error : ray.tolerance;
-    segment.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
-    segment.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
-    segment.begin = is_all_inside ? end : is_passed ? open_end : open_begin;
-    // Twice as far as what was decided.
-    segment.end = is_all_inside ? min(segment.last, end + elvis_real(2) * (end - begin))
-               : is_passed   ? min(segment.last, open_end + elvis_real(2) * ray.tolerance)
-               : is_shrunk   ? open_end
-                             : middle;
-    segment.next = is_continued && is_shrunk && !is_all_inside && !is_passed ? clamp(clip.to, segment.begin, segment.end)
-                                                             : elvis_real(0.5LF) * (segment.begin + segment.end);
-    return is_over;
-}
-
-// One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `is_active`: false for lanes that have nothing to do.
-uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segment segment) {
-    const uint element = is_active ? segment.element : 0u;
+core_ray_evaluation core_evaluate_ray(core_traced_ray ray, uint element, core_segment segment) {
+    core_ray_evaluation here;
     const elvis_real since = segment.next - segment.anchor;
     elvis_real x = segment.x + since * segment.slope_x, y = segment.y + since * segment.slope_y, z = segment.z + since * segment.slope_z;
-    const elvis_vec3 predicted = elvis_vec3(x, y, z);
+    here.predicted = elvis_vec3(x, y, z);
     core_project(x, y, z);
-    const bool was_outside = x != predicted.x || y != predicted.y || z != predicted.z;
+    here.xi = elvis_vec3(x, y, z);
     elvis_vec3 position;
     elvis_mat3 jacobian;
-    elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
-    const core_frame frame = core_frame_at(position, jacobian, ray.error);
+    elvis_mapping_jacobian(element, here.xi, position, jacobian);
+    here.frame = core_frame_at(position, jacobian, ray.error);
+    here.model.step = core_to_xi(here.frame, core_segment_target(ray, element, segment.next) - position);
+    here.model.at = here.xi + here.model.step;
+    here.model.slope = core_to_xi(here.frame, ray.direction);
+    here.model.anchor = segment.next;
+    here.model.noise = here.frame.xi_error;
+    here.is_sound = here.frame.is_sound && core_is_finite(here.model.step.x + here.model.step.y + here.model.step.z);
+    return here;
+}
 
-    core_ray_model model;
-    model.step = core_to_xi(frame, core_segment_target(ray, element, segment.next) - position);
-    model.at = elvis_vec3(x, y, z) + model.step;
-    model.slope = core_to_xi(frame, ray.direction);
-    model.anchor = segment.next;
-    model.noise = frame.xi_error;
-    const bool is_sound = frame.is_sound && core_is_finite(model.step.x + model.step.y + model.step.z);
-
-    segment.iterations += 1u;
+// After too many iterations a share of the bound is taken for it: the segment is then estimated.
+elvis_real core_taken_curvature(inout core_segment segment) {
     const bool is_certain = segment.iterations <= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
+    const bool is_late = segment.iterations >= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u;
     segment.is_estimated = segment.is_estimated || !is_certain;
-    const elvis_real curvature = is_certain ? segment.curvature
-                                 : segment.curvature *
-                                       (segment.iterations < CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
-    const elvis_real step = max(core_model_step(model, segment.begin), core_model_step(model, segment.end));
+    return is_certain ? segment.curvature : segment.curvature * (is_late ? elvis_real(0.015625LF) : elvis_real(0.125LF));
+}
+
+// What of the interval is outside, inside and open.
+core_ray_clip core_clip_interval(uint element, elvis_real curvature, core_segment segment, inout core_ray_evaluation here) {
+    const elvis_real step = max(core_model_step(here.model, segment.begin), core_model_step(here.model, segment.end));
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
-    const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);
-    const elvis_real along = max(max(slope.x, slope.y), slope.z) * (segment.end - segment.begin);
-    const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
+    const elvis_real along = core_max_norm(here.model.slope) * (segment.end - segment.begin);
+    const elvis_real agreed = elvis_real(8) * core_max_norm(here.model.at - here.predicted) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
 #if ELVIS_HAS_INSIDE
-    core_take_inside(model, element, elvis_vec3(x, y, z), step + bound);
+    core_take_inside(here.model, element, here.xi, step + bound);
 #endif
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
-    core_ray_clip clip = core_clip_ray(model, was_outside && !segment.is_inside && segment.iterations > 1u ? min(bound, agreed) : bound,
-                                       core_slope_change(model, curvature, distance), segment.is_inside, segment.is_followed || !segment.is_assumed, segment.begin,
-                                       segment.end);
-    const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
+    const bool was_outside = here.xi.x != here.predicted.x || here.xi.y != here.predicted.y || here.xi.z != here.predicted.z;
+    const bool is_agreed = was_outside && !segment.is_inside && segment.iterations > 1u;
+    core_ray_clip clip =
+        core_clip_ray(here.model, is_agreed ? min(bound, agreed) : bound, core_slope_change(here.model, curvature, distance), segment.is_inside,
+                      segment.is_followed || !segment.is_assumed, segment.begin, segment.end);
     // Where nothing is known, anything is possible.
-    clip.possible_from = is_sound ? clip.possible_from : segment.begin;
-    clip.possible_to = is_sound ? clip.possible_to : segment.end;
+    clip.possible_from = here.is_sound ? clip.possible_from : segment.begin;
+    clip.possible_to = here.is_sound ? clip.possible_to : segment.end;
+    clip.is_sure = here.is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
+    return clip;
+}
 
-    const bool was_inside = segment.is_inside;
-    const int face = was_inside ? clip.to_face : clip.from_face;
-    const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
-    bool is_exact = is_sound && face >= 0 && core_is_near(curvature, core_model_step(model, was_inside ? clip.to : clip.from)) &&
-                    error.distance <= ray.tolerance * ray.speed;
-#if ELVIS_HAS_INSIDE
-    // The error is that of one face. Flat ones are known equally well; of the other one, more must be known.
-    const bool own_holds = was_inside ? clip.own_holds_to : clip.own_holds_from;
-    is_exact = is_exact && (face == CORE_INSIDE_FACE || !own_holds);
-    // No more is wanted of its place than rounding leaves.
-    ray.tolerance = own_holds ? max(ray.tolerance, min(core_own_blur(model), CORE_MOST_BLUR * ray.tolerance)) : ray.tolerance;
-#endif
-    const bool is_denied = segment.is_assumed && clip.possible_from > min(clip.possible_to, segment.begin + ray.tolerance);
-    const bool is_confirmed = is_sure && clip.sure_from <= segment.begin + ray.tolerance;
-    const bool is_kept_in = was_inside && !is_denied;
-    segment.is_assumed = segment.is_assumed && is_kept_in && !is_confirmed;
-    bool has_left = false;
-    if (is_kept_in) {
-        has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, segment);
-    }
-    if (!is_kept_in) {
-        core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, segment);
-    }
-    segment.is_followed = segment.is_followed && !is_denied;
-    const bool is_anchor = is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.step)));
+// The next point is predicted from here, unless that is another one's. The interval is no longer than it can be followed.
+void core_predict_from(core_ray_evaluation here, elvis_real curvature, elvis_real tolerance, inout core_segment segment) {
+    const core_ray_model model = here.model;
+    const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.step)));
     segment.x = is_anchor ? model.at.x : segment.x;
     segment.y = is_anchor ? model.at.y : segment.y;
     segment.z = is_anchor ? model.at.z : segment.z;
@@ -369,10 +294,46 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     segment.step = is_anchor ? core_model_step(model, model.anchor) : segment.step;
     segment.noise = is_anchor ? core_max_norm(model.noise) : segment.noise;
     const elvis_real rate = max(max(abs(segment.slope_x), abs(segment.slope_y)), abs(segment.slope_z));
-    const elvis_real follow_end = max(segment.anchor + core_follow_span(segment.curvature) / rate, segment.begin + ray.tolerance);
+    const elvis_real follow_end = max(segment.anchor + core_follow_span(segment.curvature) / rate, segment.begin + tolerance);
     const bool is_too_far = segment.is_followed && follow_end < segment.end;
     segment.end = is_too_far ? follow_end : segment.end;
     segment.next = is_too_far ? clamp(segment.next, segment.begin, segment.end) : segment.next;
+}
+
+// One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `is_active`: false for lanes that have nothing to do.
+uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segment segment) {
+    const uint element = is_active ? segment.element : 0u;
+    core_ray_evaluation here = core_evaluate_ray(ray, element, segment);
+    segment.iterations += 1u;
+    const elvis_real curvature = core_taken_curvature(segment);
+    const core_ray_clip clip = core_clip_interval(element, curvature, segment, here);
+
+    const bool was_inside = segment.is_inside;
+    const int face = was_inside ? clip.to_face : clip.from_face;
+    const elvis_real crossing = was_inside ? clip.to : clip.from;
+    const core_root_error error = core_root_error_at(here.model, here.frame, curvature, face, crossing);
+    bool is_exact = here.is_sound && face >= 0 && core_is_near(curvature, core_model_step(here.model, crossing)) &&
+                    error.distance <= ray.tolerance * ray.speed;
+#if ELVIS_HAS_INSIDE
+    // The error is that of one face. Flat ones are known equally well; of the other one, more must be known.
+    const bool own_holds = was_inside ? clip.own_holds_to : clip.own_holds_from;
+    is_exact = is_exact && (face == CORE_INSIDE_FACE || !own_holds);
+    // No more is wanted of its place than rounding leaves.
+    ray.tolerance = own_holds ? max(ray.tolerance, min(core_own_blur(here.model), CORE_MOST_BLUR * ray.tolerance)) : ray.tolerance;
+#endif
+    const bool is_denied = segment.is_assumed && clip.possible_from > min(clip.possible_to, segment.begin + ray.tolerance);
+    const bool is_confirmed = clip.is_sure && clip.sure_from <= segment.begin + ray.tolerance;
+    const bool is_kept_in = was_inside && !is_denied;
+    segment.is_assumed = segment.is_assumed && is_kept_in && !is_confirmed;
+    bool has_left = false;
+    if (is_kept_in) {
+        has_left = core_seek_exit(ray, clip, is_exact, error.parameter, segment);
+    }
+    if (!is_kept_in) {
+        core_seek_entry(ray, clip, is_exact, error.parameter, segment);
+    }
+    segment.is_followed = segment.is_followed && !is_denied;
+    core_predict_from(here, curvature, ray.tolerance, segment);
 
     const bool is_given_up = segment.iterations >= CORE_SEGMENT_ITERATIONS * CORE_ITERATIONS_SHARE;
     const bool is_found = is_kept_in && (has_left || is_given_up);
