@@ -34,8 +34,8 @@
 #define CORE_ROUGH_ITERATIONS 8u
 #define CORE_ALONG 1e-5
 
-// Goes on from element to element towards the point of the ray at t, until one holds it: its position in the class; or
-// CORE_NO_ELEMENT, and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
+// Goes from element to element towards the point of the ray at t, until one holds it. Returns its number in the class; or CORE_NO_ELEMENT,
+// and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
 uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
     bool has_left = false;
@@ -79,18 +79,18 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
     }
     is_lost = !is_found && !has_left;
 #if ELVIS_HAS_INSIDE
-    // Beyond the element's own boundary there is no one to ask.
+    // Beyond the element's own boundary no neighbour is known.
     is_found = is_found && core_is_within(element, elvis_vec3(x, y, z), elvis_vec3(CORE_ALONG));
 #endif
     return is_found ? element : CORE_NO_ELEMENT;
 }
 
 // Where the ray leaves the element as Newton's method predicts it, without bounds: for rays that run along a curved face within
-// rounding, which is then left out. The result stands in the segment, which is an estimate.
+// rounding. That face does not count. The segment is an estimate.
 void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment segment) {
     elvis_real leave = from;
     int leave_face = CORE_NO_FACE;
-    for (uint turn = 0u; turn < CORE_ROUGH_ITERATIONS; ++turn) {
+    for (uint iteration = 0u; iteration < CORE_ROUGH_ITERATIONS; ++iteration) {
         elvis_real x = segment.x + (leave - segment.anchor) * segment.slope_x, y = segment.y + (leave - segment.anchor) * segment.slope_y;
         elvis_real z = segment.z + (leave - segment.anchor) * segment.slope_z;
         core_project(x, y, z);

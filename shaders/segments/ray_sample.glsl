@@ -25,7 +25,7 @@ struct core_follower {
     elvis_real before, before_x, before_y, before_z, before_slope_x, before_slope_y, before_slope_z;
     // Parameter wanted in the end, and the one that is looked for; the prediction for that.
     elvis_real goal, at, x, y, z;
-    // The part of the ray from the goal on, or back, over which `bend` is wanted; error of the field that is good enough.
+    // How far from the goal on, or back, `bend` is wanted; error of the field that is good enough.
     elvis_real span, enough;
     uint steps, all_steps;
 };

@@ -18,9 +18,9 @@
 // The linearized mapping keeps this many digits of coordinates in the element.
 #define CORE_START_ERROR elvis_real(1e-2LF)
 
-// Elements of larger or unknown curvature, and those that take too many iterations, are looked at with this bound or a part of it: their segments are
-// estimated.
-// A kernel may bring others: more is right for more elements, and takes more iterations.
+// Taken as the curvature of elements with a larger or unknown one. Elements that take too many iterations are taken to have a share of
+// their curvature. Segments in both are estimated. A kernel may bring other numbers: larger ones are right for more elements, and take more
+// iterations.
 #ifndef CORE_ASSUMED_CURVATURE
 #define CORE_ASSUMED_CURVATURE elvis_real(4)
 #define CORE_CERTAIN_ITERATIONS 64u

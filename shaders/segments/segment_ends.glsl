@@ -26,7 +26,7 @@ void core_seek_entry(core_traced_ray ray, core_ray_clip clip, bool is_exact, elv
     const elvis_real farther = min(segment.last, end + elvis_real(2) * (end - begin));
     segment.end = is_found ? (is_bounded ? clip.possible_to : segment.last) : is_over ? farther : is_shrunk ? open_end : middle;
 #if ELVIS_HAS_INSIDE
-    // What is left may be rounding's alone, along which faces do not bound: where the ray leaves is looked for from further inside.
+    // The open interval may be due to rounding alone, along which faces do not bound: the search for the exit begins further inside.
     const elvis_real further = max(segment.known_to - elvis_real(4) * (segment.end - segment.known_to), clip.sure_from);
     segment.begin = is_found && is_bounded ? min(segment.begin, further) : segment.begin;
 #endif

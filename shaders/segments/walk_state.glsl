@@ -12,7 +12,7 @@
 #define CORE_RAY_ENDS 2u
 // At the depth of a transparent surface, in the middle of an element.
 #define CORE_RAY_WAITS 3u
-// All starts of the classes that have been asked so far are looked through.
+// The starts in some classes have been looked for.
 #define CORE_RAY_HAS_SOUGHT 4u
 
 #define CORE_NO_ELEMENT 0xffffffffu

@@ -46,7 +46,7 @@ struct core_integral {
     uint wants;
     // Of the field: bounds over the segment, those over the half at the end, and its value there.
     elvis_real low, high, end_low, end_high, end_value;
-    // Only what is let through, of the points' weights alone; the trapezoidal rule for the outer integral.
+    // Only transmittance, by the weights of the points alone; the trapezoidal rule for the outer integral.
     bool is_absorption, is_trapezoid;
     // Panels, points inside each, and where the next sample is: in which panel, at which point of it.
     uint n_steps, n_points, panel, point;

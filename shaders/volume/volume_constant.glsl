@@ -5,8 +5,8 @@
 
 #include "isosurface/linear_model.glsl"
 
-// Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `segment`: as the search for where the
-// ray leaves has left it.
+// Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `segment`: as it is when
+// the ray's end in it has been found.
 elvis_vec2 core_range_along(core_segment segment, elvis_real from, elvis_real until) {
     const core_linear_model model = core_fetch_linear_model(segment.element);
     const elvis_vec3 anchor = elvis_vec3(segment.x, segment.y, segment.z) - CORE_CENTROID;

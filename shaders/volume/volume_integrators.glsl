@@ -27,7 +27,7 @@
 struct core_accuracy {
     // Length of the ray for its parameter.
     elvis_real per_parameter;
-    // What each channel may be off in the end; how much of the ray is left at most, from the beginning of the segment on.
+    // What each channel may be off in the end; how long the ray may go on at most, from the beginning of the segment.
     elvis_real tolerance, ahead;
     // Error of the field that is good enough.
     elvis_real enough;
