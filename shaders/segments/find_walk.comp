@@ -160,7 +160,7 @@ void core_next_candidate(core_ray pixel_ray, core_traced_ray ray, inout core_seg
 void core_start_in_curved(core_traced_ray ray, bool is_curved, inout core_segment segment, inout core_start_search search) {
     const uint element = core_first_element + segment.element;
     const vec3 along = vec3(ray.direction / length(ray.direction));
-    if (is_curved && search.is_first && segment.anchor <= search.from) {
+    if (is_curved && search.is_first && segment.anchor.t <= search.from) {
         const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
         search.n_evaluations += segment.iterations;
         core_take_start(is_in, search.from, search.best_error, element, search);
@@ -195,10 +195,8 @@ void core_start_in_curved(core_traced_ray ray, bool is_curved, inout core_segmen
 
 // Whether the ray enters the element through a face without neighbour, or through one that is as near within rounding.
 bool core_enters_volume(core_segment segment, core_traced_ray ray) {
-    const elvis_real since = segment.enter - segment.anchor;
-    const elvis_vec3 at = elvis_vec3(segment.x, segment.y, segment.z) + since * elvis_vec3(segment.slope_x, segment.slope_y, segment.slope_z);
-    const elvis_real near =
-        elvis_real(8) * ray.tolerance * (abs(segment.slope_x) + abs(segment.slope_y) + abs(segment.slope_z)) + elvis_real(64) * CORE_ROUNDOFF;
+    const elvis_vec3 at = core_predicted(segment.anchor, segment.enter), slope = abs(core_slope_of(segment.anchor));
+    const elvis_real near = elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF;
     bool enters = false;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);

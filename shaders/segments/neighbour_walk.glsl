@@ -34,6 +34,8 @@
 #define CORE_ROUGH_ITERATIONS 8u
 #define CORE_ALONG 1e-5
 
+bool core_is_own(uint element) { return element >= core_first_element && element - core_first_element < core_n_elements; }
+
 // Goes from element to element towards the point of the ray at t, until one holds it. Returns its number in the class; or CORE_NO_ELEMENT,
 // and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
 uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
@@ -45,14 +47,11 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
     uint steps = 0u;
     bool is_over = false;
     while (!is_over) {
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
-        const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 step = core_to_xi(frame, core_segment_target(ray, element, t) - position);
-        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(step, elvis_vec3(-4), elvis_vec3(4));
+        const core_ray_evaluation here = core_evaluate_ray(ray, element, elvis_vec3(x, y, z), t);
+        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(here.model.step, elvis_vec3(-4), elvis_vec3(4));
+        const elvis_real noise = elvis_real(4) * core_max_norm(here.model.noise);
         steps += 1u;
-        const bool is_there = core_max_norm(step) <= elvis_real(4) * core_max_norm(frame.xi_error) || steps >= 8u;
+        const bool is_there = core_max_norm(here.model.step) <= noise || steps >= 8u;
         elvis_real worst = elvis_real(-4);
         uint worst_face = 0u;
         for (int face = 0; face < CORE_N_FACES; ++face) {
@@ -61,14 +60,14 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
             worst_face = excess > worst ? uint(face) : worst_face;
             worst = max(worst, excess);
         }
-        is_found = is_there && worst <= elvis_real(4) * core_max_norm(frame.xi_error);
+        is_found = is_there && worst <= noise;
         const bool leaves = is_there && !is_found;
         const uint link = elvis_fetch_core_links(element, worst_face);
-        const bool is_own = link != CORE_NO_LINK && link >= core_first_element && link - core_first_element < core_n_elements;
+        const bool is_own = core_is_own(link);
         hops += leaves ? 1u : 0u;
         other = leaves && !is_own ? link : other;
         has_left = leaves && !is_own;
-        is_over = is_found || has_left || hops >= CORE_MOST_HOPS || !frame.is_sound;
+        is_over = is_found || has_left || hops >= CORE_MOST_HOPS || !here.frame.is_sound;
         element = leaves && is_own ? link - core_first_element : element;
         steps = leaves ? 0u : steps;
         elvis_real new_x = next.x, new_y = next.y, new_z = next.z;
@@ -91,32 +90,21 @@ void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment
     elvis_real leave = from;
     int leave_face = CORE_NO_FACE;
     for (uint iteration = 0u; iteration < CORE_ROUGH_ITERATIONS; ++iteration) {
-        elvis_real x = segment.x + (leave - segment.anchor) * segment.slope_x, y = segment.y + (leave - segment.anchor) * segment.slope_y;
-        elvis_real z = segment.z + (leave - segment.anchor) * segment.slope_z;
+        const elvis_vec3 predicted = core_predicted(segment.anchor, leave);
+        elvis_real x = predicted.x, y = predicted.y, z = predicted.z;
         core_project(x, y, z);
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(segment.element, elvis_vec3(x, y, z), position, jacobian);
-        const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 at = elvis_vec3(x, y, z) + core_to_xi(frame, core_segment_target(ray, segment.element, leave) - position);
-        const elvis_vec3 slope = core_to_xi(frame, ray.direction);
+        const core_ray_model model = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), leave).model;
         elvis_real first = from + ray.reach;
         for (int face = 0; face < CORE_N_FACES; ++face) {
             const elvis_vec4 constraint = core_face_constraint(face);
-            const elvis_real value = dot(constraint.xyz, at) + constraint.w, rate = dot(constraint.xyz, slope);
+            const elvis_real value = dot(constraint.xyz, model.at) + constraint.w, rate = dot(constraint.xyz, model.slope);
             const elvis_real root = leave - value / rate;
             const bool is_along = abs(value) + abs(value + (from - leave) * rate) <= elvis_real(CORE_ALONG);
             const bool is_first = rate > elvis_real(0) && !is_along && root > from && root < first;
             leave_face = is_first ? face : leave_face;
             first = is_first ? root : first;
         }
-        segment.x = at.x;
-        segment.y = at.y;
-        segment.z = at.z;
-        segment.slope_x = slope.x;
-        segment.slope_y = slope.y;
-        segment.slope_z = slope.z;
-        segment.anchor = leave;
+        segment.anchor = core_ray_point_at(leave, model.at, model.slope);
         leave = first;
     }
     segment.enter = from;
@@ -126,8 +114,6 @@ void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment
     segment.step = elvis_real(3e38LF);
     segment.is_estimated = true;
 }
-
-bool core_is_own(uint element) { return element >= core_first_element && element - core_first_element < core_n_elements; }
 
 bool core_walk_goes(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_own(walk.element); }
 

@@ -14,6 +14,7 @@
 
 #include "element/linearization.glsl"
 #include "segments/ray_model.glsl"
+#include "segments/ray_point.glsl"
 
 // The linearized mapping keeps this many digits of coordinates in the element.
 #define CORE_START_ERROR elvis_real(1e-2LF)
@@ -82,7 +83,7 @@ struct core_segment {
     // Where the search goes on after the segment, if before `last`.
     elvis_real resume;
     // The last prediction, from which the next point comes.
-    elvis_real x, y, z, slope_x, slope_y, slope_z, anchor;
+    core_ray_point anchor;
     // Length of the step that led to it, and rounding of its coordinates.
     elvis_real step, noise;
     elvis_real curvature;
@@ -92,8 +93,8 @@ struct core_segment {
 core_segment core_no_segment() {
     core_segment segment;
     segment.element = 0u;
-    segment.next = segment.anchor = segment.x = segment.y = segment.z = elvis_real(0);
-    segment.slope_x = segment.slope_y = segment.slope_z = elvis_real(0);
+    segment.next = elvis_real(0);
+    segment.anchor = core_ray_point_at(elvis_real(0), elvis_vec3(0), elvis_vec3(0));
     segment.iterations = 0u;
     return segment;
 }
@@ -145,18 +146,34 @@ bool core_segment_begin(core_traced_ray ray, uint element, elvis_real begin, elv
     segment.enter = begin;
     segment.enter_face = segment.leave_face = CORE_NO_FACE;
     segment.enter_error = segment.leave = segment.leave_error = segment.resume = elvis_real(0);
-    const elvis_vec3 middle = CORE_CENTROID;
-    segment.x = is_linearized ? here.x : middle.x;
-    segment.y = is_linearized ? here.y : middle.y;
-    segment.z = is_linearized ? here.z : middle.z;
-    segment.slope_x = is_linearized ? model.slope.x : elvis_real(0);
-    segment.slope_y = is_linearized ? model.slope.y : elvis_real(0);
-    segment.slope_z = is_linearized ? model.slope.z : elvis_real(0);
-    segment.anchor = begin;
+    segment.anchor = core_either(is_linearized, core_ray_point_at(begin, here, model.slope),
+                                 core_ray_point_at(begin, CORE_CENTROID, elvis_vec3(0)));
     segment.step = elvis_real(3e38LF);
     segment.noise = elvis_real(0);
     segment.iterations = 0u;
     return is_possible;
+}
+
+// What an evaluation of the mapping at a point xi of the element tells of the ray at t.
+struct core_ray_evaluation {
+    core_ray_model model;
+    core_frame frame;
+    bool is_sound;
+};
+
+core_ray_evaluation core_evaluate_ray(core_traced_ray ray, uint element, elvis_vec3 xi, elvis_real t) {
+    core_ray_evaluation here;
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, xi, position, jacobian);
+    here.frame = core_frame_at(position, jacobian, ray.error);
+    here.model.step = core_to_xi(here.frame, core_segment_target(ray, element, t) - position);
+    here.model.at = xi + here.model.step;
+    here.model.slope = core_to_xi(here.frame, ray.direction);
+    here.model.anchor = t;
+    here.model.noise = here.frame.xi_error;
+    here.is_sound = here.frame.is_sound && core_is_finite(here.model.step.x + here.model.step.y + here.model.step.z);
+    return here;
 }
 
 // How far a prediction may lead in reference coordinates before another point than the ray's may be nearer: half as far as there is surely no
@@ -169,85 +186,42 @@ elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / c
 bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segment segment) {
     uint start = 0u, steps = 0u;
     bool is_found = false;
-    elvis_real x = segment.x, y = segment.y, z = segment.z;
+    elvis_real x = segment.anchor.x, y = segment.anchor.y, z = segment.anchor.z;
     core_project(x, y, z);
     while (!is_found && start < CORE_ENTRY_STARTS) {
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(segment.element, elvis_vec3(x, y, z), position, jacobian);
-        const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 step = core_to_xi(frame, core_segment_target(ray, segment.element, segment.anchor) - position);
-        const elvis_vec3 slope = core_to_xi(frame, ray.direction);
-        const elvis_real noise = core_max_norm(frame.xi_error);
-        elvis_real next_x = x + step.x, next_y = y + step.y, next_z = z + step.z;
-        const elvis_real beyond = core_excess(next_x, next_y, next_z);
-        const elvis_real size = core_max_norm(step);
-        const bool is_there = frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
+        const core_ray_evaluation here = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), segment.anchor.t);
+        const elvis_vec3 at = here.model.at, slope = here.model.slope;
+        const elvis_real noise = core_max_norm(here.model.noise), size = core_max_norm(here.model.step);
+        const elvis_real beyond = core_excess(at.x, at.y, at.z);
+        const bool is_there = here.frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
         const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope) +
                                                              elvis_real(2) * segment.curvature * size * size);
         steps += 1u;
         segment.iterations += 1u;
         is_found = is_there && is_in;
-        segment.x = is_found ? next_x : segment.x;
-        segment.y = is_found ? next_y : segment.y;
-        segment.z = is_found ? next_z : segment.z;
-        segment.slope_x = is_found ? slope.x : segment.slope_x;
-        segment.slope_y = is_found ? slope.y : segment.slope_y;
-        segment.slope_z = is_found ? slope.z : segment.slope_z;
+        segment.anchor = core_either(is_found, core_ray_point_at(segment.anchor.t, at, slope), segment.anchor);
         // From the centroid, then from near the corners.
-        const bool is_failed = !frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTRY_STEPS;
+        const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTRY_STEPS;
         const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
-        next_x = is_failed ? CORE_CENTROID.x + ((start & 1u) == 0u ? out_to : -out_to) : next_x;
-        next_y = is_failed ? CORE_CENTROID.y + ((start & 2u) == 0u ? out_to : -out_to) : next_y;
-        next_z = is_failed ? CORE_CENTROID.z + ((start & 4u) == 0u ? out_to : -out_to) : next_z;
+        x = is_failed ? CORE_CENTROID.x + ((start & 1u) == 0u ? out_to : -out_to) : at.x;
+        y = is_failed ? CORE_CENTROID.y + ((start & 2u) == 0u ? out_to : -out_to) : at.y;
+        z = is_failed ? CORE_CENTROID.z + ((start & 4u) == 0u ? out_to : -out_to) : at.z;
         start += is_failed ? 1u : 0u;
         steps = is_failed ? 0u : steps;
-        core_project(next_x, next_y, next_z);
-        x = next_x;
-        y = next_y;
-        z = next_z;
+        core_project(x, y, z);
     }
-    const elvis_real rate = max(max(abs(segment.slope_x), abs(segment.slope_y)), abs(segment.slope_z));
+    const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
     segment.is_followed = is_found;
     segment.is_inside = segment.is_inside || is_found;
     segment.is_assumed = is_found;
-    segment.begin = is_found ? segment.anchor : segment.begin;
+    segment.begin = is_found ? segment.anchor.t : segment.begin;
     segment.last = max(segment.last, segment.begin);
-    segment.end = is_found ? min(segment.last, segment.anchor + core_follow_span(segment.curvature) / rate) : segment.end;
+    segment.end = is_found ? min(segment.last, segment.anchor.t + core_follow_span(segment.curvature) / rate) : segment.end;
     segment.next = is_found ? elvis_real(0.5LF) * (segment.begin + segment.end) : segment.next;
     return is_found;
 }
 
 #include "segments/segment_ends.glsl"
-
-// What an evaluation of the mapping at segment.next tells of the ray.
-struct core_ray_evaluation {
-    core_ray_model model;
-    core_frame frame;
-    // The point evaluated at: as predicted, and in the shape.
-    elvis_vec3 predicted, xi;
-    bool is_sound;
-};
-
-core_ray_evaluation core_evaluate_ray(core_traced_ray ray, uint element, core_segment segment) {
-    core_ray_evaluation here;
-    const elvis_real since = segment.next - segment.anchor;
-    elvis_real x = segment.x + since * segment.slope_x, y = segment.y + since * segment.slope_y, z = segment.z + since * segment.slope_z;
-    here.predicted = elvis_vec3(x, y, z);
-    core_project(x, y, z);
-    here.xi = elvis_vec3(x, y, z);
-    elvis_vec3 position;
-    elvis_mat3 jacobian;
-    elvis_mapping_jacobian(element, here.xi, position, jacobian);
-    here.frame = core_frame_at(position, jacobian, ray.error);
-    here.model.step = core_to_xi(here.frame, core_segment_target(ray, element, segment.next) - position);
-    here.model.at = here.xi + here.model.step;
-    here.model.slope = core_to_xi(here.frame, ray.direction);
-    here.model.anchor = segment.next;
-    here.model.noise = here.frame.xi_error;
-    here.is_sound = here.frame.is_sound && core_is_finite(here.model.step.x + here.model.step.y + here.model.step.z);
-    return here;
-}
 
 // After too many iterations a share of the bound is taken for it: the segment is then estimated.
 elvis_real core_taken_curvature(inout core_segment segment) {
@@ -257,19 +231,19 @@ elvis_real core_taken_curvature(inout core_segment segment) {
     return is_certain ? segment.curvature : segment.curvature * (is_late ? elvis_real(0.015625LF) : elvis_real(0.125LF));
 }
 
-// What of the interval is outside, inside and open.
-core_ray_clip core_clip_interval(uint element, elvis_real curvature, core_segment segment, inout core_ray_evaluation here) {
+// What of the interval is outside, inside and open. `predicted`: the point of the shape next to it, xi, has been evaluated.
+core_ray_clip core_clip_interval(uint element, elvis_real curvature, elvis_vec3 predicted, elvis_vec3 xi, core_segment segment,
+                                 inout core_ray_evaluation here) {
     const elvis_real step = max(core_model_step(here.model, segment.begin), core_model_step(here.model, segment.end));
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
     const elvis_real along = core_max_norm(here.model.slope) * (segment.end - segment.begin);
-    const elvis_real agreed = elvis_real(8) * core_max_norm(here.model.at - here.predicted) + curvature * along * along;
+    const elvis_real agreed = elvis_real(8) * core_max_norm(here.model.at - predicted) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
 #if ELVIS_HAS_INSIDE
-    core_take_inside(here.model, element, here.xi, step + bound);
+    core_take_inside(here.model, element, xi, step + bound);
 #endif
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
-    const bool was_outside = here.xi.x != here.predicted.x || here.xi.y != here.predicted.y || here.xi.z != here.predicted.z;
-    const bool is_agreed = was_outside && !segment.is_inside && segment.iterations > 1u;
+    const bool is_agreed = xi != predicted && !segment.is_inside && segment.iterations > 1u;
     core_ray_clip clip =
         core_clip_ray(here.model, is_agreed ? min(bound, agreed) : bound, core_slope_change(here.model, curvature, distance), segment.is_inside,
                       segment.is_followed || !segment.is_assumed, segment.begin, segment.end);
@@ -284,17 +258,11 @@ core_ray_clip core_clip_interval(uint element, elvis_real curvature, core_segmen
 void core_predict_from(core_ray_evaluation here, elvis_real curvature, elvis_real tolerance, inout core_segment segment) {
     const core_ray_model model = here.model;
     const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.step)));
-    segment.x = is_anchor ? model.at.x : segment.x;
-    segment.y = is_anchor ? model.at.y : segment.y;
-    segment.z = is_anchor ? model.at.z : segment.z;
-    segment.slope_x = is_anchor ? model.slope.x : segment.slope_x;
-    segment.slope_y = is_anchor ? model.slope.y : segment.slope_y;
-    segment.slope_z = is_anchor ? model.slope.z : segment.slope_z;
-    segment.anchor = is_anchor ? model.anchor : segment.anchor;
+    segment.anchor = core_either(is_anchor, core_ray_point_at(model.anchor, model.at, model.slope), segment.anchor);
     segment.step = is_anchor ? core_model_step(model, model.anchor) : segment.step;
     segment.noise = is_anchor ? core_max_norm(model.noise) : segment.noise;
-    const elvis_real rate = max(max(abs(segment.slope_x), abs(segment.slope_y)), abs(segment.slope_z));
-    const elvis_real follow_end = max(segment.anchor + core_follow_span(segment.curvature) / rate, segment.begin + tolerance);
+    const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
+    const elvis_real follow_end = max(segment.anchor.t + core_follow_span(segment.curvature) / rate, segment.begin + tolerance);
     const bool is_too_far = segment.is_followed && follow_end < segment.end;
     segment.end = is_too_far ? follow_end : segment.end;
     segment.next = is_too_far ? clamp(segment.next, segment.begin, segment.end) : segment.next;
@@ -303,10 +271,14 @@ void core_predict_from(core_ray_evaluation here, elvis_real curvature, elvis_rea
 // One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `is_active`: false for lanes that have nothing to do.
 uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segment segment) {
     const uint element = is_active ? segment.element : 0u;
-    core_ray_evaluation here = core_evaluate_ray(ray, element, segment);
+    const elvis_vec3 predicted = core_predicted(segment.anchor, segment.next);
+    elvis_real x = predicted.x, y = predicted.y, z = predicted.z;
+    core_project(x, y, z);
+    const elvis_vec3 xi = elvis_vec3(x, y, z);
+    core_ray_evaluation here = core_evaluate_ray(ray, element, xi, segment.next);
     segment.iterations += 1u;
     const elvis_real curvature = core_taken_curvature(segment);
-    const core_ray_clip clip = core_clip_interval(element, curvature, segment, here);
+    const core_ray_clip clip = core_clip_interval(element, curvature, predicted, xi, segment, here);
 
     const bool was_inside = segment.is_inside;
     const int face = was_inside ? clip.to_face : clip.from_face;

@@ -51,8 +51,7 @@ core_integration core_integration_begin(core_segment segment, elvis_real from, e
     along.from = from;
     along.until = until;
     along.integral = core_integral_begin(from, is_empty ? from : until, wanted.per_parameter, step);
-    along.follower = core_follow_from(segment.anchor, elvis_vec3(segment.x, segment.y, segment.z),
-                                      elvis_vec3(segment.slope_x, segment.slope_y, segment.slope_z));
+    along.follower = core_follow_from(segment.anchor);
     along.is_no_number = along.is_broken = along.is_constant = false;
     along.is_fresh = true;
     core_aim(wanted, along);
