@@ -141,7 +141,7 @@ core_interval core_interval_sin(core_interval a) {
     const bool is_small = a.lower > -CORE_INTERVAL_ANGLE && a.upper < CORE_INTERVAL_ANGLE;
     const elvis_real lower = is_small ? a.lower : elvis_real(0), upper = is_small ? a.upper : elvis_real(0);
     const elvis_real at_lower = elvis_sin(lower), at_upper = elvis_sin(upper);
-    // In full turns; of rounding, a turn's number loses a few units in the last place of its size.
+    // In periods; rounding takes a few units in the last place from a period's number.
     const elvis_real per_turn = elvis_real(0.15915494309189533577LF), quarter = elvis_real(0.25LF);
     const elvis_real slack = elvis_real(8) * CORE_ROUNDOFF * (elvis_real(1) + max(abs(lower), abs(upper)));
     const elvis_real first = lower * per_turn - slack, last = upper * per_turn + slack;

@@ -1,13 +1,13 @@
 // Taylor models of first order over a pixel's region: what certified contours rest on.
 //
-// A patch is the set of offsets d in reference coordinates that belong to a pixel's region, as seen from the region's point xi: those
-// within the convex hull of four corners (where the linearized mapping puts the pixel's corners), enlarged by `beyond` in the
-// maximum norm (what the linearization leaves out). A model of a function f over a patch says
+// A region is a set of offsets d in reference coordinates from a point xi: those within the convex hull of four corners (where the
+// linearized mapping puts the pixel's corners), enlarged by `beyond` in the maximum norm (what the linearization leaves out). A model of a
+// function f over a region says
 //
-//     f(xi + d) = value + dot(slope, d) + e,   |e| <= remainder,   for every d of the patch,
+//     f(xi + d) = value + dot(slope, d) + e,   |e| <= remainder,   for every d of the region,
 //
 // rounding included. Where nothing can be said, value and slope are zero and the remainder is CORE_UNKNOWN; that sticks to all that
-// is computed from it. f stays within core_model_reach(model, patch) of model.value.
+// is computed from it. f stays within core_model_reach(model, region) of model.value.
 //
 // A function g of one model is linearized at its value: with t = f - value, |t| <= T = core_model_reach,
 //
@@ -29,11 +29,11 @@
 #include "arithmetic/whole_power.glsl"
 
 struct core_region {
-    // Offsets from xi of the corners of a pixel's region as predicted linearly.
+    // Offsets from xi of the pixel's corners as predicted linearly.
     elvis_vec3 corner0, corner1, corner2, corner3;
-    // Every true point of the region lies within their convex hull, enlarged by this in the maximum norm.
+    // Every point of the pixel lies within their convex hull, enlarged by this in the maximum norm.
     elvis_real beyond;
-    // At least the maximum norm of every offset of the patch.
+    // At least the maximum norm of every offset of the region.
     elvis_real radius;
 };
 
@@ -56,7 +56,7 @@ struct core_model {
 
 elvis_real core_model_norm1(elvis_vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-// Bound of |dot(slope, d)| over the patch: a linear function takes its extremes over a hull at the corners.
+// Bound of |dot(slope, d)| over the region: a linear function takes its extremes over a hull at the corners.
 elvis_real core_model_spread(elvis_vec3 slope, core_region region) {
     const elvis_real s0 = abs(dot(slope, region.corner0)), s1 = abs(dot(slope, region.corner1));
     const elvis_real s2 = abs(dot(slope, region.corner2)), s3 = abs(dot(slope, region.corner3));
@@ -66,7 +66,7 @@ elvis_real core_model_spread(elvis_vec3 slope, core_region region) {
            CORE_MODEL_TINY;
 }
 
-// Bound of |f - value| over the patch.
+// Bound of |f - value| over the region.
 elvis_real core_model_reach(core_model f, core_region region) {
     return CORE_MODEL_UP * (core_model_spread(f.slope, region) + f.remainder);
 }

@@ -1,4 +1,4 @@
-// J^-1 at a point of an element by rows, and what positions lose by rounding as coordinates, as in element/newton.glsl.
+// J^-1 at a point of an element by rows, and the rounding error of positions in reference coordinates.
 
 #ifndef CORE_ELEMENT_FRAME
 #define CORE_ELEMENT_FRAME
@@ -24,6 +24,8 @@ core_frame core_frame_at(elvis_vec3 position, elvis_mat3 jacobian, elvis_real po
     frame.row0 = inverse_determinant * cofactors0;
     frame.row1 = inverse_determinant * cofactors1;
     frame.row2 = inverse_determinant * cofactors2;
+    // A position is rounded relative to the element's extent in that direction, which is about the Jacobian's row sum (and to
+    // its own size, where positions are not relative to the element); J^-1 takes that to xi. 4: rounding in the sums over modes.
     const elvis_vec3 extent = abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2]) + abs(position);
     const elvis_vec3 error = elvis_real(4) * CORE_ROUNDOFF * extent + position_error;
     frame.xi_error = elvis_vec3(dot(abs(frame.row0), error), dot(abs(frame.row1), error), dot(abs(frame.row2), error));

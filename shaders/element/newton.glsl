@@ -14,8 +14,7 @@
 //
 // State is kept in scalars because of a driver that miscompiles vectors carried round a loop.
 
-#include "arithmetic/finite.glsl"
-#include "arithmetic/precision.glsl"
+#include "element/element_frame.glsl"
 #include "element/prediction.glsl"
 #include "element/shape_region.glsl"
 
@@ -82,6 +81,20 @@ void core_newton_restart(inout core_newton state) {
     state.outside_steps = 0u;
 }
 
+// Where to evaluate next. Far predictions are of no use but for their direction, and could overflow. After the first start, steps towards a
+// prediction that is clearly outside go half the way: on strongly curved elements whole ones can lead from one side to the other and back.
+void core_newton_move(elvis_vec3 xi, elvis_vec3 next, elvis_real excess, bool is_regular, inout core_newton state) {
+    const elvis_real limit = elvis_real(16), half_way = elvis_real(0.5LF);
+    const bool is_damped = state.start > 0u && excess > elvis_real(0.125LF);
+    elvis_real inside_x = next.x, inside_y = next.y, inside_z = next.z;
+    core_project(inside_x, inside_y, inside_z);
+    state.x = is_regular ? (is_damped ? half_way * (xi.x + inside_x) : clamp(next.x, -limit, limit)) : xi.x;
+    state.y = is_regular ? (is_damped ? half_way * (xi.y + inside_y) : clamp(next.y, -limit, limit)) : xi.y;
+    state.z = is_regular ? (is_damped ? half_way * (xi.z + inside_z) : clamp(next.z, -limit, limit)) : xi.z;
+    state.steps += 1u;
+    state.outside_steps = is_regular && excess > elvis_real(1e-3LF) ? state.outside_steps + 1u : 0u;
+}
+
 // One step. `position_error`: absolute error that target and positions carry beyond the rounding of numbers of the element's
 // size. Where the result is converged or outside, state.x, y, z is the last prediction.
 uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error, inout core_newton state,
@@ -89,37 +102,17 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     elvis_real x = state.x, y = state.y, z = state.z;
     core_project(x, y, z);
     const bool was_inside = x == state.x && y == state.y && z == state.z;
+    const elvis_vec3 xi = elvis_vec3(x, y, z);
     elvis_vec3 position;
     elvis_mat3 jacobian;
-    elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
+    elvis_mapping_jacobian(element, xi, position, jacobian);
+    const core_frame frame = core_frame_at(position, jacobian, position_error);
+    inverse = core_inverse(frame.row0, frame.row1, frame.row2, frame.xi_error.x, frame.xi_error.y, frame.xi_error.z);
 
-    const elvis_vec3 cofactors0 = cross(jacobian[1], jacobian[2]);
-    const elvis_vec3 cofactors1 = cross(jacobian[2], jacobian[0]);
-    const elvis_vec3 cofactors2 = cross(jacobian[0], jacobian[1]);
-    const elvis_real inverse_determinant = elvis_real(1) / dot(jacobian[0], cofactors0);
-    inverse.row0 = inverse_determinant * cofactors0;
-    inverse.row1 = inverse_determinant * cofactors1;
-    inverse.row2 = inverse_determinant * cofactors2;
-
-    // A position is rounded relative to the element's extent in that direction, which is about the Jacobian's row sum (and to
-    // its own size, where positions are not relative to the element); J^-1 takes that to xi. 4: rounding in the sums over modes.
-    const elvis_vec3 extent = abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2]) + abs(position);
-    const elvis_vec3 error = elvis_real(4) * CORE_ROUNDOFF * extent + position_error;
-    inverse.error0 = dot(abs(inverse.row0), error);
-    inverse.error1 = dot(abs(inverse.row1), error);
-    inverse.error2 = dot(abs(inverse.row2), error);
-
-    const elvis_vec3 residual = target - position;
-    const elvis_real step_x = dot(inverse.row0, residual);
-    const elvis_real step_y = dot(inverse.row1, residual);
-    const elvis_real step_z = dot(inverse.row2, residual);
-    const elvis_real step = max(max(abs(step_x), abs(step_y)), abs(step_z));
-    const elvis_real new_x = x + step_x, new_y = y + step_y, new_z = z + step_z;
-    const elvis_real change = max(max(abs(new_x - state.x), abs(new_y - state.y)), abs(new_z - state.z));
-    const elvis_real tolerance = max(max(inverse.error0, inverse.error1), inverse.error2);
-    const elvis_real excess = core_excess(new_x, new_y, new_z);
-    const bool has_change = state.last_step >= elvis_real(0);
-    const bool is_regular = core_is_finite(step);
+    const elvis_vec3 way = core_to_xi(frame, target - position), next = xi + way;
+    const elvis_real step = core_max_norm(way), change = core_max_norm(next - elvis_vec3(state.x, state.y, state.z));
+    const elvis_real tolerance = core_max_norm(frame.xi_error), excess = core_excess(next.x, next.y, next.z);
+    const bool has_change = state.last_step >= elvis_real(0), is_regular = core_is_finite(step);
 
     // Quadratic convergence: |s_k+1| ~ C |s_k|^2 with C = |s_k| / |s_k-1|^2, if both steps started at predictions. Asking a quarter
     // of the rounding keeps a factor for the estimate; the change itself is the criterion where the estimate does not apply. C
@@ -131,20 +124,8 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     const elvis_real prediction_error = min(CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step),
                                             has_change && state.steps > 0u ? elvis_real(8) * change : CORE_UNKNOWN_CURVATURE);
     const bool outside = is_regular && excess > prediction_error + elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
-
-    // Far predictions are of no use but for their direction, and could overflow. After the first start, steps towards a prediction
-    // that is clearly outside go half the way: on strongly curved elements whole ones can lead from one side to the other and back.
-    const elvis_real limit = elvis_real(16);
-    const bool is_damped = state.start > 0u && excess > elvis_real(0.125LF);
-    elvis_real inside_x = new_x, inside_y = new_y, inside_z = new_z;
-    core_project(inside_x, inside_y, inside_z);
-    const elvis_real half_way = elvis_real(0.5LF);
-    state.x = is_regular ? (is_damped ? half_way * (x + inside_x) : clamp(new_x, -limit, limit)) : x;
-    state.y = is_regular ? (is_damped ? half_way * (y + inside_y) : clamp(new_y, -limit, limit)) : y;
-    state.z = is_regular ? (is_damped ? half_way * (z + inside_z) : clamp(new_z, -limit, limit)) : z;
+    core_newton_move(xi, next, excess, is_regular, state);
     state.last_step = step;
-    state.steps += 1u;
-    state.outside_steps = is_regular && excess > elvis_real(1e-3LF) ? state.outside_steps + 1u : 0u;
 
     if (converged) {
         return CORE_NEWTON_CONVERGED;

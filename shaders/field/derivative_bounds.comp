@@ -36,6 +36,19 @@ layout(push_constant) uniform core_parameters { uint core_first, core_n_elements
 
 elvis_real core_sum(elvis_vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
+// One of the points, and where `direction` is 1, 2 or 3, beside it along that direction.
+elvis_vec3 core_collapsed_point(uint place, uint direction) {
+    const elvis_vec3 node = elvis_vec3(place & 3u, (place >> 2) & 3u, place >> 4);
+    elvis_vec3 eta = node * (elvis_real(2) / elvis_real(3)) - elvis_vec3(1);
+    eta.x *= CORE_END;
+    eta.y = eta.y > elvis_real(0) ? eta.y * CORE_ENDS.y : eta.y * CORE_END;
+    eta.z = eta.z > elvis_real(0) ? eta.z * CORE_ENDS.z : eta.z * CORE_END;
+    eta.x += direction == 1u ? (eta.x > elvis_real(0) ? -CORE_STEP : CORE_STEP) : elvis_real(0);
+    eta.y += direction == 2u ? (eta.y > elvis_real(0) ? -CORE_STEP : CORE_STEP) : elvis_real(0);
+    eta.z += direction == 3u ? (eta.z > elvis_real(0) ? -CORE_STEP : CORE_STEP) : elvis_real(0);
+    return eta;
+}
+
 void main() {
     const uint index = gl_GlobalInvocationID.x;
     if (index >= core_n_elements) {
@@ -50,17 +63,9 @@ void main() {
     bool is_sound = max(max(bend, slope), size) < beyond;
     elvis_vec3 here = elvis_vec3(0), gradient_here = elvis_vec3(0);
     elvis_vec3 step1 = elvis_vec3(1, 0, 0), step2 = elvis_vec3(0, 1, 0), change1 = elvis_vec3(0), change2 = elvis_vec3(0);
-    for (uint turn = 4u * core_first_point; turn < 4u * min(core_end_point, CORE_N_POINTS); ++turn) {
-        const uint place = turn >> 2, direction = turn & 3u;
-        const elvis_vec3 node = elvis_vec3(place & 3u, (place >> 2) & 3u, place >> 4);
-        elvis_vec3 eta = node * (elvis_real(2) / elvis_real(3)) - elvis_vec3(1);
-        eta.x *= CORE_END;
-        eta.y = eta.y > elvis_real(0) ? eta.y * CORE_ENDS.y : eta.y * CORE_END;
-        eta.z = eta.z > elvis_real(0) ? eta.z * CORE_ENDS.z : eta.z * CORE_END;
-        eta.x += direction == 1u ? (eta.x > elvis_real(0) ? -CORE_STEP : CORE_STEP) : elvis_real(0);
-        eta.y += direction == 2u ? (eta.y > elvis_real(0) ? -CORE_STEP : CORE_STEP) : elvis_real(0);
-        eta.z += direction == 3u ? (eta.z > elvis_real(0) ? -CORE_STEP : CORE_STEP) : elvis_real(0);
-        const elvis_vec3 xi = core_expand(eta);
+    for (uint evaluation = 4u * core_first_point; evaluation < 4u * min(core_end_point, CORE_N_POINTS); ++evaluation) {
+        const uint place = evaluation >> 2, direction = evaluation & 3u;
+        const elvis_vec3 xi = core_expand(core_collapsed_point(place, direction));
         elvis_real value;
         elvis_vec3 gradient;
         elvis_field_gradient(core_first + index, xi, core_component, value, gradient);

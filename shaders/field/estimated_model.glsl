@@ -1,7 +1,7 @@
 // core_shown_model of expressions of which no bounds are known, such as those of gradients: linearized at xi, with a remainder from
 // how far the corners of the region are from that. What rests on it is labelled "estimated".
 
-// A quadratic form is largest at a corner of the region, or at most this much larger between them; smaller cells are closer to
+// A quadratic form is largest at a corner of the region, or at most this much larger between them; smaller regions are closer to
 // quadratic.
 #define CORE_ESTIMATE_SAFETY elvis_real(3)
 // What derivatives of high order lose, in units of roundoff of the values.

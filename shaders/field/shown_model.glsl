@@ -53,7 +53,7 @@ bool core_is_model_estimated(uint element) {
 
 #else
 
-// Of an expression: what its model leaves over a patch that is a point.
+// Of an expression: what its model leaves over a region that is a point.
 elvis_real core_shown_rounding(uint element, elvis_vec3 xi) {
     const elvis_vec3 here = elvis_vec3(0);
     elvis_real value;

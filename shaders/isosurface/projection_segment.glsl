@@ -60,8 +60,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     search.from = search.part_from;
     search.to = search.part_to;
     search.interval.values = search.interval.slopes = core_fit_begin();
-    search.follower = core_follow_from(search.segment.anchor, elvis_vec3(search.segment.x, search.segment.y, search.segment.z),
-                                       elvis_vec3(search.segment.slope_x, search.segment.slope_y, search.segment.slope_z));
+    search.follower = core_follow_from(search.segment.anchor);
     core_follow_to(search.follower, search.from);
 }
 

@@ -26,7 +26,7 @@ core_polynomial core_to_bernstein(core_polynomial chebyshev) {
     return p;
 }
 
-// What rounding can change in values and coefficients of a polynomial in its Bernstein form, restricted to any part of the segment.
+// What rounding can change in values and coefficients of a polynomial in its Bernstein form, restricted to any interval of the segment.
 // The sum over k of n + 1 products loses n + 2 roundings of the largest |product| each (Higham 2002, section 3.1); n steps of de
 // Casteljau, done twice, lose 3 of the largest coefficient each: they are convex combinations.
 elvis_real core_bernstein_rounding(core_polynomial chebyshev) {
@@ -53,7 +53,7 @@ elvis_real core_most(core_polynomial p) {
     return most;
 }
 
-// Certain where coefficients do not turn round: those of the derivative are n times their differences.
+// Certain where the coefficients do not rise and fall: those of the derivative are n times their differences.
 bool core_is_monotone(core_polynomial p) {
     bool falls = false, rises = false;
     for (int i = 0; i < CORE_FIT_SIZE; ++i) {

@@ -1,7 +1,7 @@
 // Roots as eigenvalues: the reference method, which nothing but comparison uses. The roots of the Chebyshev series
 // c_0 T_0 + .. + c_n T_n are the eigenvalues of its colleague matrix (Good 1961; Trefethen, Approximation Theory and Approximation
 // Practice, chapter 18), the companion matrix of that basis. Nelson & Kirby 2006 do the same after turning a Legendre series into
-// powers or Bernstein polynomials; the Chebyshev basis needs no turn, which would lose digits.
+// powers or Bernstein polynomials; the Chebyshev basis needs no such change of basis, which would lose digits.
 //
 // The transposed matrix is of upper Hessenberg form: balanced by powers of two, then reduced by the implicit double-shift QR algorithm
 // (EISPACK's balanc and hqr; Golub & Van Loan, section 7.5). Its elements are indexed by loops, which spills them: slow, and known to be.
@@ -11,7 +11,7 @@
 
 #include "segments/bernstein.glsl"
 
-// For one eigenvalue, every tenth with shifts out of the ordinary. EISPACK's limit of 30 left one in 15,000 polynomials unsolved.
+// For one eigenvalue, every tenth with exceptional shifts. EISPACK's limit of 30 left one in 15,000 polynomials unsolved.
 #define CORE_COLLEAGUE_SWEEPS 90u
 // What counts as zero beside others: their last place.
 #define CORE_COLLEAGUE_PRECISION (elvis_real(2) * CORE_ROUNDOFF)
@@ -53,7 +53,7 @@ int core_colleague_fill(core_polynomial chebyshev, elvis_real value) {
 // Rows and columns scaled by powers of two until both have about the same size: eigenvalues stay, rounding errors shrink.
 void core_colleague_balance(int n) {
     bool is_done = false;
-    for (uint turn = 0u; turn < 16u && !is_done; ++turn) {
+    for (uint iteration = 0u; iteration < 16u && !is_done; ++iteration) {
         is_done = true;
         for (int i = 0; i < n; ++i) {
             elvis_real row = elvis_real(0), column = elvis_real(0);
@@ -82,73 +82,86 @@ void core_colleague_balance(int n) {
     }
 }
 
-// One implicit double-shift sweep over rows low .. high, with shifts of sum `x + y` and product `x y - w`.
-void core_colleague_sweep(int low, int high, elvis_real x, elvis_real y, elvis_real w) {
-    // Where two subdiagonal elements in a row are small the sweep may start.
-    int start = high - 2;
-    elvis_real p = elvis_real(0), q = elvis_real(0), r = elvis_real(0);
+// The first reflection of a sweep: its row, and the vector that it maps to a multiple of the first unit vector.
+struct core_colleague_bulge {
+    int start;
+    elvis_real p, q, r;
+};
+
+// Where two subdiagonal elements in a row are small the sweep may start.
+core_colleague_bulge core_colleague_start(int low, int high, elvis_real x, elvis_real y, elvis_real w) {
+    core_colleague_bulge bulge;
+    bulge.start = high - 2;
     bool goes_on = true;
     while (goes_on) {
+        const int start = bulge.start, before = max(start - 1, 0);
         const elvis_real z = CORE_H(start, start), a = x - z, b = y - z;
-        p = (a * b - w) / CORE_H(start + 1, start) + CORE_H(start, start + 1);
-        q = CORE_H(start + 1, start + 1) - z - a - b;
-        r = CORE_H(start + 2, start + 1);
+        const elvis_real p = (a * b - w) / CORE_H(start + 1, start) + CORE_H(start, start + 1);
+        const elvis_real q = CORE_H(start + 1, start + 1) - z - a - b, r = CORE_H(start + 2, start + 1);
         const elvis_real size = abs(p) + abs(q) + abs(r);
-        p /= size;
-        q /= size;
-        r /= size;
-        const int before = max(start - 1, 0);
-        const elvis_real beside = abs(CORE_H(start, before)) * (abs(q) + abs(r));
-        const elvis_real diagonal = abs(p) * (abs(CORE_H(before, before)) + abs(z) + abs(CORE_H(start + 1, start + 1)));
+        bulge.p = p / size;
+        bulge.q = q / size;
+        bulge.r = r / size;
+        const elvis_real beside = abs(CORE_H(start, before)) * (abs(bulge.q) + abs(bulge.r));
+        const elvis_real diagonal = abs(bulge.p) * (abs(CORE_H(before, before)) + abs(z) + abs(CORE_H(start + 1, start + 1)));
         goes_on = start > low && beside > CORE_COLLEAGUE_PRECISION * diagonal;
-        start -= goes_on ? 1 : 0;
+        bulge.start -= goes_on ? 1 : 0;
     }
+    return bulge;
+}
+
+// Householder's reflection of rows and columns k, k + 1 and, unless it is beyond `high`, k + 2. `s`: the multiple.
+void core_colleague_reflect(int low, int high, int k, elvis_real p, elvis_real q, elvis_real r, elvis_real s) {
+    const bool has_third = k < high - 1;
+    const int third = has_third ? k + 2 : k + 1;
+    p += s;
+    const elvis_real u = p / s, v = q / s, z = r / s;
+    q /= p;
+    r /= p;
+    for (int j = k; j <= high; ++j) {
+        const elvis_real sum = CORE_H(k, j) + q * CORE_H(k + 1, j) + (has_third ? r * CORE_H(third, j) : elvis_real(0));
+        CORE_H(third, j) -= has_third ? sum * z : elvis_real(0);
+        CORE_H(k + 1, j) -= sum * v;
+        CORE_H(k, j) -= sum * u;
+    }
+    for (int i = low; i <= min(high, k + 3); ++i) {
+        const elvis_real sum = u * CORE_H(i, k) + v * CORE_H(i, k + 1) + (has_third ? z * CORE_H(i, third) : elvis_real(0));
+        CORE_H(i, third) -= has_third ? sum * r : elvis_real(0);
+        CORE_H(i, k + 1) -= sum * q;
+        CORE_H(i, k) -= sum;
+    }
+}
+
+// One implicit double-shift sweep over rows low .. high, with shifts of sum `x + y` and product `x y - w`: reflections chase the bulge
+// down.
+void core_colleague_sweep(int low, int high, elvis_real x, elvis_real y, elvis_real w) {
+    core_colleague_bulge bulge = core_colleague_start(low, high, x, y, w);
+    const int start = bulge.start;
     for (int i = start + 2; i <= high; ++i) {
         CORE_H(i, i - 2) = elvis_real(0);
         if (i > start + 2) {
             CORE_H(i, i - 3) = elvis_real(0);
         }
     }
-    // Householder reflections of three rows and columns chase the bulge down.
     for (int k = start; k < high; ++k) {
-        const bool has_third = k < high - 1;
         elvis_real size = elvis_real(1);
         if (k > start) {
-            p = CORE_H(k, k - 1);
-            q = CORE_H(k + 1, k - 1);
-            r = has_third ? CORE_H(k + 2, k - 1) : elvis_real(0);
+            const elvis_real p = CORE_H(k, k - 1), q = CORE_H(k + 1, k - 1), r = k < high - 1 ? CORE_H(k + 2, k - 1) : elvis_real(0);
             size = abs(p) + abs(q) + abs(r);
             const elvis_real divisor = size > elvis_real(0) ? size : elvis_real(1);
-            p /= divisor;
-            q /= divisor;
-            r /= divisor;
+            bulge.p = p / divisor;
+            bulge.q = q / divisor;
+            bulge.r = r / divisor;
         }
-        const elvis_real norm = sqrt(p * p + q * q + r * r);
-        const elvis_real s = p < elvis_real(0) ? -norm : norm;
+        const elvis_real norm = sqrt(bulge.p * bulge.p + bulge.q * bulge.q + bulge.r * bulge.r);
+        const elvis_real s = bulge.p < elvis_real(0) ? -norm : norm;
         if (s != elvis_real(0)) {
             if (k > start) {
                 CORE_H(k, k - 1) = -s * size;
             } else if (start > low) {
                 CORE_H(k, k - 1) = -CORE_H(k, k - 1);
             }
-            p += s;
-            const elvis_real u = p / s, v = q / s, z = r / s;
-            q /= p;
-            r /= p;
-            const int third = has_third ? k + 2 : k + 1;
-            for (int j = k; j <= high; ++j) {
-                const elvis_real sum = CORE_H(k, j) + q * CORE_H(k + 1, j) + (has_third ? r * CORE_H(third, j) : elvis_real(0));
-                CORE_H(third, j) -= has_third ? sum * z : elvis_real(0);
-                CORE_H(k + 1, j) -= sum * v;
-                CORE_H(k, j) -= sum * u;
-            }
-            for (int i = low; i <= min(high, k + 3); ++i) {
-                const elvis_real sum =
-                    u * CORE_H(i, k) + v * CORE_H(i, k + 1) + (has_third ? z * CORE_H(i, third) : elvis_real(0));
-                CORE_H(i, third) -= has_third ? sum * r : elvis_real(0);
-                CORE_H(i, k + 1) -= sum * q;
-                CORE_H(i, k) -= sum;
-            }
+            core_colleague_reflect(low, high, k, bulge.p, bulge.q, bulge.r, s);
         }
     }
 }

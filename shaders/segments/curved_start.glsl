@@ -1,6 +1,6 @@
 // Where a ray enters an element through one of its faces, in elements so curved that a point outside of them may be taken for the ray's
-// (core_segment_enter): Newton's method for a point of the face and the parameter, from several points of the face. Which of them are found is
-// no certainty, but each one that is found is an entry.
+// (core_segment_enter): Newton's method for a point of the face and the parameter, from several points of the face. Some entries may not be
+// found; each one that is found is an entry.
 //
 // The kernel brings segments/segment.glsl.
 
@@ -58,8 +58,8 @@ elvis_vec3 core_end_of_face(core_face_exit face_exit, elvis_real sense) {
     return face_exit.at + sense * way * face_exit.along;
 }
 
-// `start`: which of the points, below CORE_FACE_STARTS. The last two lie before and behind where the ray leaves through the face, if a start
-// before has led there: where the face is bent, the ray may have entered through it just before, or come back through it.
+// `start`: which of the points, below CORE_FACE_STARTS. The last two lie before and behind the point where the ray leaves through the face,
+// if an earlier start has found that: where the face is bent, the ray may have entered through it just before, or come back through it.
 core_face_entry core_enter_face(core_traced_ray ray, uint element, elvis_real curvature, int face, uint start,
                                 inout core_face_exit face_exit) {
     const elvis_vec4 constraint = core_face_constraint(face);
@@ -70,7 +70,7 @@ core_face_entry core_enter_face(core_traced_ray ray, uint element, elvis_real cu
         first = core_end_of_face(face_exit, start == CORE_EXIT_START ? elvis_real(-1) : elvis_real(1));
     }
     bool is_over = is_from_exit ? !face_exit.is_found : !has_point;
-    // Far from a start it is another one's; far outside it is another face's.
+    // A root far from a start is another start's; one far outside is another face's.
     const elvis_real first_reach = is_from_exit ? elvis_real(8) : elvis_real(1);
     elvis_real x = first.x, y = first.y, z = first.z;
     core_face_entry entry = core_face_entry(false, elvis_real(0), elvis_real(0), 0u);

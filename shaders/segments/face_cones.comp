@@ -17,7 +17,7 @@ layout(push_constant) uniform core_constants {
     uint core_n_elements;
 };
 
-// Normals are measured at points, and turn farther between them: what the factor is for.
+// Normals are measured at points. The factor is for those between them.
 const float core_cone_safety = 2.0;
 // Above it nothing is known.
 const float core_widest_cone = 1.5;

@@ -43,6 +43,7 @@ layout(push_constant) uniform core_parameters {
 #include "segments/segment.glsl"
 #include "segments/traced_ray.glsl"
 #include "segments/start_bounds.glsl"
+#include "arithmetic/count.glsl"
 #if CORE_HAS_CURVED
 #include "segments/curved_start.glsl"
 #endif
@@ -53,12 +54,149 @@ layout(push_constant) uniform core_parameters {
 // Error of starts that are not found at a face, in tolerances: up to 11 were seen in 40,000 rays.
 #define CORE_LATE_ERROR elvis_real(16)
 
-// Whether the ray comes into the element through a face without neighbour, or one that is as near within rounding.
+// Nodes of the hierarchy that are still to be looked at.
+uint core_stack[CORE_STACK_SIZE];
+
+// The nearest start so far, behind that of the walk before.
+struct core_start_search {
+    // The first walk may start at the eye. Starts before `from` do not count.
+    bool is_first;
+    elvis_real from;
+    // Where the walk before began; elements are among all of the volume.
+    elvis_real start;
+    uint start_element;
+    elvis_real best, best_error;
+    uint best_element;
+    // Where the tile's list begins, its next entry, and how many it has.
+    uint list, entry, n_entries;
+    uint stack_size;
+    uint work, n_evaluations;
+    // The ray is followed through an element; a segment there has been entered; one has not been found to its end.
+    bool is_following, has_entered, has_failed;
+};
+
+bool core_has_nodes(core_start_search search) { return search.stack_size > 0u || search.entry < search.n_entries; }
+
+// Of starts that are as near, that in the later element is behind.
+bool core_is_behind_last(core_traced_ray ray, elvis_real t, uint element, core_start_search search) {
+    const bool is_tied = abs(t - search.start) <= elvis_real(2) * ray.tolerance;
+    return is_tied ? element > search.start_element : t > search.start;
+}
+
+void core_take_start(bool is_start, elvis_real t, elvis_real error, uint element, inout core_start_search search) {
+    const bool is_better = is_start && (t < search.best || (t == search.best && element < search.best_element));
+    search.best = is_better ? t : search.best;
+    search.best_error = is_better ? error : search.best_error;
+    search.best_element = is_better ? element : search.best_element;
+}
+
+// An element that the ray may meet between `from` and `to`.
+struct core_candidate {
+    bool is_there;
+    uint element;
+    elvis_real from, to;
+};
+
+// Looks at one node, and puts those below it on the stack.
+core_candidate core_next_node(core_ray ray, inout core_start_search search) {
+    search.work += 1u;
+    const bool is_popped = search.stack_size > 0u;
+#if CORE_RAYS_ARE_GIVEN
+    const uint listed = 0u;
+    const bool is_behind = false;
+#else
+    const uint at = search.list + 1u + 2u * min(search.entry, search.n_entries - 1u), listed = core_tiles[at];
+    const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(search.best);
+#endif
+    const uint word = is_popped ? core_stack[search.stack_size - (is_popped ? 1u : 0u)] : listed;
+    search.stack_size -= is_popped ? 1u : 0u;
+    search.entry = is_popped ? search.entry : (is_behind ? search.n_entries : search.entry + 1u);
+    const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
+    const vec2 span = core_box_span(node, ray);
+    const bool is_touched = !is_behind && span.x <= span.y && span.y >= float(search.from) && span.x <= float(search.best);
+    if (is_touched && !node.is_leaf) {
+        core_stack[search.stack_size] = node.child + 1u;
+        core_stack[search.stack_size + 1u] = node.child;
+        search.stack_size += 2u;
+    }
+    return core_candidate(is_touched && node.is_leaf, node.child, elvis_real(span.x), elvis_real(span.y));
+}
+
+// Starts with the ray's segments in the candidate, if it may hold a start.
+void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_candidate candidate, inout core_segment segment,
+                           inout core_start_search search) {
+    const elvis_real begin = search.is_first ? max(candidate.from, search.from) : candidate.from;
+    const elvis_real end = min(candidate.to, begin + ray.reach);
+    const bool is_around_eye = search.is_first && candidate.from <= search.from;
+    const bool is_taken =
+        !search.is_first && core_first_element + candidate.element == search.start_element && search.from > pixel_ray.least_t;
+    const bool may_start =
+        is_around_eye || core_may_start(ray, candidate.element, begin, end, search.is_first ? begin : search.from, is_taken);
+    search.is_following = core_segment_begin(ray, candidate.element, begin, end, false, segment) && may_start;
+    search.has_entered = false;
+}
+
+// The next element that may hold a start.
+void core_next_candidate(core_ray pixel_ray, core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
+    while (!search.is_following && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
+        core_candidate candidate = core_candidate(false, 0u, elvis_real(0), elvis_real(0));
+        while (!candidate.is_there && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
+            candidate = core_next_node(pixel_ray, search);
+            if (candidate.is_there || !core_has_nodes(search)) {
+                break;
+            }
+        }
+        if (candidate.is_there) {
+            core_follow_candidate(pixel_ray, ray, candidate, segment, search);
+        }
+        if (search.is_following || !core_has_nodes(search)) {
+            break;
+        }
+    }
+}
+
+#if CORE_HAS_CURVED
+// In an element so curved that bounds tell little: a start at the eye, and through each face by which the ray may come in.
+void core_start_in_curved(core_traced_ray ray, bool is_curved, inout core_segment segment, inout core_start_search search) {
+    const uint element = core_first_element + segment.element;
+    const vec3 along = vec3(ray.direction / length(ray.direction));
+    if (is_curved && search.is_first && segment.anchor.t <= search.from) {
+        const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
+        search.n_evaluations += segment.iterations;
+        core_take_start(is_in, search.from, search.best_error, element, search);
+    }
+    // Bits of the faces.
+    uint open = 0u, start = 0u;
+    core_face_exit face_exit = core_face_exit(false, elvis_vec3(0), elvis_vec3(0));
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const bool is_open = elvis_fetch_core_links(segment.element, uint(face)) == CORE_NO_LINK;
+        open |= is_curved && is_open && !core_surely_crosses(segment.element, face, along, 1.0) ? 1u << face : 0u;
+    }
+    while (open != 0u) {
+        const int face = findLSB(open);
+        const core_face_entry entry = core_enter_face(ray, segment.element, segment.curvature, face, start, face_exit);
+        search.n_evaluations += entry.n_evaluations;
+        search.work += 1u;
+        const bool is_after = search.is_first ? entry.t >= search.from : core_is_behind_last(ray, entry.t, element, search);
+        core_take_start(entry.is_found && is_after, entry.t, entry.error, element, search);
+        // There is but one entry through a face with such directions (segments/start_bounds.glsl).
+        const bool is_only = entry.is_found && core_surely_crosses(segment.element, face, along, -1.0);
+        start = is_only ? CORE_FACE_STARTS : start + 1u;
+        open = start < CORE_FACE_STARTS ? open : open & (open - 1u);
+        face_exit.is_found = face_exit.is_found && start < CORE_FACE_STARTS;
+        start = start < CORE_FACE_STARTS ? start : 0u;
+        if (open == 0u) {
+            break;
+        }
+    }
+    search.is_following = search.is_following && !is_curved;
+}
+#endif
+
+// Whether the ray enters the element through a face without neighbour, or through one that is as near within rounding.
 bool core_enters_volume(core_segment segment, core_traced_ray ray) {
-    const elvis_real since = segment.enter - segment.anchor;
-    const elvis_vec3 at = elvis_vec3(segment.x, segment.y, segment.z) + since * elvis_vec3(segment.slope_x, segment.slope_y, segment.slope_z);
-    const elvis_real near =
-        elvis_real(8) * ray.tolerance * (abs(segment.slope_x) + abs(segment.slope_y) + abs(segment.slope_z)) + elvis_real(64) * CORE_ROUNDOFF;
+    const elvis_vec3 at = core_predicted(segment.anchor, segment.enter), slope = abs(core_slope_of(segment.anchor));
+    const elvis_real near = elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF;
     bool enters = false;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
@@ -73,189 +211,94 @@ bool core_enters_volume(core_segment segment, core_traced_ray ray) {
     return enters;
 }
 
+// One iteration of the search for the ray's segments in the element. One whose beginning is not the start wanted is followed to where the
+// ray leaves.
+void core_follow(core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
+    const bool is_following = search.is_following;
+    const uint ending = is_following ? core_segment_iterate(ray, is_following, segment) : CORE_SEGMENT_NONE;
+    search.n_evaluations += is_following ? 1u : 0u;
+    // What is behind in the element is then not looked for.
+    search.has_failed = search.has_failed || (is_following && ending != CORE_SEGMENT_OPEN && segment.has_failed);
+    const uint element = core_first_element + segment.element;
+    const bool is_entry = is_following && segment.is_inside && !search.has_entered;
+    search.has_entered = search.has_entered || is_entry;
+    const bool is_at_eye = segment.enter_face < 0 && search.is_first && segment.enter <= search.from;
+    bool is_start = false;
+    if (is_entry && (search.is_first || core_is_behind_last(ray, segment.enter, element, search))) {
+        is_start = is_at_eye || core_enters_volume(segment, ray);
+    }
+    // Where no face is met it was said too early, by estimates, that the ray is outside.
+    const bool is_late = segment.enter_face < 0 && !is_at_eye;
+    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, element, search);
+    const bool goes_on = ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
+    const elvis_real resume = max(segment.resume, segment.leave) + ray.tolerance;
+    search.is_following = is_following && !is_start && ending == CORE_SEGMENT_OPEN;
+    if (goes_on) {
+        search.is_following = core_segment_begin(ray, segment.element, resume, segment.last, false, segment);
+        search.has_entered = false;
+    }
+}
+
+core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 place, bool is_mine) {
+    core_start_search search;
+    search.is_first = state.walk.start_element == CORE_NO_ELEMENT;
+    search.from = search.is_first ? least_t : state.walk.start;
+    search.start = state.walk.start;
+    search.start_element = state.walk.start_element;
+    search.best = state.walk.at;
+    search.best_element = state.walk.element;
+#if CORE_MAKES_SEGMENTS
+    search.best_error = state.at_error;
+#else
+    search.best_error = elvis_real(0);
+#endif
+#if CORE_RAYS_ARE_GIVEN
+    search.list = 0u;
+    search.n_entries = is_mine ? 1u : 0u;
+#else
+    search.list = (place.x / CORE_TILE_WIDTH + place.y / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
+    search.n_entries = is_mine ? core_tiles[search.list] & ~CORE_TILE_INNER : 0u;
+#endif
+    search.entry = search.stack_size = search.work = search.n_evaluations = 0u;
+    search.is_following = search.has_entered = search.has_failed = false;
+    return search;
+}
+
 void main() {
 #if CORE_RAYS_ARE_GIVEN
-    const uint column = gl_GlobalInvocationID.x, row = 0u;
+    const uvec2 place = uvec2(gl_GlobalInvocationID.x, 0u);
 #else
     const uvec2 place = core_group_pixel(core_first_group, core_size.x);
-    const uint column = place.x, row = place.y;
 #endif
-    const bool is_pixel = column < core_size.x;
-    const uint pixel = is_pixel ? row * core_size.x + column : 0u;
+    const bool is_pixel = place.x < core_size.x;
+    const uint pixel = is_pixel ? place.y * core_size.x + place.x : 0u;
     const CORE_STATE state = core_states[pixel];
-    const bool is_mine = is_pixel && (state.status == CORE_RAY_SEEKS || state.status == CORE_RAY_HAS_SOUGHT);
-#if CORE_RAYS_ARE_GIVEN
-    const uint n_listed = 1u;
-#else
-    const uint list = (column / CORE_TILE_WIDTH + row / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
-    const uint n_listed = core_tiles[is_pixel ? list : 0u] & ~CORE_TILE_INNER;
-#endif
-    const uint n_entries = is_mine ? n_listed : 0u;
-    const core_ray pixel_ray = core_source_ray(column, row, pixel);
+    const bool is_mine = is_pixel && (state.walk.status == CORE_RAY_SEEKS || state.walk.status == CORE_RAY_HAS_SOUGHT);
+    const core_ray pixel_ray = core_source_ray(place.x, place.y, pixel);
     const core_traced_ray ray = core_traced_ray_of(pixel_ray, elvis_real(core_extent));
-
-    const vec3 along = vec3(ray.direction / length(ray.direction));
-    // The first walk may start at the eye.
-    const bool is_first = state.start_element == CORE_NO_ELEMENT;
-    const elvis_real from = is_first ? pixel_ray.least_t : state.start;
-    elvis_real best = state.walk;
-    uint best_element = state.element;
-#if CORE_MAKES_SEGMENTS
-    elvis_real best_error = state.walk_error;
-#endif
-
-    uint stack[CORE_STACK_SIZE];
-    uint stack_size = 0u, entry = 0u, work = 0u, n_evaluations = 0u;
-    core_segment segment;
-    segment.element = 0u;
-    segment.next = segment.anchor = segment.x = segment.y = segment.z = elvis_real(0);
-    segment.slope_x = segment.slope_y = segment.slope_z = elvis_real(0);
-    segment.iterations = 0u;
-    bool is_searching = false, has_entered = false, has_failed = false;
-    while ((is_searching || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
-        work += 1u;
-        // An element that may hold a start.
-        while (!is_searching && (stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
-            bool is_leaf = false;
-            uint candidate = 0u;
-            elvis_real box_from = elvis_real(0), box_to = elvis_real(0);
-            while (!is_leaf && (stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
-                work += 1u;
-                const bool is_popped = stack_size > 0u;
-#if CORE_RAYS_ARE_GIVEN
-                const uint listed = 0u;
-                const bool is_behind = false;
-#else
-                const uint at = list + 1u + 2u * min(entry, n_listed - 1u);
-                const uint listed = core_tiles[at];
-                const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(best);
-#endif
-                const uint word = is_popped ? stack[stack_size - (is_popped ? 1u : 0u)] : listed;
-                stack_size -= is_popped ? 1u : 0u;
-                entry = is_popped ? entry : (is_behind ? n_entries : entry + 1u);
-                const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
-                const vec2 span = core_box_span(node, pixel_ray);
-                const bool is_touched = !is_behind && span.x <= span.y && span.y >= float(from) && span.x <= float(best);
-                if (is_touched && !node.is_leaf) {
-                    stack[stack_size] = node.child + 1u;
-                    stack[stack_size + 1u] = node.child;
-                    stack_size += 2u;
-                }
-                is_leaf = is_touched && node.is_leaf;
-                candidate = node.child;
-                box_from = elvis_real(span.x);
-                box_to = elvis_real(span.y);
-                if (is_leaf || (stack_size == 0u && entry >= n_entries)) {
-                    break;
-                }
-            }
-            if (is_leaf) {
-                const elvis_real begin = is_first ? max(box_from, from) : box_from;
-                const elvis_real end = min(box_to, begin + ray.reach);
-                const bool is_around_eye = is_first && box_from <= from;
-                const bool is_taken = !is_first && core_first_element + candidate == state.start_element && from > pixel_ray.least_t;
-                const bool may_start = is_around_eye || core_may_start(ray, candidate, begin, end, is_first ? begin : from, is_taken);
-                is_searching = core_segment_begin(ray, candidate, begin, end, false, segment) && may_start;
-                has_entered = false;
-            }
-            if (is_searching || (stack_size == 0u && entry >= n_entries)) {
-                break;
-            }
-        }
+    core_start_search search = core_search_begin(state, pixel_ray.least_t, place, is_mine);
+    core_segment segment = core_no_segment();
+    while ((search.is_following || core_has_nodes(search)) && search.work < CORE_WORK_LIMIT) {
+        search.work += 1u;
+        core_next_candidate(pixel_ray, ray, segment, search);
 #if CORE_HAS_CURVED
-        // Where bounds tell little.
-        const bool is_curved = is_searching && segment.curvature > CORE_FOLLOWED_CURVATURE;
-        if (is_curved && is_first && segment.anchor <= from) {
-            const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
-            const uint element = core_first_element + segment.element;
-            const bool is_better = is_in && (from < best || (from == best && element < best_element));
-            n_evaluations += segment.iterations;
-            best = is_better ? from : best;
-            best_element = is_better ? element : best_element;
-        }
-        // Bits of the faces through which the ray may come in.
-        uint open = 0u, start = 0u;
-        core_face_exit face_exit = core_face_exit(false, elvis_vec3(0), elvis_vec3(0));
-        for (int face = 0; face < CORE_N_FACES; ++face) {
-            const bool is_open = elvis_fetch_core_links(segment.element, uint(face)) == CORE_NO_LINK;
-            open |= is_curved && is_open && !core_surely_crosses(segment.element, face, along, 1.0) ? 1u << face : 0u;
-        }
-        while (open != 0u) {
-            if (open != 0u) {
-                const int face = findLSB(open);
-                const core_face_entry entry = core_enter_face(ray, segment.element, segment.curvature, face, start, face_exit);
-                const uint element = core_first_element + segment.element;
-                n_evaluations += entry.n_evaluations;
-                work += 1u;
-                const bool is_tied = abs(entry.t - state.start) <= elvis_real(2) * ray.tolerance;
-                const bool is_after = is_first ? entry.t >= from : is_tied ? element > state.start_element : entry.t > state.start;
-                const bool is_better =
-                    entry.is_found && is_after && (entry.t < best || (entry.t == best && element < best_element));
-                best = is_better ? entry.t : best;
-                best_element = is_better ? element : best_element;
-#if CORE_MAKES_SEGMENTS
-                best_error = is_better ? entry.error : best_error;
+        core_start_in_curved(ray, search.is_following && segment.curvature > CORE_FOLLOWED_CURVATURE, segment, search);
 #endif
-                // There is but one entry through a face with such directions (segments/start_bounds.glsl).
-                const bool is_only = entry.is_found && core_surely_crosses(segment.element, face, along, -1.0);
-                start = is_only ? CORE_FACE_STARTS : start + 1u;
-                open = start < CORE_FACE_STARTS ? open : open & (open - 1u);
-                face_exit.is_found = face_exit.is_found && start < CORE_FACE_STARTS;
-                start = start < CORE_FACE_STARTS ? start : 0u;
-            }
-            if (open == 0u) {
-                break;
-            }
-        }
-        is_searching = is_searching && !is_curved;
-#endif
-        // A start that is not the one wanted is followed to where the ray leaves.
-        const uint ending = is_searching ? core_segment_iterate(ray, is_searching, segment) : CORE_SEGMENT_NONE;
-        n_evaluations += is_searching ? 1u : 0u;
-        // What is behind in the element is then not looked for.
-        has_failed = has_failed || (is_searching && ending != CORE_SEGMENT_OPEN && segment.has_failed);
-        const uint element = core_first_element + segment.element;
-        const bool is_entry = is_searching && segment.is_inside && !has_entered;
-        has_entered = has_entered || is_entry;
-        const bool is_at_eye = segment.enter_face < 0 && is_first && segment.enter <= from;
-        const bool is_tied = abs(segment.enter - state.start) <= elvis_real(2) * ray.tolerance;
-        const bool is_after = is_first || (is_tied ? element > state.start_element : segment.enter > state.start);
-        bool is_start = false;
-        if (is_entry && is_after) {
-            is_start = is_at_eye || core_enters_volume(segment, ray);
-        }
-        const bool is_better = is_start && (segment.enter < best || (segment.enter == best && element < best_element));
-        best = is_better ? segment.enter : best;
-        best_element = is_better ? element : best_element;
-#if CORE_MAKES_SEGMENTS
-        // Where no face is met it was said too early, by estimates, that the ray is outside.
-        const bool is_late = segment.enter_face < 0 && !is_at_eye;
-        best_error = is_better ? (is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error) : best_error;
-#endif
-        const bool goes_on = ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
-        const elvis_real resume = max(segment.resume, segment.leave) + ray.tolerance;
-        is_searching = is_searching && !is_start && ending == CORE_SEGMENT_OPEN;
-        if (goes_on) {
-            is_searching = core_segment_begin(ray, segment.element, resume, segment.last, false, segment);
-            has_entered = false;
-        }
-        if (!is_searching && stack_size == 0u && entry >= n_entries) {
+        core_follow(ray, segment, search);
+        if (!search.is_following && !core_has_nodes(search)) {
             break;
         }
     }
-    const bool is_cut_short = is_searching || stack_size > 0u || entry < n_entries || core_has_driver_given_up(core_zero);
+    const bool is_cut_short = search.is_following || core_has_nodes(search) || core_has_driver_given_up(core_zero);
     if (is_mine) {
-        core_states[pixel].status = CORE_RAY_HAS_SOUGHT;
-        core_states[pixel].walk = best;
-        core_states[pixel].element = best_element;
+        core_states[pixel].walk.status = CORE_RAY_HAS_SOUGHT;
+        core_states[pixel].walk.at = search.best;
+        core_states[pixel].walk.element = search.best_element;
 #if CORE_MAKES_SEGMENTS
-        core_states[pixel].walk_error = best_error;
+        core_states[pixel].at_error = search.best_error;
 #endif
-        core_states[pixel].flags |= (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) | (has_failed ? CORE_FLAG_UNDECIDED : 0u);
+        core_states[pixel].walk.flags |= (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) | (search.has_failed ? CORE_FLAG_UNDECIDED : 0u);
     }
-    const uint all_open = subgroupAdd(is_mine ? 1u : 0u), all_evaluations = subgroupAdd(n_evaluations);
-    if (subgroupElect()) {
-        atomicAdd(core_counts[0], all_open);
-        atomicAdd(core_counts[1], all_evaluations);
-    }
+    core_count(0u, is_mine ? 1u : 0u);
+    core_count(1u, search.n_evaluations);
 }

@@ -1,20 +1,22 @@
 // From element to element through shared faces (segments/walk_state.glsl):
 //
-//     walk = where the ray has got to;
-//     goes = core_walk_begin(walk, its end, its status there)
-//     while (goes) {
-//         core_reach reach = core_walk_reach(ray, walk, segment): how far it is in the walk's next element
-//         the ray is in that element from walk.at to reach.leave, where what is settled already does not count
-//         core_walk_go_on(ray, walk, segment, reach, from): the next element
-//         core_walk_help(ray, walk, segment, flags)
-//         goes = core_walk_goes(walk)
+//     walk = core_walk_begin(state.walk, ...)
+//     while (core_walk_goes(walk)) {
+//         while (core_walk_goes(walk)) {
+//             core_reach reach = core_walk_reach(ray, walk, segment): the ray is in the element from walk.at to reach.leave;
+//             what is settled already, up to walk.done, does not count
+//             core_walk_go_on(ray, segment, reach, from, ..., walk): to the next element
+//             if (subgroupAny(core_walk_needs_help(walk))) break;
+//         }
+//         core_walk_help(ray, walk, segment)
 //     }
+//     state.walk = core_walk_end(walk)
 //
-// Few rays need help. The code for it is gone through for all of them where it stands, so kernels whose loops are long have another loop
-// inside, from which all lanes break when one needs it.
+// Few rays need help. All lanes go through its code where it stands, so that it stands outside of the inner loop, which all lanes leave
+// when one needs it.
 //
-// The kernel brings segments/segment.glsl; core_links; core_first_element and core_n_elements, the class's among all elements of the
-// volume, which links are of; core_extent, the diagonal of the volume's bounds.
+// The kernel brings segments/segment.glsl; arithmetic/driver_limit.glsl; core_links; core_first_element and core_n_elements, the class's
+// among all elements of the volume, which links are of; core_extent, the diagonal of the volume's bounds; core_zero.
 
 #ifndef CORE_WALK_WALK
 #define CORE_WALK_WALK
@@ -32,8 +34,10 @@
 #define CORE_ROUGH_ITERATIONS 8u
 #define CORE_ALONG 1e-5
 
-// Goes on from element to element towards the point of the ray at t, until one holds it: its position in the class; or
-// CORE_NO_ELEMENT, and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
+bool core_is_own(uint element) { return element >= core_first_element && element - core_first_element < core_n_elements; }
+
+// Goes from element to element towards the point of the ray at t, until one holds it. Returns its number in the class; or CORE_NO_ELEMENT,
+// and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
 uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
     bool has_left = false;
@@ -43,14 +47,11 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
     uint steps = 0u;
     bool is_over = false;
     while (!is_over) {
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
-        const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 step = core_to_xi(frame, core_segment_target(ray, element, t) - position);
-        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(step, elvis_vec3(-4), elvis_vec3(4));
+        const core_ray_evaluation here = core_evaluate_ray(ray, element, elvis_vec3(x, y, z), t);
+        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(here.model.step, elvis_vec3(-4), elvis_vec3(4));
+        const elvis_real noise = elvis_real(4) * core_max_norm(here.model.noise);
         steps += 1u;
-        const bool is_there = core_max_norm(step) <= elvis_real(4) * core_max_norm(frame.xi_error) || steps >= 8u;
+        const bool is_there = core_max_norm(here.model.step) <= noise || steps >= 8u;
         elvis_real worst = elvis_real(-4);
         uint worst_face = 0u;
         for (int face = 0; face < CORE_N_FACES; ++face) {
@@ -59,14 +60,14 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
             worst_face = excess > worst ? uint(face) : worst_face;
             worst = max(worst, excess);
         }
-        is_found = is_there && worst <= elvis_real(4) * core_max_norm(frame.xi_error);
+        is_found = is_there && worst <= noise;
         const bool leaves = is_there && !is_found;
         const uint link = elvis_fetch_core_links(element, worst_face);
-        const bool is_own = link != CORE_NO_LINK && link >= core_first_element && link - core_first_element < core_n_elements;
+        const bool is_own = core_is_own(link);
         hops += leaves ? 1u : 0u;
         other = leaves && !is_own ? link : other;
         has_left = leaves && !is_own;
-        is_over = is_found || has_left || hops >= CORE_MOST_HOPS || !frame.is_sound;
+        is_over = is_found || has_left || hops >= CORE_MOST_HOPS || !here.frame.is_sound;
         element = leaves && is_own ? link - core_first_element : element;
         steps = leaves ? 0u : steps;
         elvis_real new_x = next.x, new_y = next.y, new_z = next.z;
@@ -77,44 +78,33 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
     }
     is_lost = !is_found && !has_left;
 #if ELVIS_HAS_INSIDE
-    // Beyond the element's own boundary there is no one to ask.
+    // Beyond the element's own boundary no neighbour is known.
     is_found = is_found && core_is_within(element, elvis_vec3(x, y, z), elvis_vec3(CORE_ALONG));
 #endif
     return is_found ? element : CORE_NO_ELEMENT;
 }
 
 // Where the ray leaves the element as Newton's method predicts it, without bounds: for rays that run along a curved face within
-// rounding, which is then left out. The result stands in the segment, which is an estimate.
+// rounding. That face does not count. The segment is an estimate.
 void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment segment) {
     elvis_real leave = from;
     int leave_face = CORE_NO_FACE;
-    for (uint turn = 0u; turn < CORE_ROUGH_ITERATIONS; ++turn) {
-        elvis_real x = segment.x + (leave - segment.anchor) * segment.slope_x, y = segment.y + (leave - segment.anchor) * segment.slope_y;
-        elvis_real z = segment.z + (leave - segment.anchor) * segment.slope_z;
+    for (uint iteration = 0u; iteration < CORE_ROUGH_ITERATIONS; ++iteration) {
+        const elvis_vec3 predicted = core_predicted(segment.anchor, leave);
+        elvis_real x = predicted.x, y = predicted.y, z = predicted.z;
         core_project(x, y, z);
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(segment.element, elvis_vec3(x, y, z), position, jacobian);
-        const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 at = elvis_vec3(x, y, z) + core_to_xi(frame, core_segment_target(ray, segment.element, leave) - position);
-        const elvis_vec3 slope = core_to_xi(frame, ray.direction);
+        const core_ray_model model = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), leave).model;
         elvis_real first = from + ray.reach;
         for (int face = 0; face < CORE_N_FACES; ++face) {
             const elvis_vec4 constraint = core_face_constraint(face);
-            const elvis_real value = dot(constraint.xyz, at) + constraint.w, rate = dot(constraint.xyz, slope);
+            const elvis_real value = dot(constraint.xyz, model.at) + constraint.w, rate = dot(constraint.xyz, model.slope);
             const elvis_real root = leave - value / rate;
             const bool is_along = abs(value) + abs(value + (from - leave) * rate) <= elvis_real(CORE_ALONG);
             const bool is_first = rate > elvis_real(0) && !is_along && root > from && root < first;
             leave_face = is_first ? face : leave_face;
             first = is_first ? root : first;
         }
-        segment.x = at.x;
-        segment.y = at.y;
-        segment.z = at.z;
-        segment.slope_x = slope.x;
-        segment.slope_y = slope.y;
-        segment.slope_z = slope.z;
-        segment.anchor = leave;
+        segment.anchor = core_ray_point_at(leave, model.at, model.slope);
         leave = first;
     }
     segment.enter = from;
@@ -125,20 +115,23 @@ void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment
     segment.is_estimated = true;
 }
 
-bool core_is_own(uint element) { return element >= core_first_element && element - core_first_element < core_n_elements; }
-
 bool core_walk_goes(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_own(walk.element); }
 
-// Whether the ray goes on here, at least to its end; `is_mine`: whether this class has to do with it at all. Behind `to` it has the
-// status `status_at_end`.
-bool core_walk_begin(inout core_walk walk, elvis_real to, uint status_at_end, out bool is_mine) {
-    const bool has_sought = walk.status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && walk.element == CORE_NO_ELEMENT;
-    is_mine = is_without || ((has_sought || walk.status == CORE_RAY_GOES) && core_is_own(walk.element));
+// Of a ray that ends at `to` and then has the status `status_at_end`. `is_ray`: false for lanes without a ray.
+core_walk core_walk_begin(core_walk_state state, bool is_ray, elvis_real to, uint status_at_end) {
+    const uint status = is_ray ? state.status : CORE_RAY_ENDS;
+    const bool has_sought = status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && state.element == CORE_NO_ELEMENT;
+    const bool is_mine = is_without || ((has_sought || status == CORE_RAY_GOES) && core_is_own(state.element));
     const bool begins = is_mine && has_sought && !is_without;
-    walk.start = begins ? walk.at : walk.start;
-    walk.start_element = begins ? walk.element : walk.start_element;
-    walk.status = is_without ? CORE_RAY_ENDS : is_mine && walk.at >= to ? status_at_end : begins ? CORE_RAY_GOES : walk.status;
-    return is_mine && walk.status == CORE_RAY_GOES;
+    return core_walk(state.done, state.at, begins ? state.at : state.start, begins ? state.element : state.start_element, state.element,
+                     is_without ? CORE_RAY_ENDS : is_mine && state.at >= to ? status_at_end : begins ? CORE_RAY_GOES : status,
+                     state.flags, is_mine, 0u, false, false, false, false);
+}
+
+core_walk_state core_walk_end(core_walk walk) {
+    const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = walk.status == CORE_RAY_SEEKS;
+    return core_walk_state(walk.done, seeks ? CORE_FAR : walk.at, walk.start, walk.start_element, seeks ? CORE_NO_ELEMENT : walk.element,
+                           is_cut_short ? CORE_RAY_ENDS : walk.status, walk.flags | (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u));
 }
 
 // A ray in the walk's next element.
@@ -146,8 +139,6 @@ struct core_reach {
     bool is_met;
     // Where it leaves; walk.at if the element is not met.
     elvis_real leave;
-    // CORE_FLAG_...
-    uint flags;
 };
 
 core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
@@ -174,13 +165,13 @@ core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core
     // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
     const elvis_real gap = segment.enter - walk.at - segment.enter_error;
     reach.is_met = ending == CORE_SEGMENT_FOUND && !walk.needs_roughly && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
-    reach.flags = reach.is_met && segment.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+    walk.flags |= reach.is_met && segment.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     reach.leave = reach.is_met ? max(segment.leave, walk.at) : walk.at;
     return reach;
 }
 
-// The next element, where the ray has left this one. `from`: up to where it was settled when it came in.
-void core_walk_go_on(core_traced_ray ray, inout core_walk walk, core_segment segment, core_reach reach, elvis_real from) {
+// To the next element, where the ray has left this one. `from`: up to where it was settled when it came in.
+void core_walk_go_on(core_traced_ray ray, core_segment segment, core_reach reach, elvis_real from, inout core_walk walk) {
     bool stays = walk.needs_roughly;
     walk.is_ahead = walk.is_ahead && stays;
     walk.at = stays ? walk.at : reach.leave;
@@ -197,10 +188,10 @@ void core_walk_go_on(core_traced_ray ray, inout core_walk walk, core_segment seg
 
 bool core_walk_needs_help(core_walk walk) { return walk.needs_roughly || walk.needs_element; }
 
-void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segment segment, inout uint flags) {
+void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
     if (walk.needs_roughly) {
         core_leave_roughly(ray, walk.at, segment);
-        flags |= CORE_FLAG_UNDECIDED;
+        walk.flags |= CORE_FLAG_UNDECIDED;
         walk.has_segment = true;
     }
     if (walk.needs_element) {
@@ -208,7 +199,7 @@ void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segmen
         uint other;
         bool is_lost;
         const uint found = core_find_around(ray, walk.element - core_first_element, probe, other, is_lost);
-        flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
+        walk.flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
         walk.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
         walk.at = probe;
         walk.is_ahead = true;

@@ -24,8 +24,8 @@
 #ifndef CORE_RAY_INTERSECTION
 #define CORE_RAY_INTERSECTION
 
+#include "element/element_frame.glsl"
 #include "element/face_frame.glsl"
-#include "arithmetic/precision.glsl"
 
 #ifndef CORE_RAY_PATCHES
 #define CORE_RAY_PATCHES 3
@@ -48,14 +48,12 @@
 
 struct core_ray_segments {
     uint count;
-    // CORE_RAY_...; 0 if nothing is in doubt.
+    // CORE_RAY_...; 0 if all is certain.
     uint flags;
     // Sorted: enter[i] < leave[i] <= enter[i + 1].
     elvis_real enter[CORE_RAY_MAX_CROSSINGS / 2u];
     elvis_real leave[CORE_RAY_MAX_CROSSINGS / 2u];
 };
-
-elvis_real core_largest(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
 // How far (s, r) lies outside the face; <= 0 inside.
 elvis_real core_face_excess(elvis_real s, elvis_real r, bool is_triangle) {
@@ -115,7 +113,7 @@ core_ray_segments core_pair_crossings(core_face_crossings list) {
         const bool is_there = i < list.count && !is_skipped;
         const bool enters = is_there && list.enters[i];
         const bool leaves = is_there && !list.enters[i];
-        // Out of turn: fine if it is undone within rounding, or if the ray touches an edge from outside and only one of the two
+        // Not in turn: fine if it is undone within rounding, or if the ray touches an edge from outside and only one of the two
         // faces there is met, for the same reason.
         const bool is_wrong = (enters && is_inside) || (leaves && !is_inside);
         is_skipped = is_wrong && next < list.count && list.enters[next] != enters && list.t[next] - list.t[i] <= list.slack;
@@ -132,75 +130,91 @@ core_ray_segments core_pair_crossings(core_face_crossings list) {
     return segments;
 }
 
-// Segments of the line origin + t direction, |direction| = 1, in one element. Positions as elvis_mapping gives them.
-core_ray_segments core_intersect_ray(uint element, elvis_vec3 origin, elvis_vec3 direction) {
-    const elvis_real patches = elvis_real(CORE_RAY_PATCHES);
+// A line, and two directions across it.
+struct core_line {
+    elvis_vec3 origin, direction, e1, e2;
+};
+
+core_line core_line_of(elvis_vec3 origin, elvis_vec3 direction) {
     const elvis_vec3 axis = abs(direction.x) < elvis_real(0.6LF) ? elvis_vec3(1, 0, 0) : elvis_vec3(0, 1, 0);
     const elvis_vec3 e1 = normalize(cross(direction, axis));
-    const elvis_vec3 e2 = cross(direction, e1);
+    return core_line(origin, direction, e1, cross(direction, e1));
+}
+
+// Newton's step by Cramer's rule, and what rounding of positions makes of it.
+struct core_face_step {
+    elvis_real ds, dr, step;
+    // Of s and r; of t; of the face, and how far from the line the point is.
+    elvis_real error, t_error, size, distance;
+    bool is_regular;
+    elvis_real t;
+    bool enters;
+};
+
+core_face_step core_step_on_face(uint element, core_face face, core_line line, elvis_real s, elvis_real r) {
+    elvis_vec3 x;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, face.corner + s * face.a + r * face.b, x, jacobian);
+    const elvis_vec3 along_a = jacobian * face.a, along_b = jacobian * face.b, offset = x - line.origin;
+    const elvis_real f1 = dot(line.e1, offset), f2 = dot(line.e2, offset);
+    const elvis_real a1 = dot(line.e1, along_a), a2 = dot(line.e2, along_a);
+    const elvis_real b1 = dot(line.e1, along_b), b2 = dot(line.e2, along_b);
+    const elvis_real det = a1 * b2 - a2 * b1;
+    core_face_step here;
+    here.size = core_max_norm(along_a) + core_max_norm(along_b);
+    here.distance = max(abs(f1), abs(f2));
+    here.is_regular = abs(det) > elvis_real(64) * CORE_ROUNDOFF * here.size * here.size;
+    const elvis_real inverse = here.is_regular ? elvis_real(1) / det : elvis_real(0);
+    here.ds = (f2 * b1 - f1 * b2) * inverse;
+    here.dr = (f1 * a2 - f2 * a1) * inverse;
+    here.step = max(abs(here.ds), abs(here.dr));
+    const elvis_real noise = elvis_real(4) * CORE_ROUNDOFF * (core_max_norm(x) + core_max_norm(line.origin) + here.size);
+    here.error = noise * here.size * abs(inverse) + elvis_real(4) * CORE_ROUNDOFF;
+    here.t_error = elvis_real(4) * (here.error * here.size + noise);
+    here.t = dot(line.direction, offset + here.ds * along_a + here.dr * along_b) / dot(line.direction, line.direction);
+    here.enters = face.orientation * sign(determinant(jacobian)) * dot(cross(along_a, along_b), line.direction) < elvis_real(0);
+    return here;
+}
+
+// Segments of the line origin + t direction, |direction| = 1, in one element. Positions as elvis_mapping gives them.
+core_ray_segments core_intersect_ray(uint element, elvis_vec3 origin, elvis_vec3 direction) {
+    const elvis_real patches = elvis_real(CORE_RAY_PATCHES), half_one = elvis_real(0.5LF);
+    const core_line line = core_line_of(origin, direction);
     core_face_crossings list;
     list.count = 0u;
     list.flags = 0u;
     list.slack = elvis_real(0);
 
     // One evaluation an iteration, whatever the start and its step: lanes do not wait for each other.
-    uint start = 0u;
-    uint steps = 0u;
-    elvis_real s = elvis_real(0.5LF) / patches;
-    elvis_real r = s;
+    uint start = 0u, steps = 0u;
+    elvis_real s = half_one / patches, r = s;
     for (uint work = 0u; work < CORE_RAY_WORK && start < CORE_RAY_STARTS; ++work) {
         const core_face face = core_face_frame(int(start / uint(CORE_RAY_PATCHES * CORE_RAY_PATCHES)));
-        elvis_vec3 x;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(element, face.corner + s * face.a + r * face.b, x, jacobian);
-        const elvis_vec3 along_a = jacobian * face.a;
-        const elvis_vec3 along_b = jacobian * face.b;
-        const elvis_vec3 offset = x - origin;
-
-        // Newton's step by Cramer's rule, and what rounding of positions makes of it.
-        const elvis_real f1 = dot(e1, offset), f2 = dot(e2, offset);
-        const elvis_real a1 = dot(e1, along_a), a2 = dot(e2, along_a);
-        const elvis_real b1 = dot(e1, along_b), b2 = dot(e2, along_b);
-        const elvis_real size = core_largest(along_a) + core_largest(along_b);
-        const elvis_real det = a1 * b2 - a2 * b1;
-        const bool is_regular = abs(det) > elvis_real(64) * CORE_ROUNDOFF * size * size;
-        const elvis_real inverse = is_regular ? elvis_real(1) / det : elvis_real(0);
-        const elvis_real ds = (f2 * b1 - f1 * b2) * inverse;
-        const elvis_real dr = (f1 * a2 - f2 * a1) * inverse;
-        const elvis_real step = max(abs(ds), abs(dr));
-        const elvis_real noise = elvis_real(4) * CORE_ROUNDOFF * (core_largest(x) + core_largest(origin) + size);
-        const elvis_real error = noise * size * abs(inverse) + elvis_real(4) * CORE_ROUNDOFF;
-        const elvis_real excess = core_face_excess(s + ds, r + dr, face.is_triangle);
+        const core_face_step here = core_step_on_face(element, face, line, s, r);
+        const elvis_real excess = core_face_excess(s + here.ds, r + here.dr, face.is_triangle);
 
         // What becomes of this start.
-        const bool is_first = steps == 0u;
-        const bool is_last = steps + 1u == CORE_RAY_STEPS;
-        const bool has_converged = is_regular && (step <= error || (is_last && step <= elvis_real(64) * error));
-        const bool starts_elsewhere = is_first && (!is_regular || step * patches > elvis_real(1.5LF));
+        const bool is_first = steps == 0u, is_last = steps + 1u == CORE_RAY_STEPS;
+        const bool has_converged = here.is_regular && (here.step <= here.error || (is_last && here.step <= elvis_real(64) * here.error));
+        const bool starts_elsewhere = is_first && (!here.is_regular || here.step * patches > elvis_real(1.5LF));
         const bool has_left = steps >= 3u && excess > elvis_real(0.1LF);
         const bool ends = has_converged || starts_elsewhere || has_left || is_last;
-
-        if (has_converged && excess <= elvis_real(2) * error) {
-            const elvis_vec3 normal = cross(along_a, along_b);
-            const elvis_real outward = face.orientation * sign(determinant(jacobian)) * dot(normal, direction);
-            const elvis_real t = dot(direction, offset + ds * along_a + dr * along_b) / dot(direction, direction);
-            const bool is_on_edge = excess >= elvis_real(-8) * error;
-            core_add_face_crossing(list, t, outward < elvis_real(0), is_on_edge, elvis_real(4) * (error * size + noise));
+        if (has_converged && excess <= elvis_real(2) * here.error) {
+            core_add_face_crossing(list, here.t, here.enters, excess >= elvis_real(-8) * here.error, here.t_error);
         }
         // Did not end although the ray passes close by: within 1e-4 of the face's size.
-        const bool is_near = max(abs(f1), abs(f2)) <= elvis_real(1.0e-4LF) * size && excess < elvis_real(0.05LF);
+        const bool is_near = here.distance <= elvis_real(1.0e-4LF) * here.size && excess < elvis_real(0.05LF);
         list.flags |= is_last && !has_converged && is_near ? CORE_RAY_FAILED : 0u;
 
         start += ends ? 1u : 0u;
         steps = ends ? 0u : steps + 1u;
         const uint patch_number = start % uint(CORE_RAY_PATCHES * CORE_RAY_PATCHES);
-        const elvis_real half_one = elvis_real(0.5LF);
         const elvis_real start_s = (elvis_real(patch_number % uint(CORE_RAY_PATCHES)) + half_one) / patches;
         const elvis_real start_r = (elvis_real(patch_number / uint(CORE_RAY_PATCHES)) + half_one) / patches;
         // Steps of more than half a face are cut, and points kept near the face: beyond it the mapping need not be one to one.
-        const elvis_real cut = step > half_one ? half_one / step : elvis_real(1);
-        s = ends ? start_s : clamp(s + cut * ds, elvis_real(-0.2LF), elvis_real(1.2LF));
-        r = ends ? start_r : clamp(r + cut * dr, elvis_real(-0.2LF), elvis_real(1.2LF));
+        const elvis_real cut = here.step > half_one ? half_one / here.step : elvis_real(1);
+        s = ends ? start_s : clamp(s + cut * here.ds, elvis_real(-0.2LF), elvis_real(1.2LF));
+        r = ends ? start_r : clamp(r + cut * here.dr, elvis_real(-0.2LF), elvis_real(1.2LF));
     }
     list.flags |= start < CORE_RAY_STARTS ? CORE_RAY_WORK_LIMIT : 0u;
     return core_pair_crossings(list);

@@ -92,6 +92,8 @@ bool core_is_near(elvis_real curvature, elvis_real step) { return elvis_real(4) 
 
 struct core_ray_clip {
     elvis_real possible_from, possible_to, sure_from, sure_to, from, to;
+    // What is surely inside is known, and not empty.
+    bool is_sure;
     // The faces that bound from and to; CORE_NO_FACE where the interval does.
     int from_face, to_face;
 #if ELVIS_HAS_INSIDE
@@ -107,10 +109,10 @@ elvis_real core_slope_change(core_ray_model model, elvis_real curvature, elvis_r
     return share < elvis_real(0.5LF) ? core_max_norm(model.slope) * share / (elvis_real(1) - share) : elvis_real(1e30LF);
 }
 
-// Within [begin, end], where predictions are off by at most `error`, and slopes by `slope_change`. `is_inside`: the ray is at `begin`, so that
-// faces of the shape that it surely comes in through do not bound what is sure; `is_settled`: nor what is possible, where rounding may say
-// that it is not yet in. A face of the shape that the ray runs along within rounding does not bound it: rays in a face that two elements
-// share lie in both.
+// Within [begin, end], where predictions are off by at most `error`, and slopes by `slope_change`. `is_inside`: the ray is inside at
+// `begin`, so that a face of the shape by which it surely enters does not bound what is sure. `is_settled`: nor does that face bound what is
+// possible, where rounding may say that the ray is not yet inside. A face that the ray runs along within rounding bounds nothing: rays in
+// a face that two elements share lie in both.
 core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real slope_change, bool is_inside, bool is_settled,
                             elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;

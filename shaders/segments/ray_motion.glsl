@@ -22,8 +22,8 @@
 
 // Of a matrix of 16-bit fractions, over the largest entry of a row.
 #define CORE_MOTION_MATRIX_ERROR elvis_real(1e-4LF)
-// Steepness with which a ray leaves through a face, over that of its coordinates: parts behind edges that are near within rounding are then
-// too short to matter.
+// Steepness with which a ray leaves through a face, over that of its coordinates: segments behind edges that are near within rounding are
+// then too short to matter.
 #define CORE_MOTION_STEEPNESS elvis_real(0.05LF)
 // Share by which coordinates may change otherwise: beyond it nothing is told.
 #define CORE_MOTION_BEND elvis_real(0.5LF)

@@ -19,13 +19,11 @@
 #define CORE_SAMPLE_MOST_STEPS 64u
 
 struct core_follower {
-    // A point that was found: parameter, reference coordinates and their change with the parameter.
-    elvis_real known, known_x, known_y, known_z, slope_x, slope_y, slope_z;
-    // The one found before that; the same one if there is none.
-    elvis_real before, before_x, before_y, before_z, before_slope_x, before_slope_y, before_slope_z;
+    // The last point that was found, and the one before that; the same one if there is none.
+    core_ray_point known, before;
     // Parameter wanted in the end, and the one that is looked for; the prediction for that.
     elvis_real goal, at, x, y, z;
-    // The part of the ray from the goal on, or back, over which `bend` is wanted; error of the field that is good enough.
+    // How far from the goal on, or back, `bend` is wanted; error of the field that is good enough.
     elvis_real span, enough;
     uint steps, all_steps;
 };
@@ -46,39 +44,29 @@ struct core_ray_sample {
     bool is_finite;
 };
 
-// Starts from a point that was found: where it is, and how it changes with the parameter.
-core_follower core_follow_from(elvis_real known, elvis_vec3 point, elvis_vec3 slope) {
+core_follower core_follow_from(core_ray_point known) {
     core_follower follower;
     follower.known = follower.before = known;
-    follower.known_x = follower.before_x = point.x;
-    follower.known_y = follower.before_y = point.y;
-    follower.known_z = follower.before_z = point.z;
-    follower.slope_x = follower.before_slope_x = slope.x;
-    follower.slope_y = follower.before_slope_y = slope.y;
-    follower.slope_z = follower.before_slope_z = slope.z;
     return follower;
 }
 
-// By the cubic through the last two points that were found and their slopes, between them or not much farther beyond the last one than they are
-// apart; else along the last one's slope.
+// By the cubic through the last two points and their slopes, between them or not much farther beyond the last one than they are apart; else
+// along the last one's slope.
 void core_predict(inout core_follower follower, elvis_real at) {
-    const elvis_real since = at - follower.known, width = follower.before - follower.known;
+    const core_ray_point known = follower.known, before = follower.before;
+    const elvis_real since = at - known.t, width = before.t - known.t;
     const bool is_near = (since - width) * (since + elvis_real(1.5LF) * width) < elvis_real(0);
     const elvis_real t = is_near ? since / width : elvis_real(0), s = elvis_real(1) - t;
     const elvis_real of_before = t * t * (elvis_real(3) - elvis_real(2) * t), of_slope = is_near ? width * t * s * s : since;
     const elvis_real of_slope_before = -width * t * t * s;
     // Far predictions are of no use but for their direction, and could overflow.
-    const elvis_real limit = elvis_real(4);
+    const elvis_vec3 point = clamp(core_xi_of(known) + of_before * (core_xi_of(before) - core_xi_of(known)) +
+                                       of_slope * core_slope_of(known) + of_slope_before * core_slope_of(before),
+                                   elvis_vec3(-4), elvis_vec3(4));
     follower.at = at;
-    follower.x = clamp(follower.known_x + of_before * (follower.before_x - follower.known_x) + of_slope * follower.slope_x +
-                           of_slope_before * follower.before_slope_x,
-                       -limit, limit);
-    follower.y = clamp(follower.known_y + of_before * (follower.before_y - follower.known_y) + of_slope * follower.slope_y +
-                           of_slope_before * follower.before_slope_y,
-                       -limit, limit);
-    follower.z = clamp(follower.known_z + of_before * (follower.before_z - follower.known_z) + of_slope * follower.slope_z +
-                           of_slope_before * follower.before_slope_z,
-                       -limit, limit);
+    follower.x = point.x;
+    follower.y = point.y;
+    follower.z = point.z;
     follower.steps = 0u;
 }
 
@@ -167,26 +155,14 @@ core_ray_sample core_sample_step(core_traced_ray ray, uint element, elvis_real c
     follower.all_steps += 1u;
     const bool is_stuck = !is_found && (!is_sound || follower.steps >= CORE_SAMPLE_STEPS);
     const bool is_there = is_found && follower.at == follower.goal;
-    follower.before = is_found ? follower.known : follower.before;
-    follower.before_x = is_found ? follower.known_x : follower.before_x;
-    follower.before_y = is_found ? follower.known_y : follower.before_y;
-    follower.before_z = is_found ? follower.known_z : follower.before_z;
-    follower.before_slope_x = is_found ? follower.slope_x : follower.before_slope_x;
-    follower.before_slope_y = is_found ? follower.slope_y : follower.before_slope_y;
-    follower.before_slope_z = is_found ? follower.slope_z : follower.before_slope_z;
-    follower.known = is_found ? follower.at : follower.known;
-    follower.known_x = is_found ? found.x : follower.known_x;
-    follower.known_y = is_found ? found.y : follower.known_y;
-    follower.known_z = is_found ? found.z : follower.known_z;
-    follower.slope_x = is_found ? result.w.x : follower.slope_x;
-    follower.slope_y = is_found ? result.w.y : follower.slope_y;
-    follower.slope_z = is_found ? result.w.z : follower.slope_z;
+    follower.before = core_either(is_found, follower.known, follower.before);
+    follower.known = core_either(is_found, core_ray_point_at(follower.at, found, result.w), follower.known);
     const elvis_real limit = elvis_real(4);
     follower.x = is_sound ? clamp(found.x, -limit, limit) : follower.x;
     follower.y = is_sound ? clamp(found.y, -limit, limit) : follower.y;
     follower.z = is_sound ? clamp(found.z, -limit, limit) : follower.z;
     if (is_stuck || (is_found && !is_there)) {
-        core_predict(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known + follower.at));
+        core_predict(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known.t + follower.at));
     }
     const bool is_given_up = follower.all_steps >= CORE_SAMPLE_MOST_STEPS;
     result.status = is_there ? CORE_SAMPLE_FOUND : is_given_up ? CORE_SAMPLE_FAILED : CORE_SAMPLE_RUNNING;
@@ -197,14 +173,12 @@ core_ray_sample core_sample_step(core_traced_ray ray, uint element, elvis_real c
 // is not needed if that was near enough, which the status says.
 core_ray_sample core_sample_predicted(core_segment segment, elvis_real at, elvis_real span, elvis_real enough) {
     core_ray_sample result;
-    const elvis_real since = at - segment.anchor;
-    result.w = elvis_vec3(segment.slope_x, segment.slope_y, segment.slope_z);
-    const elvis_real speed = core_max_norm(result.w), step = segment.step + abs(since) * speed;
+    result.w = core_slope_of(segment.anchor);
+    const elvis_real speed = core_max_norm(result.w), step = segment.step + abs(at - segment.anchor.t) * speed;
     const elvis_real off = core_prediction_error(segment.curvature, step);
     result.rounding = segment.noise;
     result.beyond = off + segment.noise;
-    core_sample_field(segment.element, elvis_vec3(segment.x, segment.y, segment.z) + since * result.w, step, step + abs(span) * speed, segment.curvature, span,
-                      result);
+    core_sample_field(segment.element, core_predicted(segment.anchor, at), step, step + abs(span) * speed, segment.curvature, span, result);
     const bool is_enough = core_sample_is_enough(result, span, enough), has_converged = result.is_known && off <= elvis_real(3) * segment.noise;
     result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(span) * result.slope_error;
     result.status = (is_enough || has_converged) && result.is_finite && step < elvis_real(1) ? CORE_SAMPLE_FOUND : CORE_SAMPLE_RUNNING;

@@ -1,9 +1,9 @@
-// Where a polynomial along a piece of a ray may cross an isovalue, one place after the other: by Bernstein coefficients
+// Where a polynomial on an interval of a ray may cross an isovalue, one place after the other: by Bernstein coefficients
 // (segments/polynomial.glsl) or, with CORE_USES_COLLEAGUE, by eigenvalues (segments/colleague.glsl).
 
 struct core_candidate {
     uint kind, index;
-    // In the piece.
+    // In the interval.
     elvis_real t, lower, upper;
 };
 

@@ -14,13 +14,14 @@
 
 #include "element/linearization.glsl"
 #include "segments/ray_model.glsl"
+#include "segments/ray_point.glsl"
 
 // The linearized mapping keeps this many digits of coordinates in the element.
 #define CORE_START_ERROR elvis_real(1e-2LF)
 
-// Elements of larger or unknown curvature, and those that take too many iterations, are looked at with this bound or a part of it: their segments are
-// estimated.
-// A kernel may bring others: more is right for more elements, and takes more iterations.
+// Taken as the curvature of elements with a larger or unknown one. Elements that take too many iterations are taken to have a share of
+// their curvature. Segments in both are estimated. A kernel may bring other numbers: larger ones are right for more elements, and take more
+// iterations.
 #ifndef CORE_ASSUMED_CURVATURE
 #define CORE_ASSUMED_CURVATURE elvis_real(4)
 #define CORE_CERTAIN_ITERATIONS 64u
@@ -82,12 +83,21 @@ struct core_segment {
     // Where the search goes on after the segment, if before `last`.
     elvis_real resume;
     // The last prediction, from which the next point comes.
-    elvis_real x, y, z, slope_x, slope_y, slope_z, anchor;
+    core_ray_point anchor;
     // Length of the step that led to it, and rounding of its coordinates.
     elvis_real step, noise;
     elvis_real curvature;
     uint iterations;
 };
+
+core_segment core_no_segment() {
+    core_segment segment;
+    segment.element = 0u;
+    segment.next = elvis_real(0);
+    segment.anchor = core_ray_point_at(elvis_real(0), elvis_vec3(0), elvis_vec3(0));
+    segment.iterations = 0u;
+    return segment;
+}
 
 elvis_vec3 core_segment_target(core_traced_ray ray, uint element, elvis_real t) {
     // elvis_origin is zero where the snippet's coordinates are the world's.
@@ -136,18 +146,34 @@ bool core_segment_begin(core_traced_ray ray, uint element, elvis_real begin, elv
     segment.enter = begin;
     segment.enter_face = segment.leave_face = CORE_NO_FACE;
     segment.enter_error = segment.leave = segment.leave_error = segment.resume = elvis_real(0);
-    const elvis_vec3 middle = CORE_CENTROID;
-    segment.x = is_linearized ? here.x : middle.x;
-    segment.y = is_linearized ? here.y : middle.y;
-    segment.z = is_linearized ? here.z : middle.z;
-    segment.slope_x = is_linearized ? model.slope.x : elvis_real(0);
-    segment.slope_y = is_linearized ? model.slope.y : elvis_real(0);
-    segment.slope_z = is_linearized ? model.slope.z : elvis_real(0);
-    segment.anchor = begin;
+    segment.anchor = core_either(is_linearized, core_ray_point_at(begin, here, model.slope),
+                                 core_ray_point_at(begin, CORE_CENTROID, elvis_vec3(0)));
     segment.step = elvis_real(3e38LF);
     segment.noise = elvis_real(0);
     segment.iterations = 0u;
     return is_possible;
+}
+
+// What an evaluation of the mapping at a point xi of the element tells of the ray at t.
+struct core_ray_evaluation {
+    core_ray_model model;
+    core_frame frame;
+    bool is_sound;
+};
+
+core_ray_evaluation core_evaluate_ray(core_traced_ray ray, uint element, elvis_vec3 xi, elvis_real t) {
+    core_ray_evaluation here;
+    elvis_vec3 position;
+    elvis_mat3 jacobian;
+    elvis_mapping_jacobian(element, xi, position, jacobian);
+    here.frame = core_frame_at(position, jacobian, ray.error);
+    here.model.step = core_to_xi(here.frame, core_segment_target(ray, element, t) - position);
+    here.model.at = xi + here.model.step;
+    here.model.slope = core_to_xi(here.frame, ray.direction);
+    here.model.anchor = t;
+    here.model.noise = here.frame.xi_error;
+    here.is_sound = here.frame.is_sound && core_is_finite(here.model.step.x + here.model.step.y + here.model.step.z);
+    return here;
 }
 
 // How far a prediction may lead in reference coordinates before another point than the ray's may be nearer: half as far as there is surely no
@@ -160,210 +186,126 @@ elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / c
 bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segment segment) {
     uint start = 0u, steps = 0u;
     bool is_found = false;
-    elvis_real x = segment.x, y = segment.y, z = segment.z;
+    elvis_real x = segment.anchor.x, y = segment.anchor.y, z = segment.anchor.z;
     core_project(x, y, z);
     while (!is_found && start < CORE_ENTRY_STARTS) {
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(segment.element, elvis_vec3(x, y, z), position, jacobian);
-        const core_frame frame = core_frame_at(position, jacobian, ray.error);
-        const elvis_vec3 step = core_to_xi(frame, core_segment_target(ray, segment.element, segment.anchor) - position);
-        const elvis_vec3 slope = core_to_xi(frame, ray.direction);
-        const elvis_real noise = core_max_norm(frame.xi_error);
-        elvis_real next_x = x + step.x, next_y = y + step.y, next_z = z + step.z;
-        const elvis_real beyond = core_excess(next_x, next_y, next_z);
-        const elvis_real size = core_max_norm(step);
-        const bool is_there = frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
+        const core_ray_evaluation here = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), segment.anchor.t);
+        const elvis_vec3 at = here.model.at, slope = here.model.slope;
+        const elvis_real noise = core_max_norm(here.model.noise), size = core_max_norm(here.model.step);
+        const elvis_real beyond = core_excess(at.x, at.y, at.z);
+        const bool is_there = here.frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
         const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope) +
                                                              elvis_real(2) * segment.curvature * size * size);
         steps += 1u;
         segment.iterations += 1u;
         is_found = is_there && is_in;
-        segment.x = is_found ? next_x : segment.x;
-        segment.y = is_found ? next_y : segment.y;
-        segment.z = is_found ? next_z : segment.z;
-        segment.slope_x = is_found ? slope.x : segment.slope_x;
-        segment.slope_y = is_found ? slope.y : segment.slope_y;
-        segment.slope_z = is_found ? slope.z : segment.slope_z;
+        segment.anchor = core_either(is_found, core_ray_point_at(segment.anchor.t, at, slope), segment.anchor);
         // From the centroid, then from near the corners.
-        const bool is_failed = !frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTRY_STEPS;
+        const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTRY_STEPS;
         const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
-        next_x = is_failed ? CORE_CENTROID.x + ((start & 1u) == 0u ? out_to : -out_to) : next_x;
-        next_y = is_failed ? CORE_CENTROID.y + ((start & 2u) == 0u ? out_to : -out_to) : next_y;
-        next_z = is_failed ? CORE_CENTROID.z + ((start & 4u) == 0u ? out_to : -out_to) : next_z;
+        x = is_failed ? CORE_CENTROID.x + ((start & 1u) == 0u ? out_to : -out_to) : at.x;
+        y = is_failed ? CORE_CENTROID.y + ((start & 2u) == 0u ? out_to : -out_to) : at.y;
+        z = is_failed ? CORE_CENTROID.z + ((start & 4u) == 0u ? out_to : -out_to) : at.z;
         start += is_failed ? 1u : 0u;
         steps = is_failed ? 0u : steps;
-        core_project(next_x, next_y, next_z);
-        x = next_x;
-        y = next_y;
-        z = next_z;
+        core_project(x, y, z);
     }
-    const elvis_real rate = max(max(abs(segment.slope_x), abs(segment.slope_y)), abs(segment.slope_z));
+    const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
     segment.is_followed = is_found;
     segment.is_inside = segment.is_inside || is_found;
     segment.is_assumed = is_found;
-    segment.begin = is_found ? segment.anchor : segment.begin;
+    segment.begin = is_found ? segment.anchor.t : segment.begin;
     segment.last = max(segment.last, segment.begin);
-    segment.end = is_found ? min(segment.last, segment.anchor + core_follow_span(segment.curvature) / rate) : segment.end;
+    segment.end = is_found ? min(segment.last, segment.anchor.t + core_follow_span(segment.curvature) / rate) : segment.end;
     segment.next = is_found ? elvis_real(0.5LF) * (segment.begin + segment.end) : segment.next;
     return is_found;
 }
 
-// Before the entry: where the interval is open, and whether the ray enters in it.
-void core_seek_entry(core_traced_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_segment segment) {
-    const elvis_real begin = segment.begin, end = segment.end;
-    const bool is_nothing = clip.possible_from > clip.possible_to;
-    segment.last = end == segment.last ? (is_nothing ? begin : clip.possible_to) : segment.last;
-    const bool is_joined = clip.sure_to >= end && segment.known_from <= end;
-    segment.known_to = is_sure && !is_joined ? clip.sure_to : segment.known_to;
-    segment.known_from = is_sure ? clip.sure_from : segment.known_from;
-    const bool is_found = !is_nothing && is_sure && (is_exact || clip.sure_from - clip.possible_from <= ray.tolerance);
+#include "segments/segment_ends.glsl"
 
-    const elvis_real open_end = is_sure ? clip.sure_from : clip.possible_to;
-    const bool is_shrunk = open_end - clip.possible_from <= elvis_real(0.5LF) * (end - begin);
-    const elvis_real middle = elvis_real(0.5LF) * (clip.possible_from + open_end);
-    // Too short to matter, and not decided: left out.
-    const bool is_left_out = !is_nothing && !is_found && open_end - clip.possible_from <= ray.tolerance;
-    const bool is_over = is_nothing || is_left_out;
-    segment.enter = is_found ? clamp(clip.from, clip.possible_from, clip.sure_from) : segment.enter;
-    segment.enter_error = is_found ? error : segment.enter_error;
-    segment.enter_face = is_found ? clip.from_face : segment.enter_face;
-    segment.is_inside = is_found;
-    segment.begin = is_found ? segment.known_to : is_nothing ? end : is_left_out ? open_end : clip.possible_from;
-    const bool is_bounded = segment.known_to == clip.sure_to && clip.possible_to < end;
-    // Twice as far as what was decided.
-    const elvis_real farther = min(segment.last, end + elvis_real(2) * (end - begin));
-    segment.end = is_found ? (is_bounded ? clip.possible_to : segment.last) : is_over ? farther : is_shrunk ? open_end : middle;
-#if ELVIS_HAS_INSIDE
-    // What is left may be rounding's alone, along which faces do not bound: where the ray leaves is looked for from further inside.
-    const elvis_real further = max(segment.known_to - elvis_real(4) * (segment.end - segment.known_to), clip.sure_from);
-    segment.begin = is_found && is_bounded ? min(segment.begin, further) : segment.begin;
-#endif
-    segment.next = is_found || is_over || !is_sure || !is_shrunk ? elvis_real(0.5LF) * (segment.begin + segment.end)
-                                                              : clamp(clip.from, segment.begin, segment.end);
+// After too many iterations a share of the bound is taken for it: the segment is then estimated.
+elvis_real core_taken_curvature(inout core_segment segment) {
+    const bool is_certain = segment.iterations <= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
+    const bool is_late = segment.iterations >= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u;
+    segment.is_estimated = segment.is_estimated || !is_certain;
+    return is_certain ? segment.curvature : segment.curvature * (is_late ? elvis_real(0.015625LF) : elvis_real(0.125LF));
 }
 
-// Inside: where the ray leaves. True if that is found.
-bool core_seek_exit(core_traced_ray ray, core_ray_clip clip, bool is_sure, bool is_exact, elvis_real error, inout core_segment segment) {
-    const elvis_real begin = segment.begin, end = segment.end;
-    const bool is_contradicted = clip.possible_from > min(clip.possible_to, begin + ray.tolerance);
-    const bool is_continued = is_sure && clip.sure_from <= begin + ray.tolerance;
-    segment.last = end == segment.last && !is_contradicted ? clip.possible_to : segment.last;
-    const bool is_all_inside = is_continued && clip.sure_to >= end;
-    const bool is_last = is_all_inside && end >= segment.last;
-    // Rounding may say that the ray is out already where it was surely inside.
-    const bool is_at_begin = is_exact && clip.to <= begin + error && clip.to >= begin - error && clip.from <= clip.to;
-    // Where nothing but the interval ends, the ray may go on.
-    const bool is_cut_off = clip.to_face == CORE_NO_FACE && end < segment.last;
-    const bool is_narrow = clip.possible_to - clip.sure_to <= ray.tolerance && !is_cut_off;
-    const bool is_found = is_at_begin || (is_continued && !is_all_inside && (is_exact || is_narrow));
-    const elvis_real open_begin = is_continued ? clip.sure_to : begin;
-    const elvis_real open_end = is_continued ? clip.possible_to : min(clip.possible_to, elvis_real(0.5LF) * (begin + end));
-    // Too short to matter, and not decided: as predicted.
-    const bool is_short = !is_all_inside && !is_found && open_end - open_begin <= ray.tolerance;
-    const elvis_real middle = elvis_real(0.5LF) * (open_begin + open_end);
-    const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < segment.last;
-    const bool is_shrunk = open_end - open_begin <= elvis_real(0.5LF) * (end - begin);
-    const bool is_over = is_contradicted || is_last || is_found || (is_short && !is_passed);
-    segment.leave = is_contradicted && !is_at_begin ? begin : is_at_begin ? clip.to : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
-    segment.leave_error = is_found ? error : ray.tolerance;
-    segment.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
-    segment.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;
-    segment.begin = is_all_inside ? end : is_passed ? open_end : open_begin;
-    // Twice as far as what was decided.
-    segment.end = is_all_inside ? min(segment.last, end + elvis_real(2) * (end - begin))
-               : is_passed   ? min(segment.last, open_end + elvis_real(2) * ray.tolerance)
-               : is_shrunk   ? open_end
-                             : middle;
-    segment.next = is_continued && is_shrunk && !is_all_inside && !is_passed ? clamp(clip.to, segment.begin, segment.end)
-                                                             : elvis_real(0.5LF) * (segment.begin + segment.end);
-    return is_over;
+// What of the interval is outside, inside and open. `predicted`: the point of the shape next to it, xi, has been evaluated.
+core_ray_clip core_clip_interval(uint element, elvis_real curvature, elvis_vec3 predicted, elvis_vec3 xi, core_segment segment,
+                                 inout core_ray_evaluation here) {
+    const elvis_real step = max(core_model_step(here.model, segment.begin), core_model_step(here.model, segment.end));
+    // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
+    const elvis_real along = core_max_norm(here.model.slope) * (segment.end - segment.begin);
+    const elvis_real agreed = elvis_real(8) * core_max_norm(here.model.at - predicted) + curvature * along * along;
+    const elvis_real bound = core_prediction_error(curvature, step);
+#if ELVIS_HAS_INSIDE
+    core_take_inside(here.model, element, xi, step + bound);
+#endif
+    const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
+    const bool is_agreed = xi != predicted && !segment.is_inside && segment.iterations > 1u;
+    core_ray_clip clip =
+        core_clip_ray(here.model, is_agreed ? min(bound, agreed) : bound, core_slope_change(here.model, curvature, distance), segment.is_inside,
+                      segment.is_followed || !segment.is_assumed, segment.begin, segment.end);
+    // Where nothing is known, anything is possible.
+    clip.possible_from = here.is_sound ? clip.possible_from : segment.begin;
+    clip.possible_to = here.is_sound ? clip.possible_to : segment.end;
+    clip.is_sure = here.is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
+    return clip;
+}
+
+// The next point is predicted from here, unless that is another one's. The interval is no longer than it can be followed.
+void core_predict_from(core_ray_evaluation here, elvis_real curvature, elvis_real tolerance, inout core_segment segment) {
+    const core_ray_model model = here.model;
+    const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.step)));
+    segment.anchor = core_either(is_anchor, core_ray_point_at(model.anchor, model.at, model.slope), segment.anchor);
+    segment.step = is_anchor ? core_model_step(model, model.anchor) : segment.step;
+    segment.noise = is_anchor ? core_max_norm(model.noise) : segment.noise;
+    const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
+    const elvis_real follow_end = max(segment.anchor.t + core_follow_span(segment.curvature) / rate, segment.begin + tolerance);
+    const bool is_too_far = segment.is_followed && follow_end < segment.end;
+    segment.end = is_too_far ? follow_end : segment.end;
+    segment.next = is_too_far ? clamp(segment.next, segment.begin, segment.end) : segment.next;
 }
 
 // One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `is_active`: false for lanes that have nothing to do.
 uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segment segment) {
     const uint element = is_active ? segment.element : 0u;
-    const elvis_real since = segment.next - segment.anchor;
-    elvis_real x = segment.x + since * segment.slope_x, y = segment.y + since * segment.slope_y, z = segment.z + since * segment.slope_z;
-    const elvis_vec3 predicted = elvis_vec3(x, y, z);
+    const elvis_vec3 predicted = core_predicted(segment.anchor, segment.next);
+    elvis_real x = predicted.x, y = predicted.y, z = predicted.z;
     core_project(x, y, z);
-    const bool was_outside = x != predicted.x || y != predicted.y || z != predicted.z;
-    elvis_vec3 position;
-    elvis_mat3 jacobian;
-    elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
-    const core_frame frame = core_frame_at(position, jacobian, ray.error);
-
-    core_ray_model model;
-    model.step = core_to_xi(frame, core_segment_target(ray, element, segment.next) - position);
-    model.at = elvis_vec3(x, y, z) + model.step;
-    model.slope = core_to_xi(frame, ray.direction);
-    model.anchor = segment.next;
-    model.noise = frame.xi_error;
-    const bool is_sound = frame.is_sound && core_is_finite(model.step.x + model.step.y + model.step.z);
-
+    const elvis_vec3 xi = elvis_vec3(x, y, z);
+    core_ray_evaluation here = core_evaluate_ray(ray, element, xi, segment.next);
     segment.iterations += 1u;
-    const bool is_certain = segment.iterations <= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
-    segment.is_estimated = segment.is_estimated || !is_certain;
-    const elvis_real curvature = is_certain ? segment.curvature
-                                 : segment.curvature *
-                                       (segment.iterations < CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u ? elvis_real(0.125LF) : elvis_real(0.015625LF));
-    const elvis_real step = max(core_model_step(model, segment.begin), core_model_step(model, segment.end));
-    // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
-    const elvis_vec3 moved = abs(model.at - predicted), slope = abs(model.slope);
-    const elvis_real along = max(max(slope.x, slope.y), slope.z) * (segment.end - segment.begin);
-    const elvis_real agreed = elvis_real(8) * max(max(moved.x, moved.y), moved.z) + curvature * along * along;
-    const elvis_real bound = core_prediction_error(curvature, step);
-#if ELVIS_HAS_INSIDE
-    core_take_inside(model, element, elvis_vec3(x, y, z), step + bound);
-#endif
-    const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
-    core_ray_clip clip = core_clip_ray(model, was_outside && !segment.is_inside && segment.iterations > 1u ? min(bound, agreed) : bound,
-                                       core_slope_change(model, curvature, distance), segment.is_inside, segment.is_followed || !segment.is_assumed, segment.begin,
-                                       segment.end);
-    const bool is_sure = is_sound && core_is_near(curvature, step) && clip.sure_from <= clip.sure_to;
-    // Where nothing is known, anything is possible.
-    clip.possible_from = is_sound ? clip.possible_from : segment.begin;
-    clip.possible_to = is_sound ? clip.possible_to : segment.end;
+    const elvis_real curvature = core_taken_curvature(segment);
+    const core_ray_clip clip = core_clip_interval(element, curvature, predicted, xi, segment, here);
 
     const bool was_inside = segment.is_inside;
     const int face = was_inside ? clip.to_face : clip.from_face;
-    const core_root_error error = core_root_error_at(model, frame, curvature, face, was_inside ? clip.to : clip.from);
-    bool is_exact = is_sound && face >= 0 && core_is_near(curvature, core_model_step(model, was_inside ? clip.to : clip.from)) &&
+    const elvis_real crossing = was_inside ? clip.to : clip.from;
+    const core_root_error error = core_root_error_at(here.model, here.frame, curvature, face, crossing);
+    bool is_exact = here.is_sound && face >= 0 && core_is_near(curvature, core_model_step(here.model, crossing)) &&
                     error.distance <= ray.tolerance * ray.speed;
 #if ELVIS_HAS_INSIDE
     // The error is that of one face. Flat ones are known equally well; of the other one, more must be known.
     const bool own_holds = was_inside ? clip.own_holds_to : clip.own_holds_from;
     is_exact = is_exact && (face == CORE_INSIDE_FACE || !own_holds);
     // No more is wanted of its place than rounding leaves.
-    ray.tolerance = own_holds ? max(ray.tolerance, min(core_own_blur(model), CORE_MOST_BLUR * ray.tolerance)) : ray.tolerance;
+    ray.tolerance = own_holds ? max(ray.tolerance, min(core_own_blur(here.model), CORE_MOST_BLUR * ray.tolerance)) : ray.tolerance;
 #endif
     const bool is_denied = segment.is_assumed && clip.possible_from > min(clip.possible_to, segment.begin + ray.tolerance);
-    const bool is_confirmed = is_sure && clip.sure_from <= segment.begin + ray.tolerance;
+    const bool is_confirmed = clip.is_sure && clip.sure_from <= segment.begin + ray.tolerance;
     const bool is_kept_in = was_inside && !is_denied;
     segment.is_assumed = segment.is_assumed && is_kept_in && !is_confirmed;
     bool has_left = false;
     if (is_kept_in) {
-        has_left = core_seek_exit(ray, clip, is_sure, is_exact, error.parameter, segment);
+        has_left = core_seek_exit(ray, clip, is_exact, error.parameter, segment);
     }
     if (!is_kept_in) {
-        core_seek_entry(ray, clip, is_sure, is_exact, error.parameter, segment);
+        core_seek_entry(ray, clip, is_exact, error.parameter, segment);
     }
     segment.is_followed = segment.is_followed && !is_denied;
-    const bool is_anchor = is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.step)));
-    segment.x = is_anchor ? model.at.x : segment.x;
-    segment.y = is_anchor ? model.at.y : segment.y;
-    segment.z = is_anchor ? model.at.z : segment.z;
-    segment.slope_x = is_anchor ? model.slope.x : segment.slope_x;
-    segment.slope_y = is_anchor ? model.slope.y : segment.slope_y;
-    segment.slope_z = is_anchor ? model.slope.z : segment.slope_z;
-    segment.anchor = is_anchor ? model.anchor : segment.anchor;
-    segment.step = is_anchor ? core_model_step(model, model.anchor) : segment.step;
-    segment.noise = is_anchor ? core_max_norm(model.noise) : segment.noise;
-    const elvis_real rate = max(max(abs(segment.slope_x), abs(segment.slope_y)), abs(segment.slope_z));
-    const elvis_real follow_end = max(segment.anchor + core_follow_span(segment.curvature) / rate, segment.begin + ray.tolerance);
-    const bool is_too_far = segment.is_followed && follow_end < segment.end;
-    segment.end = is_too_far ? follow_end : segment.end;
-    segment.next = is_too_far ? clamp(segment.next, segment.begin, segment.end) : segment.next;
+    core_predict_from(here, curvature, ray.tolerance, segment);
 
     const bool is_given_up = segment.iterations >= CORE_SEGMENT_ITERATIONS * CORE_ITERATIONS_SHARE;
     const bool is_found = is_kept_in && (has_left || is_given_up);

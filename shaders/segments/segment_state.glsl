@@ -6,16 +6,14 @@
 #include "segments/walk_state.glsl"
 
 struct core_segment_state {
-    elvis_real done, walk, start;
-    // Bounds of the errors of the first two.
-    elvis_real done_error, walk_error;
+    core_walk_state walk;
+    // Bounds of the errors of walk.done and walk.at.
+    elvis_real done_error, at_error;
     // Of the segments' lengths, as parameters.
     elvis_real sum;
-    uint start_element, element;
-    uint status, flags;
     // In the ray's list.
     uint n_segments;
-    // Whether `done` rests on an estimate.
+    // Whether walk.done rests on an estimate.
     uint is_estimated;
 };
 

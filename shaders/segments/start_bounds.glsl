@@ -1,16 +1,16 @@
 // Whether a ray can come into an element through one of its faces without neighbour, from the linearized mapping alone, without any
 // evaluation.
 //
-// Where it surely enters through a face it does so once: in elements that are nearly linear because the way between two points of the
-// shape lies in it; in others because a face that has all its directions within an angle does not come back above itself, but as a spiral
-// staircase. Others it can meet only where the face's constraint may be zero and the others may hold.
+// A ray that surely enters through a face does so once: in elements that are nearly linear, because the way between two points of the
+// shape lies in it; in others, because a face whose directions all lie within an angle does not come back above itself, but as a spiral
+// staircase. Through other faces it can enter only where the face's constraint may be zero and the others may hold.
 //
 // The kernel brings segments/segment.glsl and core_links.
 
 #include "segments/ray_motion.glsl"
 
-// In [begin, end], where the ray meets the element's box. `from`: starts before it do not count; `is_taken`: the start there is one through
-// a face of this element.
+// In [begin, end], where the ray meets the element's box. `from`: starts before it do not count; `is_taken`: the start there is that of the
+// last walk, through a face of this element.
 bool core_may_start(core_traced_ray ray, uint element, elvis_real begin, elvis_real end, elvis_real from, bool is_taken) {
     const core_linearization linearization = core_fetch_linearization(element);
     const elvis_real curvature = CORE_SEGMENT_CURVATURE(element);

@@ -12,19 +12,30 @@
 #define CORE_RAY_ENDS 2u
 // At the depth of a transparent surface, in the middle of an element.
 #define CORE_RAY_WAITS 3u
-// All starts of the classes that have been asked so far are looked through.
+// The starts in some classes have been looked for.
 #define CORE_RAY_HAS_SOUGHT 4u
 
 #define CORE_NO_ELEMENT 0xffffffffu
 #define CORE_NO_LINK 0xffffffffu
 
-struct core_walk {
-    // Up to here everything is settled; where the walk has got to; where it began, and the element in which it began.
+// Between dispatches.
+struct core_walk_state {
+    // Up to here everything is settled; where the walk has got to; where it began.
     elvis_real done, at, start;
-    uint start_element;
-    // Of all elements of the volume: the walk's next one; of a ray that seeks, that of the nearest start found so far.
-    uint element;
+    // Of all elements of the volume: the one in which the walk began, and its next one; of a ray that seeks, the one with the nearest start
+    // found so far, which is then `at`.
+    uint start_element, element;
     uint status;
+    // CORE_FLAG_...
+    uint flags;
+};
+
+// In a dispatch.
+struct core_walk {
+    elvis_real done, at, start;
+    uint start_element, element, status, flags;
+    // It begins, goes on or ends in this dispatch's class.
+    bool is_mine;
     // How often on end the element was not met where it was to be.
     uint n_lost;
     // What few rays need (core_walk_help): where it leaves an element without bounds, and the element around it.

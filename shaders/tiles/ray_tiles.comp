@@ -1,5 +1,5 @@
-// For each tile of pixels, what its rays can meet of a hierarchy (over patches of faces, or elements): neighbouring pixels share most of their way
-// through the hierarchy, so it is gone once for all of them.
+// For each tile of pixels, what its rays can meet of a hierarchy (over patches of faces, or elements). Neighbouring pixels share most of
+// their way through the hierarchy: it is descended once for all of them.
 
 layout(local_size_x = 32) in;
 
@@ -43,6 +43,41 @@ layout(std430, set = 0, binding = 2) buffer core_has_starts_block { uint core_ha
 bool core_leaf_is_met(uint item, core_frustum frustum, vec2 span) { return true; }
 #endif
 
+// The tile's list, by ascending entry.
+uint core_words[CORE_TILE_CAPACITY];
+float core_entries[CORE_TILE_CAPACITY];
+
+void core_insert(uint n_entries, uint word, float entry) {
+    uint place = n_entries;
+    while (place > 0u && core_entries[max(place, 1u) - 1u] > entry) {
+        core_entries[place] = core_entries[place - 1u];
+        core_words[place] = core_words[place - 1u];
+        place -= 1u;
+    }
+    core_entries[place] = entry;
+    core_words[place] = word;
+}
+
+// `n_inner`: of the entries, how many are inner nodes.
+void core_write_list(uint tile, bool is_wanted, uint n_entries, uint n_inner) {
+    const uint first = tile * CORE_TILE_STRIDE;
+    if (is_wanted) {
+        core_tiles[first] = n_entries | (n_inner > 0u ? CORE_TILE_INNER : 0u);
+#ifdef CORE_TESTS_STARTS
+        core_has_starts[tile] |= n_entries;
+#endif
+    }
+    for (uint i = 0u; i < n_entries; ++i) {
+        core_tiles[first + 1u + 2u * i] = core_words[i];
+        core_tiles[first + 2u + 2u * i] = floatBitsToUint(core_entries[i]);
+    }
+#ifdef CORE_LISTS_TILES
+    if (n_entries > 0u) {
+        core_list_tile(tile, n_inner > 0u ? 1u : 0u, core_n_tiles);
+    }
+#endif
+}
+
 void main() {
     const uint tile = core_first_tile + gl_GlobalInvocationID.x;
     const bool is_wanted = tile < core_end_tile;
@@ -53,29 +88,19 @@ void main() {
     uint stack_size = is_wanted ? 1u : 0u;
     stack[0] = 0u;
     uint n_entries = 0u, n_inner = 0u;
-    uint words[CORE_TILE_CAPACITY];
-    float entries[CORE_TILE_CAPACITY];
     while (stack_size > 0u) {
         stack_size -= 1u;
         const uint index = stack[stack_size];
         const core_node node = core_fetch_node(index);
         const vec2 span = core_frustum_span(node, frustum);
-        const float entry = span.x;
-        bool is_met = entry < 3.2e38;
+        bool is_met = span.x < 3.2e38;
         if (is_met && node.is_leaf) {
             is_met = core_leaf_is_met(node.child, frustum, span);
         }
         // A node that could leave too many entries behind stays an entry itself, for the pixels to descend from.
         const bool is_entry = node.is_leaf || n_entries + stack_size + 2u > CORE_TILE_CAPACITY;
         if (is_met && is_entry) {
-            uint place = n_entries;
-            while (place > 0u && entries[max(place, 1u) - 1u] > entry) {
-                entries[place] = entries[place - 1u];
-                words[place] = words[place - 1u];
-                place -= 1u;
-            }
-            entries[place] = entry;
-            words[place] = node.is_leaf ? CORE_LEAF_WORD : index | CORE_TILE_INNER;
+            core_insert(n_entries, node.is_leaf ? CORE_LEAF_WORD : index | CORE_TILE_INNER, span.x);
             n_entries += 1u;
             n_inner += node.is_leaf ? 0u : 1u;
         }
@@ -93,24 +118,7 @@ void main() {
     }
     // Then pixels descend from the root.
     const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_end_tile >> 31));
-    words[0] = is_cut_short ? CORE_TILE_INNER : words[0];
-    entries[0] = is_cut_short ? -3e38 : entries[0];
-    n_entries = is_cut_short ? 1u : n_entries;
-    n_inner = is_cut_short ? 1u : n_inner;
-    const uint first = tile * CORE_TILE_STRIDE;
-    if (is_wanted) {
-        core_tiles[first] = n_entries | (n_inner > 0u ? CORE_TILE_INNER : 0u);
-#ifdef CORE_TESTS_STARTS
-        core_has_starts[tile] |= n_entries;
-#endif
-    }
-    for (uint i = 0u; i < n_entries; ++i) {
-        core_tiles[first + 1u + 2u * i] = words[i];
-        core_tiles[first + 2u + 2u * i] = floatBitsToUint(entries[i]);
-    }
-#ifdef CORE_LISTS_TILES
-    if (n_entries > 0u) {
-        core_list_tile(tile, n_inner > 0u ? 1u : 0u, core_n_tiles);
-    }
-#endif
+    core_words[0] = is_cut_short ? CORE_TILE_INNER : core_words[0];
+    core_entries[0] = is_cut_short ? -3e38 : core_entries[0];
+    core_write_list(tile, is_wanted, is_cut_short ? 1u : n_entries, is_cut_short ? 1u : n_inner);
 }

@@ -41,7 +41,7 @@ void main() {
         const uint column = tile * CORE_TILE_WIDTH + lane;
         const bool is_pixel = column < core_size.x;
         const uint pixel = is_pixel ? row * core_size.x + column : 0u;
-        const uint status = core_states[pixel].status, element = core_states[pixel].element;
+        const uint status = core_states[pixel].walk.status, element = core_states[pixel].walk.element;
         const bool has_sought = status == CORE_RAY_HAS_SOUGHT;
         const bool ends = core_seeks != 0u ? status == CORE_RAY_SEEKS && !has_starts : has_sought && element == CORE_NO_ELEMENT;
         const bool is_own = element >= core_first_element && element - core_first_element < core_n_elements;
@@ -55,7 +55,7 @@ void main() {
             core_is_open[i - first] = 1u;
         }
         if (is_pixel && ends) {
-            core_states[pixel].status = CORE_RAY_ENDS;
+            core_states[pixel].walk.status = CORE_RAY_ENDS;
         }
     }
     barrier();

@@ -14,16 +14,10 @@ layout(push_constant) uniform core_parameters {
 
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
-    core_volume_state state;
-    state.done = -CORE_FAR;
-    state.walk = state.step = CORE_FAR;
-    state.start = -CORE_FAR;
-    state.red = state.green = state.blue = state.error = elvis_real(0);
-    state.left = elvis_real(1);
-    state.start_element = state.element = CORE_NO_ELEMENT;
-    state.status = CORE_RAY_SEEKS;
-    state.flags = 0u;
+    const core_walk_state walk =
+        core_walk_state(-CORE_FAR, CORE_FAR, -CORE_FAR, CORE_NO_ELEMENT, CORE_NO_ELEMENT, CORE_RAY_SEEKS, 0u);
+    const elvis_real none = elvis_real(0);
     if (pixel < core_n_pixels) {
-        core_states[pixel] = state;
+        core_states[pixel] = core_volume_state(walk, CORE_FAR, core_light(none, none, none, elvis_real(1), none));
     }
 }

@@ -24,16 +24,12 @@
 // dimmed by that rule's own sum of density, so that the trapezoidal rule's error does not go beyond the panel: it then falls with the
 // cube of its length.
 //
-// The kernel brings volume/volume_light.glsl.
+// The kernel brings volume/volume_light.glsl and segments/ray_sample.glsl.
 
 #define CORE_MOST_STEPS 768u
 #include "arithmetic/kronrod.glsl"
 #include "volume/volume_optics.glsl"
 
-// Of what the kernel does in one dispatch.
-#define CORE_WORK_A_SAMPLE 3u
-
-#define CORE_WANTS_NOTHING 0u
 #define CORE_WANTS_END 1u
 #define CORE_WANTS_BEGINNING 2u
 #define CORE_WANTS_VALUE 3u
@@ -50,7 +46,7 @@ struct core_integral {
     uint wants;
     // Of the field: bounds over the segment, those over the half at the end, and its value there.
     elvis_real low, high, end_low, end_high, end_value;
-    // Only what is let through, of the points' weights alone; the trapezoidal rule for the outer integral.
+    // Only transmittance, by the weights of the points alone; the trapezoidal rule for the outer integral.
     bool is_absorption, is_trapezoid;
     // Panels, points inside each, and where the next sample is: in which panel, at which point of it.
     uint n_steps, n_points, panel, point;
@@ -86,11 +82,6 @@ elvis_real core_point_weight(uint n_points, uint point) {
     return n_points == 1u ? elvis_real(1) : n_points == 3u ? core_gauss_weights[index] : core_kronrod_weights[index];
 }
 
-// All of a segment is done at once.
-bool core_integral_may_stop(core_integral integral) { return false; }
-bool core_integral_wants_sample(core_integral integral) { return integral.wants != CORE_WANTS_NOTHING; }
-elvis_real core_integral_done(core_integral integral) { return integral.from; }
-elvis_real core_integral_step(core_integral integral) { return CORE_FAR; }
 elvis_real core_integral_span(core_integral integral) {
     return integral.wants == CORE_WANTS_END         ? integral.from - integral.to
            : integral.wants == CORE_WANTS_BEGINNING ? integral.to - integral.from
@@ -106,7 +97,7 @@ elvis_real core_integral_at(core_integral integral) {
                                                     : integral.from + (integral.to - integral.from) * share;
 }
 
-bool core_is_zero(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)) == elvis_real(0); }
+bool core_is_zero(elvis_vec3 v) { return core_max_norm(v) == elvis_real(0); }
 
 // Whether a linear function goes on as another at a breakpoint: its values there and slopes, alike but for rounding.
 bool core_goes_on(elvis_real below, elvis_real below_slope, elvis_real above, elvis_real above_slope, elvis_real width) {
@@ -181,44 +172,53 @@ void core_add_point(inout core_integral integral, inout core_light light, elvis_
     integral.point = is_last ? 0u : integral.point + 1u;
 }
 
-void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error,
-                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
+// The field's range along the segment, from the sample at its end and then the one at its beginning.
+void core_bound_range(inout core_integral integral, core_ray_sample found) {
+    const bool is_end = integral.wants == CORE_WANTS_END;
+    const elvis_real none = elvis_real(0), change = core_integral_span(integral) * found.slope, beyond = found.bend + found.error;
+    const elvis_real low = found.value + min(change, none) - beyond, high = found.value + max(change, none) + beyond;
+    // Bounds without a number say nothing.
+    integral.low = low > integral.low ? low : integral.low;
+    integral.high = high < integral.high ? high : integral.high;
+    const elvis_real half_change = elvis_real(0.5LF) * change, near = elvis_real(0.375LF) * found.bend + elvis_real(3) * found.error;
+    const elvis_real near_low = found.value + min(half_change, none) - near;
+    const elvis_real near_high = found.value + max(half_change, none) + near;
+    const elvis_real both_low = min(near_low, integral.end_low), both_high = max(near_high, integral.end_high);
+    integral.low = !is_end && both_low > integral.low ? both_low : integral.low;
+    integral.high = !is_end && both_high < integral.high ? both_high : integral.high;
+    integral.end_low = is_end ? near_low : integral.end_low;
+    integral.end_high = is_end ? near_high : integral.end_high;
+    integral.end_value = is_end ? found.value : integral.end_value;
+}
+
+// An end of the segment.
+void core_add_end(inout core_integral integral, inout core_light light, core_ray_sample found, elvis_real length) {
+    const bool is_end = integral.wants == CORE_WANTS_END;
+    core_bound_range(integral, found);
+    const core_categories categories = core_categorize(integral.low, integral.high);
+    core_light chosen = light;
+    core_choose_rule(integral, chosen, categories, length);
+    light.error = is_end ? light.error : chosen.error;
+    const core_optics optics = core_optics_at(found.value);
+    const elvis_real weight = integral.is_trapezoid ? elvis_real(0.5LF) * length / elvis_real(integral.n_steps) : elvis_real(0);
+    integral.last_density = optics.density;
+    integral.red = weight * optics.red;
+    integral.green = weight * optics.green;
+    integral.blue = weight * optics.blue;
+    integral.wants = !categories.has_density ? CORE_WANTS_NOTHING : is_end ? CORE_WANTS_BEGINNING : CORE_WANTS_VALUE;
+    integral.n_steps = categories.has_density ? integral.n_steps : 0u;
+}
+
+void core_integral_add(inout core_integral integral, inout core_light light, core_ray_sample found, core_accuracy wanted,
                        inout core_held_piece held, inout uint work) {
-    const uint given = integral.wants;
-    const bool is_end = given == CORE_WANTS_END, is_value = given == CORE_WANTS_VALUE;
-    const elvis_real length = (integral.to - integral.from) * per_parameter;
+    const bool is_value = integral.wants == CORE_WANTS_VALUE;
+    const elvis_real length = (integral.to - integral.from) * wanted.per_parameter;
     if (!is_value) {
-        const elvis_real change = (is_end ? integral.from - integral.to : integral.to - integral.from) * slope;
-        const elvis_real beyond = bend + error;
-        const elvis_real low = value + min(change, elvis_real(0)) - beyond, high = value + max(change, elvis_real(0)) + beyond;
-        // Bounds without a number say nothing.
-        integral.low = low > integral.low ? low : integral.low;
-        integral.high = high < integral.high ? high : integral.high;
-        const elvis_real half_change = elvis_real(0.5LF) * change, near = elvis_real(0.375LF) * bend + elvis_real(3) * error;
-        const elvis_real near_low = value + min(half_change, elvis_real(0)) - near;
-        const elvis_real near_high = value + max(half_change, elvis_real(0)) + near;
-        const elvis_real both_low = min(near_low, integral.end_low), both_high = max(near_high, integral.end_high);
-        integral.low = !is_end && both_low > integral.low ? both_low : integral.low;
-        integral.high = !is_end && both_high < integral.high ? both_high : integral.high;
-        integral.end_low = is_end ? near_low : integral.end_low;
-        integral.end_high = is_end ? near_high : integral.end_high;
-        const core_categories categories = core_categorize(integral.low, integral.high);
-        core_light chosen = light;
-        core_choose_rule(integral, chosen, categories, length);
-        const core_optics optics = core_optics_at(value);
-        const elvis_real weight = integral.is_trapezoid ? elvis_real(0.5LF) * length / elvis_real(integral.n_steps) : elvis_real(0);
-        integral.end_value = is_end ? value : integral.end_value;
-        integral.last_density = optics.density;
-        integral.red = weight * optics.red;
-        integral.green = weight * optics.green;
-        integral.blue = weight * optics.blue;
-        light.error = is_end ? light.error : chosen.error;
-        integral.wants = !categories.has_density ? CORE_WANTS_NOTHING : is_end ? CORE_WANTS_BEGINNING : CORE_WANTS_VALUE;
-        integral.n_steps = categories.has_density ? integral.n_steps : 0u;
+        core_add_end(integral, light, found, length);
     }
     const elvis_real width = length / elvis_real(max(integral.n_steps, 1u));
     if (is_value) {
-        core_add_point(integral, light, value, width);
+        core_add_point(integral, light, found.value, width);
     }
     // The end is known.
     const bool is_all = integral.wants == CORE_WANTS_VALUE && integral.panel >= integral.n_steps;

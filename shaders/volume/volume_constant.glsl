@@ -5,17 +5,18 @@
 
 #include "isosurface/linear_model.glsl"
 
-// Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `segment`: as the search for where the
-// ray leaves has left it.
+// Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `segment`: as it is when
+// the ray's end in it has been found.
 elvis_vec2 core_range_along(core_segment segment, elvis_real from, elvis_real until) {
     const core_linear_model model = core_fetch_linear_model(segment.element);
-    const elvis_vec3 anchor = elvis_vec3(segment.x, segment.y, segment.z) - CORE_CENTROID;
-    const elvis_vec3 slope = elvis_vec3(segment.slope_x, segment.slope_y, segment.slope_z), model_slope = elvis_vec3(model.slope);
-    const elvis_real reach = max(abs(from - segment.anchor), abs(until - segment.anchor)) * core_max_norm(slope);
+    const elvis_vec3 anchor = core_xi_of(segment.anchor) - CORE_CENTROID, slope = core_slope_of(segment.anchor);
+    const elvis_vec3 model_slope = elvis_vec3(model.slope);
+    const elvis_real first = from - segment.anchor.t, last = until - segment.anchor.t;
+    const elvis_real reach = max(abs(first), abs(last)) * core_max_norm(slope);
     // Points of the shape are predicted with this error at most.
     const elvis_real beyond = segment.curvature * reach * reach + elvis_real(1e-4LF);
     const elvis_real at_anchor = elvis_real(model.value) + dot(model_slope, anchor), rate = dot(model_slope, slope);
-    const elvis_real a = at_anchor + (from - segment.anchor) * rate, b = at_anchor + (until - segment.anchor) * rate;
+    const elvis_real a = at_anchor + first * rate, b = at_anchor + last * rate;
     const elvis_vec3 sizes = abs(model_slope);
     const elvis_real error = elvis_real(model.remainder) + beyond * (sizes.x + sizes.y + sizes.z) +
                              elvis_real(16.0 * CORE_FLOAT_ROUNDOFF) * (abs(a) + abs(b));
@@ -38,6 +39,6 @@ bool core_is_constant(elvis_vec2 range, inout core_held_piece held) {
 }
 
 void core_add_constant(inout core_light light, core_transfer_piece piece, elvis_real length) {
-    const elvis_real through = elvis_exp(-piece.density * length);
-    core_add_light(light, (elvis_real(1) - through) * piece.color, through);
+    const elvis_real transmittance = elvis_exp(-piece.density * length);
+    core_add_light(light, (elvis_real(1) - transmittance) * piece.color, transmittance);
 }

@@ -1,6 +1,7 @@
-// The volume rendering integral of a polynomial: cut at the breakpoints of the transfer function, so that between them density and
-// colour are polynomials; the inner integral is then that of a polynomial, exactly. With the absorbed share O = 1 - exp(-D) the outer one
-// is
+// The volume rendering integral of a polynomial. A step of a segment is cut into sections, in each of which one piece of the transfer
+// function holds the polynomial: density and colour are then polynomials, and so is the inner integral, exactly. With the absorbed share
+// O = 1 - exp(-D) the outer one is
+//
 //     integral of (c + c' (p - from)) dO  =  c O + c' integral of (p - from) dO,
 //
 // which is exact where the colour is constant; else one number is left to quadrature, whatever the number of channels.
@@ -12,13 +13,13 @@
 // Of what the kernel does in one dispatch.
 #define CORE_WORK_A_STEP 3u
 #define CORE_WORK_AN_ITERATION 6u
-// Breakpoints met and cells halved in one step, beyond which it is not to be good.
+// Breakpoints met and intervals halved in one step, beyond which it is not to be good.
 #define CORE_MOST_ITERATIONS 256u
 #define CORE_MEETING_ITERATIONS 48u
-// Of the parameter: cells are not halved further.
-#define CORE_SMALLEST_CELL elvis_real(1.52587890625e-5LF)
-// Of what a step may be off, what quadrature may be in a cell: little, as its estimate may be far too small where both rules happen to
-// agree (with 1/32, spheres of peaks at tolerance 1e-8 were off by up to 7e-8 in one pixel of 50000).
+// Of the parameter: intervals are not halved further.
+#define CORE_SMALLEST_INTERVAL elvis_real(1.52587890625e-5LF)
+// Share of what a step may be off that quadrature may be off in a section: little, as its estimate may be far too small where both rules
+// happen to agree (with 1/32, spheres of peaks at tolerance 1e-8 were off by up to 7e-8 in one pixel of 50000).
 #define CORE_QUADRATURE_SHARE elvis_real(0.001953125LF)
 
 // Gauss' rule with three points on [0, 1], and the integrals up to these of the parabola through the values there: with these as depths
@@ -59,7 +60,7 @@ elvis_real core_power_slope(core_polynomial powers, elvis_real t) {
     return sum;
 }
 
-// Half of what its slope changes by, at most, over [0, 1].
+// Half of the most that its slope changes by over [0, 1].
 elvis_real core_power_bend(core_polynomial powers) {
     elvis_real sum = elvis_real(0);
     for (int i = 2; i < CORE_FIT_SIZE; ++i) {
@@ -68,47 +69,55 @@ elvis_real core_power_bend(core_polynomial powers) {
     return sum;
 }
 
-// A part of a step in one piece of the transfer function.
+// A polynomial that stands for the field along a step.
+struct core_fitted {
+    // In the Bernstein basis, and by powers of the step's parameter.
+    core_polynomial p, powers;
+    elvis_real error;
+};
+
+// The light of a section.
 struct core_attenuation {
     // exp(-D), D the depth of all of it; the integral of (p - from) dO, and what that is off.
-    elvis_real through, weighted, missed;
+    elvis_real transmittance, weighted, missed;
 };
 
 // From `first` to `last`, which are values less the piece's `from`, over `length` of the ray, by Gauss' rule.
 //
-// The error is estimated from Simpson's rule, which needs but the ends besides. With h the part's length Simpson's error is about
-// h^5 / 2880 times the fourth derivative, Gauss' h^7 / 2016000 times the sixth: for exp(h) that is 0.08 of the 3/2th power of the other,
-// of which a few hundred times as much are taken.
+// The error is estimated from Simpson's rule, which needs but the ends besides. With h the section's length Simpson's error is about
+// h^5 / 2880 times the fourth derivative, Gauss' h^7 / 2016000 times the sixth: for exp(h) that is 0.08 of the 3/2th power of the other.
+// A few hundred times as much is taken.
 core_attenuation core_attenuate(core_polynomial powers, core_held_piece held, elvis_real from, elvis_real width, elvis_real first,
                                elvis_real last, elvis_real length) {
     const elvis_vec3 at = from + width * CORE_GAUSS_AT;
     const elvis_vec3 q = elvis_vec3(core_power_value(powers, at.x), core_power_value(powers, at.y), core_power_value(powers, at.z)) -
                          held.from;
     const elvis_vec3 density = held.density + held.density_slope * q;
-    const elvis_vec3 through = elvis_vec3(core_transmittance(max(length * dot(CORE_GAUSS_TO_FIRST, density), elvis_real(0))),
-                                          core_transmittance(max(length * dot(CORE_GAUSS_TO_MIDDLE, density), elvis_real(0))),
-                                          core_transmittance(max(length * dot(CORE_GAUSS_TO_LAST, density), elvis_real(0))));
-    core_attenuation part;
-    part.through = core_transmittance(max(length * dot(CORE_GAUSS_WEIGHTS, density), elvis_real(0)));
-    const elvis_vec3 inside = q * density * through;
+    const elvis_vec3 transmittance = elvis_vec3(core_transmittance(max(length * dot(CORE_GAUSS_TO_FIRST, density), elvis_real(0))),
+                                                core_transmittance(max(length * dot(CORE_GAUSS_TO_MIDDLE, density), elvis_real(0))),
+                                                core_transmittance(max(length * dot(CORE_GAUSS_TO_LAST, density), elvis_real(0))));
+    core_attenuation section;
+    section.transmittance = core_transmittance(max(length * dot(CORE_GAUSS_WEIGHTS, density), elvis_real(0)));
+    const elvis_vec3 inside = q * density * transmittance;
     const elvis_real begin = first * (held.density + held.density_slope * first);
-    const elvis_real end = last * (held.density + held.density_slope * last) * part.through;
+    const elvis_real end = last * (held.density + held.density_slope * last) * section.transmittance;
     const elvis_real gauss = dot(CORE_GAUSS_WEIGHTS, inside);
     const elvis_real simpson = (begin + elvis_real(4) * inside.y + end) * elvis_real(0.16666666666666666667LF);
     const elvis_real size = dot(CORE_GAUSS_WEIGHTS, abs(inside));
     const elvis_real differ = abs(gauss - simpson), ratio = elvis_real(8) * differ / max(size, elvis_real(1e-30LF));
-    part.weighted = length * gauss;
-    part.missed = length * min(elvis_real(0.5LF) * differ, size * ratio * sqrt(ratio));
-    return part;
+    section.weighted = length * gauss;
+    section.missed = length * min(elvis_real(0.5LF) * differ, size * ratio * sqrt(ratio));
+    return section;
 }
 
-// Where a polynomial comes to the value, within `error` of it, between points on both sides of it, the first below if it `rises`; by Newton's
-// method, or by halves where that leads out. `bend`: core_power_bend.
+// The parameter at which a polynomial takes the value, within `error` of it. It lies between `from` and `to`, where the polynomial is on
+// different sides of the value: below at `from` if it `rises`. By Newton's method, or by halves where that leads out. `bend`:
+// core_power_bend.
 elvis_real core_meet(core_polynomial powers, elvis_real value, elvis_real from, elvis_real to, bool rises, elvis_real bend,
                      elvis_real error) {
     elvis_real low = from, high = to, x = from;
     bool is_found = false;
-    for (uint turn = 0u; turn < CORE_MEETING_ITERATIONS && !is_found; ++turn) {
+    for (uint iteration = 0u; iteration < CORE_MEETING_ITERATIONS && !is_found; ++iteration) {
         const elvis_real f = core_power_value(powers, x) - value, slope = core_power_slope(powers, x);
         const bool is_before = rises ? f < elvis_real(0) : f > elvis_real(0), is_there = abs(f) <= error;
         low = is_before ? x : low;
@@ -125,23 +134,23 @@ elvis_real core_meet(core_polynomial powers, elvis_real value, elvis_real from, 
 }
 
 #if CORE_HAS_STEPS
-// How far from where it meets the value, at t, the polynomial is not off by more than `error` on both sides yet.
+// Half the width of the interval around t, where the polynomial takes the value, outside of which it differs from it by more than `error`.
 elvis_real core_uncertain_width(core_polynomial powers, elvis_real t, elvis_real value, elvis_real error) {
     elvis_real width = elvis_real(4) * CORE_ROUNDOFF;
-    bool is_doubtful = true;
-    while (is_doubtful) {
+    bool is_uncertain = true;
+    while (is_uncertain) {
         const elvis_real before = core_power_value(powers, max(t - width, elvis_real(0))) - value;
         const elvis_real after = core_power_value(powers, min(t + width, elvis_real(1))) - value;
-        is_doubtful = min(abs(before), abs(after)) <= error && width < elvis_real(0.5LF);
+        is_uncertain = min(abs(before), abs(after)) <= error && width < elvis_real(0.5LF);
         width *= elvis_real(2);
-        if (!is_doubtful) {
+        if (!is_uncertain) {
             break;
         }
     }
     return width;
 }
 
-// By how much density and light change at the breakpoint that the piece begins or ends with.
+// By how much density and light change at the breakpoint at the piece's upper or lower end.
 elvis_real core_jump_at(core_held_piece held, bool is_upper) {
     const core_transfer_piece beyond = core_fetch_piece(is_upper ? held.index + 1u : held.index - 1u);
     const elvis_real at = is_upper ? held.upper : held.lower;
@@ -151,102 +160,160 @@ elvis_real core_jump_at(core_held_piece held, bool is_upper) {
 }
 #endif
 
-// All of a polynomial, on a part of a ray of this length, that is off by `error` at most; less if light is off by more than `most` before the end.
-// `powers`: the same polynomial by powers of its parameter. `held`: the piece that holds its beginning. `missed`: what quadrature is off, not
-// more than `allowed` in any part.
-//
-// Cells in which it is monotone, or in one piece, or that do not change by more than it is off anyway, are gone through from breakpoint to
-// breakpoint; others are halved, and so are parts where quadrature is not good enough. Cells are always those of the whole polynomial, so
-// that errors do not add up.
-void core_add_polynomial(inout core_light light, core_polynomial p, core_polynomial powers, elvis_real length, elvis_real error,
-                         elvis_real most, elvis_real allowed, inout core_held_piece held, inout uint n_breakpoints,
-                         inout elvis_real missed, inout uint work) {
-    const elvis_real bend = core_power_bend(powers);
-    elvis_real from = elvis_real(0), to = elvis_real(1), limit = elvis_real(1);
-    // Values at both ends of what is left of the cell; the cell's bounds.
-    elvis_real first = p.c[0], last = p.c[CORE_FIT_DEGREE], least = core_least(p), greatest = core_most(p);
-    bool is_monotone = core_is_monotone(p), is_new = false, has_crossed = false;
-    uint n_turns = 0u;
-    while (from < elvis_real(1) && light.error <= most && n_turns < CORE_MOST_ITERATIONS) {
-        n_turns += 1u;
-        work += CORE_WORK_AN_ITERATION;
-        if (is_new) {
-            const core_polynomial restricted = core_after(core_before(p, to), from / to);
-            last = restricted.c[CORE_FIT_DEGREE];
-            least = core_least(restricted);
-            greatest = core_most(restricted);
-            is_monotone = core_is_monotone(restricted);
-        }
-        const bool rises = last > first;
-        const bool is_whole = least - error >= held.lower && greatest + error < held.upper;
-        const bool is_smallest = min(to - from, limit) <= CORE_SMALLEST_CELL;
-        const bool is_small = (is_monotone ? abs(last - first) : greatest - least) <= elvis_real(2) * error || is_smallest;
-        const bool is_simple = is_whole || is_small || is_monotone;
-        const elvis_real next = rises ? held.upper : held.lower;
-        const bool meets = is_simple && !is_whole && (rises ? last >= next : last < next);
-        elvis_real until = to;
-        if (meets) {
-            until = core_meet(powers, next, from, to, rises, bend, elvis_real(0.25LF) * error);
-        }
-        const bool is_limited = until - from > limit;
-        until = is_limited ? from + limit : until;
-        const elvis_real width = until - from, end = core_power_value(powers, until), part_length = width * length;
-        const core_attenuation part =
-            core_attenuate(powers, held, from, width, first - held.from, end - held.from, part_length);
-        const elvis_real color_slope = max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
-        const elvis_real left = light.left, miss = left * color_slope * part.missed;
-        const elvis_real of_field = left * part_length * held.steepness * error;
-        // Quadrature need not be better than the field.
-        const bool is_good = miss <= max(allowed, elvis_real(0.25LF) * (miss + of_field)) || is_smallest;
-        const bool is_done = is_simple && is_good, crosses = is_done && meets && !is_limited;
-        const elvis_real absorbed = is_done ? left * (elvis_real(1) - part.through) : elvis_real(0);
-        const elvis_real weighted = is_done ? left * part.weighted : elvis_real(0);
-        light.red += absorbed * held.red + weighted * held.red_slope;
-        light.green += absorbed * held.green + weighted * held.green_slope;
-        light.blue += absorbed * held.blue + weighted * held.blue_slope;
-        light.left *= is_done ? part.through : elvis_real(1);
-        light.error += is_done ? miss + of_field : elvis_real(0);
-        missed += is_done ? miss : elvis_real(0);
+// The interval [from, to] of the step's parameter from which the next section is cut.
+struct core_step_interval {
+    elvis_real from, to;
+    // Length of the section at most, so that quadrature is good enough.
+    elvis_real limit;
+    // Of the polynomial in the interval: values at both ends, and bounds.
+    elvis_real first, last, least, greatest;
+    bool is_monotone;
+    // All but `first` are those of another interval; the last section has ended at a breakpoint.
+    bool is_new, has_crossed;
+};
 
-        // Where it comes so near to a breakpoint the field may be on the other side: near turns and ends for as long as it likes, else on its way
-        // across.
-        const elvis_real reach = (is_small ? elvis_real(3) : elvis_real(1.25LF)) * error;
-        const elvis_real across = min(elvis_real(4) * reach / max(abs((crosses ? next : end) - first), reach), elvis_real(1));
-        const bool is_doubtful = is_done && !is_whole;
-        const bool touches_first = is_doubtful && (rises ? first - held.lower : held.upper - first) <= reach;
-        const bool touches_last = is_doubtful && !crosses && (rises ? held.upper - end : end - held.lower) <= reach;
-        const elvis_real first_share = touches_first ? (has_crossed ? across : elvis_real(1)) : elvis_real(0);
-        const elvis_real last_share = crosses ? across : touches_last ? elvis_real(1) : elvis_real(0);
-        light.error += left * part_length * (reach + error) * elvis_real(core_steepest) * (first_share + last_share);
+// Always of the whole polynomial, so that errors do not add up.
+void core_restrict(core_polynomial p, inout core_step_interval interval) {
+    const core_polynomial restricted = core_after(core_before(p, interval.to), interval.from / interval.to);
+    interval.last = restricted.c[CORE_FIT_DEGREE];
+    interval.least = core_least(restricted);
+    interval.greatest = core_most(restricted);
+    interval.is_monotone = core_is_monotone(restricted);
+}
+
+// From interval.from on, in one piece of the transfer function.
+struct core_section {
+    // Where it ends, and the polynomial there; its length in the step's parameter, and along the ray.
+    elvis_real until, end, width, ray_length;
+    // The breakpoint towards which the polynomial goes; whether the section ends there.
+    elvis_real next;
+    bool rises, meets;
+    // One piece holds all of the interval; the polynomial changes in it by no more than its error; it is halved no further; or any of
+    // these, or monotone.
+    bool is_whole, is_small, is_smallest, is_simple;
+};
+
+core_section core_next_section(core_polynomial powers, core_step_interval interval, core_held_piece held, elvis_real bend,
+                               elvis_real error, elvis_real length) {
+    const elvis_real from = interval.from, first = interval.first, last = interval.last;
+    core_section section;
+    section.rises = last > first;
+    section.is_whole = interval.least - error >= held.lower && interval.greatest + error < held.upper;
+    section.is_smallest = min(interval.to - from, interval.limit) <= CORE_SMALLEST_INTERVAL;
+    section.is_small = (interval.is_monotone ? abs(last - first) : interval.greatest - interval.least) <= elvis_real(2) * error ||
+                       section.is_smallest;
+    section.is_simple = section.is_whole || section.is_small || interval.is_monotone;
+    section.next = section.rises ? held.upper : held.lower;
+    section.meets = section.is_simple && !section.is_whole && (section.rises ? last >= section.next : last < section.next);
+    section.until = interval.to;
+    if (section.meets) {
+        section.until = core_meet(powers, section.next, from, interval.to, section.rises, bend, elvis_real(0.25LF) * error);
+    }
+    const bool is_limited = section.until - from > interval.limit;
+    section.until = is_limited ? from + interval.limit : section.until;
+    section.meets = section.meets && !is_limited;
+    section.end = core_power_value(powers, section.until);
+    section.width = section.until - from;
+    section.ray_length = section.width * length;
+    return section;
+}
+
+// Light of the section, if quadrature is good enough, which is returned. `missed`: the sum of what it is off; `allowed`: in this section.
+bool core_add_section(inout core_light light, core_attenuation attenuation, core_section section, core_held_piece held, elvis_real error,
+                      elvis_real allowed, inout elvis_real missed) {
+    const elvis_real color_slope = max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
+    const elvis_real before = light.transmittance, miss = before * color_slope * attenuation.missed;
+    const elvis_real of_field = before * section.ray_length * held.steepness * error;
+    // Quadrature need not be better than the field.
+    const bool is_good = miss <= max(allowed, elvis_real(0.25LF) * (miss + of_field)) || section.is_smallest;
+    const bool is_done = section.is_simple && is_good;
+    const elvis_real absorbed = is_done ? before * (elvis_real(1) - attenuation.transmittance) : elvis_real(0);
+    const elvis_real weighted = is_done ? before * attenuation.weighted : elvis_real(0);
+    light.red += absorbed * held.red + weighted * held.red_slope;
+    light.green += absorbed * held.green + weighted * held.green_slope;
+    light.blue += absorbed * held.blue + weighted * held.blue_slope;
+    light.transmittance *= is_done ? attenuation.transmittance : elvis_real(1);
+    light.error += is_done ? miss + of_field : elvis_real(0);
+    missed += is_done ? miss : elvis_real(0);
+    return is_done;
+}
+
+// Where the polynomial comes so near to a breakpoint that the field may be on the other side: near the ends of a section that does not end
+// at the breakpoint for as long as the field likes, else on its way across. `before`: the transmittance up to the section; `length`: of
+// the step.
+void core_add_breakpoint_error(inout core_light light, core_polynomial powers, core_step_interval interval, core_section section,
+                               core_held_piece held, elvis_real before, elvis_real length, elvis_real error, bool is_done, bool crosses) {
+    const elvis_real first = interval.first, end = section.end;
+    const elvis_real reach = (section.is_small ? elvis_real(3) : elvis_real(1.25LF)) * error;
+    const elvis_real across = min(elvis_real(4) * reach / max(abs((crosses ? section.next : end) - first), reach), elvis_real(1));
+    const bool is_uncertain = is_done && !section.is_whole;
+    const bool touches_first = is_uncertain && (section.rises ? first - held.lower : held.upper - first) <= reach;
+    const bool touches_last = is_uncertain && !crosses && (section.rises ? held.upper - end : end - held.lower) <= reach;
+    const elvis_real first_share = touches_first ? (interval.has_crossed ? across : elvis_real(1)) : elvis_real(0);
+    const elvis_real last_share = crosses ? across : touches_last ? elvis_real(1) : elvis_real(0);
+    light.error += before * section.ray_length * (reach + error) * elvis_real(core_steepest) * (first_share + last_share);
 #if CORE_HAS_STEPS
-        if ((touches_first && !has_crossed) || touches_last) {
-            light.error += left * part_length * core_jump_at(held, touches_last == rises);
-        }
-        if (crosses) {
-            light.error += left * length * core_uncertain_width(powers, until, next, error) * core_jump_at(held, rises);
-        }
+    if ((touches_first && !interval.has_crossed) || touches_last) {
+        light.error += before * section.ray_length * core_jump_at(held, touches_last == section.rises);
+    }
+    if (crosses) {
+        light.error += before * length * core_uncertain_width(powers, section.until, section.next, error) * core_jump_at(held, section.rises);
+    }
 #endif
+}
+
+// On, in the interval or beyond it; or back to half of the interval, or of the section.
+void core_choose_interval(core_section section, bool is_done, bool crosses, inout core_step_interval interval) {
+    const elvis_real step = interval.to - interval.from;
+    const bool is_beyond = is_done && !crosses && section.until >= interval.to;
+    interval.first = is_done ? section.end : interval.first;
+    interval.from = is_done ? section.until : interval.from;
+    interval.to = is_beyond           ? min(interval.to + elvis_real(2) * max(step, CORE_SMALLEST_INTERVAL), elvis_real(1))
+                  : section.is_simple ? interval.to
+                                      : interval.from + elvis_real(0.5LF) * step;
+    interval.limit = is_done             ? min(elvis_real(2) * interval.limit, elvis_real(1))
+                     : section.is_simple ? elvis_real(0.5LF) * section.width
+                                         : interval.limit;
+    interval.is_new = is_beyond || !section.is_simple;
+    interval.has_crossed = is_done ? crosses : interval.has_crossed;
+}
+
+// All of a polynomial, over `length` of the ray; or less, if light is off by more than `most` before the end. `held`: the piece that holds
+// the polynomial's beginning. `missed`: what quadrature is off, by no more than `allowed` in any section.
+//
+// Intervals in which the polynomial is monotone, or in one piece, or changes by no more than its error, are cut at breakpoints. Others are
+// halved, and so are sections in which quadrature is not good enough.
+void core_add_polynomial(inout core_light light, core_fitted fitted, elvis_real length, elvis_real most, elvis_real allowed,
+                         inout core_held_piece held, inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
+    const core_polynomial p = fitted.p;
+    const elvis_real bend = core_power_bend(fitted.powers), error = fitted.error;
+    core_step_interval interval = core_step_interval(elvis_real(0), elvis_real(1), elvis_real(1), p.c[0], p.c[CORE_FIT_DEGREE],
+                                                     core_least(p), core_most(p), core_is_monotone(p), false, false);
+    uint n_iterations = 0u;
+    while (interval.from < elvis_real(1) && light.error <= most && n_iterations < CORE_MOST_ITERATIONS) {
+        n_iterations += 1u;
+        work += CORE_WORK_AN_ITERATION;
+        if (interval.is_new) {
+            core_restrict(p, interval);
+        }
+        const core_section section = core_next_section(fitted.powers, interval, held, bend, error, length);
+        const core_attenuation attenuation = core_attenuate(fitted.powers, held, interval.from, section.width,
+                                                            interval.first - held.from, section.end - held.from, section.ray_length);
+        const elvis_real before = light.transmittance;
+        const bool is_done = core_add_section(light, attenuation, section, held, error, allowed, missed);
+        const bool crosses = is_done && section.meets;
+        core_add_breakpoint_error(light, fitted.powers, interval, section, held, before, length, error, is_done, crosses);
         if (crosses) {
-            held = core_hold_piece(rises ? held.index + 1u : held.index - 1u);
+            held = core_hold_piece(section.rises ? held.index + 1u : held.index - 1u);
         }
         n_breakpoints += crosses ? 1u : 0u;
-        has_crossed = is_done ? crosses : has_crossed;
-        // On, in the cell or beyond it; or back to half of the cell, or of the part.
-        const elvis_real step = to - from;
-        const bool is_beyond = is_done && !crosses && until >= to;
-        first = is_done ? end : first;
-        from = is_done ? until : from;
-        to = is_beyond   ? min(to + elvis_real(2) * max(step, CORE_SMALLEST_CELL), elvis_real(1))
-             : is_simple ? to
-                         : from + elvis_real(0.5LF) * step;
-        limit = is_done ? min(elvis_real(2) * limit, elvis_real(1)) : is_simple ? elvis_real(0.5LF) * width : limit;
-        is_new = is_beyond || !is_simple;
-        if (from >= elvis_real(1) || light.error > most) {
+        core_choose_interval(section, is_done, crosses, interval);
+        if (interval.from >= elvis_real(1) || light.error > most) {
             break;
         }
     }
     // Not all of it is there.
-    const elvis_real lost = from < elvis_real(1) ? elvis_real(1) : elvis_real(0);
+    const elvis_real lost = interval.from < elvis_real(1) ? elvis_real(1) : elvis_real(0);
     light.error += lost;
     missed += lost;
 }

@@ -16,24 +16,25 @@ layout(push_constant) uniform core_parameters {
     float core_tolerance;
 };
 
+#include "arithmetic/count.glsl"
+
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
     const core_volume_state state = core_states[min(pixel, core_n_pixels - 1u)];
-    const bool is_drawn = is_inside && state.left < elvis_real(1);
-    const bool is_inexact = state.error > elvis_real(core_tolerance);
+    const core_light light = state.light;
+    const bool is_drawn = is_inside && light.transmittance < elvis_real(1);
+    const uint inexact = light.error > elvis_real(core_tolerance) ? CORE_FLAG_VOLUME_TOLERANCE : 0u;
+    const uint cut_short = state.walk.status == CORE_RAY_ENDS ? 0u : CORE_FLAG_WORK_LIMIT;
     if (is_drawn) {
         // Colours are not multiplied by opacity, so that an opaque background stays what it is; light is.
         const elvis_vec4 under = core_colors[pixel];
-        const elvis_real rest = under.w * state.left, alpha = elvis_real(1) - state.left + rest;
-        const elvis_vec3 light = elvis_vec3(state.red, state.green, state.blue) + rest * under.xyz;
-        core_colors[pixel] = elvis_vec4(alpha > elvis_real(0) ? light / alpha : under.xyz, alpha);
+        const elvis_real rest = under.w * light.transmittance, alpha = elvis_real(1) - light.transmittance + rest;
+        const elvis_vec3 all = elvis_vec3(light.red, light.green, light.blue) + rest * under.xyz;
+        core_colors[pixel] = elvis_vec4(alpha > elvis_real(0) ? all / alpha : under.xyz, alpha);
     }
     if (is_inside) {
-        core_marks[pixel].flags |= state.flags | (state.status == CORE_RAY_ENDS ? 0u : CORE_FLAG_WORK_LIMIT) | (is_inexact ? CORE_FLAG_VOLUME_TOLERANCE : 0u);
+        core_marks[pixel].flags |= state.walk.flags | cut_short | inexact;
     }
-    const uint all_drawn = subgroupAdd(is_drawn ? 1u : 0u);
-    if (subgroupElect()) {
-        atomicAdd(core_counts[0], all_drawn);
-    }
+    core_count(0u, is_drawn ? 1u : 0u);
 }

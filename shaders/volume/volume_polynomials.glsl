@@ -1,29 +1,16 @@
-// The volume rendering integral along a segment, by polynomials through samples with slopes: at both ends of a
-// step, which makes a cubic, and where that may not be good enough inside, which makes a quintic. Steps adapt to what each channel may
-// be off.
-//
-//     core_integral integral = core_integral_begin(from, to, per_parameter);
-//     while (integral.wants != CORE_WANTS_NOTHING) {
-//         while (core_integral_wants_sample(integral)) {
-//             (take a sample at core_integral_at(integral));
-//             core_integral_add(integral, ...);
-//         }
-//         core_integral_settle(integral, ...);
-//     }
+// The volume rendering integral along a segment, by polynomials through samples with slopes: a cubic through those at both ends of a step,
+// or a quintic through a third one inside, where the cubic may not be good enough. Steps adapt to what each channel may be off.
 //
 // The sample inside is not in the middle, so that fields that are symmetric in the element do not look simpler than they are.
 //
-// What a polynomial is off is estimated from the Chebyshev coefficients of its highest terms, which are taken to go on as the last two pairs of
-// them do, with a margin, since fields in coarse elements do not decay evenly; of a cubic not less than a small part of how far the field may be from a line
-// (segments/ray_sample.glsl): two samples alone are not believed where bounds say that it may do much in between.
+// The error of a polynomial is estimated from the Chebyshev coefficients of its highest terms. These are taken to decay as the last two
+// pairs of them do, with a margin, since fields in coarse elements do not decay evenly. The error of a cubic is not less than a small
+// share of how far the field may be from a line (segments/ray_sample.glsl): two samples alone are not believed where bounds say that the
+// field may do much in between.
 //
 // The kernel brings volume/volume_exact.glsl.
 
-// The end of the segment is wanted first, which may tell that there is nothing in it.
-#define CORE_BEGINS_AT_END 1
-// Some work is left for when samples are there.
-#define CORE_SETTLES 1
-#define CORE_WANTS_NOTHING 0u
+// The first sample is at the end of the segment, where the mapping has been evaluated.
 #define CORE_WANTS_RIGHT 1u
 #define CORE_WANTS_LEFT 2u
 #define CORE_WANTS_INNER 3u
@@ -31,19 +18,20 @@
 #define CORE_WANTS_TO_SETTLE 4u
 
 #define CORE_INNER_AT elvis_real(0.4375LF)
-// Steps are not made shorter than this part of the segment.
+// Over the length of the segment: steps are not made shorter.
 #define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
-// Share of how far the field may be from a line that a cubic is taken to be off at least.
-#define CORE_CUBIC_DOUBT elvis_real(0.0625LF)
-// The same of a quintic where density or light have steps: a short part beyond one that is missed is much light, and no slope tells of it.
-#define CORE_QUINTIC_DOUBT elvis_real(CORE_HAS_STEPS == 1 ? 0.00390625LF : 0.0LF)
+// Share of how far the field may be from a line that a cubic is off at least.
+#define CORE_CUBIC_SHARE elvis_real(0.0625LF)
+// The same of a quintic where density or light have steps: a short interval beyond a step that is missed is much light, and no slope tells
+// of it.
+#define CORE_QUINTIC_SHARE elvis_real(CORE_HAS_STEPS == 1 ? 0.00390625LF : 0.0LF)
 #define CORE_MARGIN elvis_real(15)
 // Share of what a step may be off that a line may be.
 #define CORE_LINE_SHARE elvis_real(0.125LF)
 // Of pairs of Chebyshev coefficients: none is believed to be faster; one that is slower is none.
 #define CORE_FASTEST_DECAY elvis_real(0.25LF)
 #define CORE_SLOWEST_DECAY elvis_real(0.75LF)
-// Share of what is left of the tolerance that any step may use.
+// Share of what remains of the tolerance that any step may use.
 #define CORE_LEAST_SHARE elvis_real(0.0625LF)
 
 struct core_integral {
@@ -62,7 +50,6 @@ struct core_integral {
     uint n_steps, n_breakpoints;
 };
 
-// `step`: how long the first one may be, in the ray's parameter.
 core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per_parameter, elvis_real step) {
     core_integral integral;
     integral.from = integral.left = from;
@@ -106,12 +93,6 @@ elvis_real core_integral_span(core_integral integral) {
 #define CORE_ONE_THIRD elvis_real(0.33333333333333333333LF)
 #define CORE_ONE_FIFTH elvis_real(0.2LF)
 
-struct core_fitted {
-    // In the Bernstein basis, and by powers of the step's parameter.
-    core_polynomial p, powers;
-    elvis_real error;
-};
-
 core_fitted core_fit_step(core_integral integral) {
     const bool with_inner = integral.has_inner;
     const elvis_real width = integral.right - integral.left;
@@ -147,8 +128,8 @@ core_fitted core_fit_step(core_integral integral) {
     const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
     const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
     const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
-    const elvis_real of_quintic = max(CORE_MARGIN * last * decay / (elvis_real(1) - decay), CORE_QUINTIC_DOUBT * integral.bend);
-    const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_DOUBT * integral.bend) *
+    const elvis_real of_quintic = max(CORE_MARGIN * last * decay / (elvis_real(1) - decay), CORE_QUINTIC_SHARE * integral.bend);
+    const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_SHARE * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
     fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
@@ -164,18 +145,17 @@ struct core_judgement {
 };
 
 // `held`: the piece that holds the step's beginning, or another one.
-core_judgement core_judge_step(core_integral integral, core_fitted fitted, core_light light, elvis_real per_parameter, elvis_real tolerance,
-                               elvis_real ahead, core_held_piece held) {
-    const elvis_real width = integral.right - integral.left;
+core_judgement core_judge_step(core_integral integral, core_fitted fitted, core_light light, core_accuracy wanted, core_held_piece held) {
+    const elvis_real width = integral.right - integral.left, tolerance = wanted.tolerance;
     // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
     const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
     const bool is_whole = core_least(fitted.p) - fitted.error >= held.lower && core_most(fitted.p) + fitted.error < held.upper;
     // What cannot be good, and a cubic that may not be, is not tried: another sample is.
-    const elvis_real worst = light.left * width * per_parameter * fitted.error;
+    const elvis_real worst = light.transmittance * width * wanted.per_parameter * fitted.error;
     core_judgement judgement;
-    judgement.allowed = budget * max(width / max(ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
+    judgement.allowed = budget * max(width / max(wanted.ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
     judgement.is_exhausted = integral.has_inner && (core_is_shortest(integral) || fitted.error <= elvis_real(2) * integral.error);
-    // Of a line the bound is what it may well be off.
+    // The bound of a line is what it may well be off.
     const elvis_real acceptable = integral.is_line ? CORE_LINE_SHARE * judgement.allowed : judgement.allowed;
     const bool is_hopeful = is_whole ? worst * held.steepness <= acceptable
                                      : integral.has_inner || worst * elvis_real(core_steepest) <= acceptable;
@@ -183,47 +163,66 @@ core_judgement core_judge_step(core_integral integral, core_fitted fitted, core_
     return judgement;
 }
 
-// A sample where one was wanted. `per_parameter`: length of the ray for its parameter. `tolerance`: what each channel may be off in the
-// end; `ahead`: how much of the ray is left at most, from `from` on.
-void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error, elvis_real bend,
-                       elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
+// A sample where one was wanted.
+void core_integral_add(inout core_integral integral, inout core_light light, core_ray_sample found, core_accuracy wanted,
                        inout core_held_piece held, inout uint work) {
-    integral.error = max(integral.error, error);
     const bool is_left = integral.wants == CORE_WANTS_LEFT, is_inner = integral.wants == CORE_WANTS_INNER;
     const bool is_right = integral.wants == CORE_WANTS_RIGHT, is_end = is_right && integral.right >= integral.to;
-    integral.end_value = is_end ? value : integral.end_value;
-    integral.end_slope = is_end ? slope : integral.end_slope;
+    integral.error = max(integral.error, found.error);
+    integral.end_value = is_end ? found.value : integral.end_value;
+    integral.end_slope = is_end ? found.slope : integral.end_slope;
     integral.has_end = integral.has_end || is_end;
-    integral.left_value = is_left ? value : integral.left_value;
-    integral.left_slope = is_left ? slope : integral.left_slope;
+    integral.left_value = is_left ? found.value : integral.left_value;
+    integral.left_slope = is_left ? found.slope : integral.left_slope;
     integral.has_left = integral.has_left || is_left;
-    integral.right_value = is_right ? value : integral.right_value;
-    integral.right_slope = is_right ? slope : integral.right_slope;
-    integral.inner_value = is_inner ? value : integral.inner_value;
-    integral.inner_slope = is_inner ? slope : integral.inner_slope;
-    integral.bend = is_right ? bend : is_left ? max(integral.bend, bend) : integral.bend;
+    integral.right_value = is_right ? found.value : integral.right_value;
+    integral.right_slope = is_right ? found.slope : integral.right_slope;
+    integral.inner_value = is_inner ? found.value : integral.inner_value;
+    integral.inner_slope = is_inner ? found.slope : integral.inner_slope;
+    integral.bend = is_right ? found.bend : is_left ? max(integral.bend, found.bend) : integral.bend;
     // A line from the first end may do, mostly not.
     integral.is_line = !integral.has_left;
     integral.has_inner = is_inner;
     const elvis_real width = integral.right - integral.left;
-    const elvis_real left_value = integral.left_value, left_slope = integral.left_slope;
-    integral.left_value = integral.is_line ? integral.right_value - width * integral.right_slope : left_value;
-    integral.left_slope = integral.is_line ? integral.right_slope : left_slope;
-    const core_judgement judgement =
-        core_judge_step(integral, core_fit_step(integral), light, per_parameter, tolerance, ahead, held);
+    integral.left_value = integral.is_line ? integral.right_value - width * integral.right_slope : integral.left_value;
+    integral.left_slope = integral.is_line ? integral.right_slope : integral.left_slope;
+    const core_judgement judgement = core_judge_step(integral, core_fit_step(integral), light, wanted, held);
     integral.wants = judgement.is_tried || is_inner ? CORE_WANTS_TO_SETTLE : integral.is_line ? CORE_WANTS_LEFT : CORE_WANTS_INNER;
+}
+
+// On to the next step: to the end, or as far again and a little more. Or back: to the sample inside, without a new one.
+void core_choose_step(inout core_integral integral, bool is_good) {
+    const bool is_shorter = !is_good && integral.has_inner;
+    const elvis_real width = integral.right - integral.left, reach = integral.right + elvis_real(1.5LF) * width;
+    const elvis_real inner = integral.left + CORE_INNER_AT * width;
+    const bool is_last = reach >= integral.to, is_known = is_last && integral.has_end;
+    // Of half a step, or of one about as long.
+    integral.bend *= is_shorter ? CORE_INNER_AT * CORE_INNER_AT : elvis_real(1);
+    const elvis_real next_right = is_good ? (is_last ? integral.to : reach) : is_shorter ? inner : integral.right;
+    integral.left_value = is_good ? integral.right_value : integral.left_value;
+    integral.left_slope = is_good ? integral.right_slope : integral.left_slope;
+    integral.left = is_good ? integral.right : integral.left;
+    integral.right_value = is_good && is_known ? integral.end_value : is_shorter ? integral.inner_value : integral.right_value;
+    integral.right_slope = is_good && is_known ? integral.end_slope : is_shorter ? integral.inner_slope : integral.right_slope;
+    integral.right = next_right;
+    integral.wants = is_good ? (integral.left >= integral.to ? CORE_WANTS_NOTHING : is_known ? CORE_WANTS_TO_SETTLE : CORE_WANTS_RIGHT)
+                     : integral.is_line ? CORE_WANTS_LEFT
+                     : is_shorter       ? CORE_WANTS_TO_SETTLE
+                                        : CORE_WANTS_INNER;
+    integral.has_left = integral.has_left || is_good;
+    integral.has_inner = integral.is_line = false;
 }
 
 // As much of the integral as samples allow, where it wants to settle. `work` grows by what loops have done. Up to integral.left light is
 // settled.
-void core_integral_settle(inout core_integral integral, inout core_light light, elvis_real per_parameter, elvis_real tolerance,
-                          elvis_real ahead, inout core_held_piece held, inout uint work) {
+void core_integral_settle(inout core_integral integral, inout core_light light, core_accuracy wanted, inout core_held_piece held,
+                          inout uint work) {
     while (integral.wants == CORE_WANTS_TO_SETTLE) {
-        const elvis_real width = integral.right - integral.left;
+        const elvis_real length = (integral.right - integral.left) * wanted.per_parameter;
         const core_fitted fitted = core_fit_step(integral);
         core_hold_value(held, fitted.p.c[0]);
         const core_held_piece beginning = held;
-        const core_judgement judgement = core_judge_step(integral, fitted, light, per_parameter, tolerance, ahead, held);
+        const core_judgement judgement = core_judge_step(integral, fitted, light, wanted, held);
         const elvis_real allowed = judgement.allowed;
         core_light next = light;
         uint n_breakpoints = 0u;
@@ -231,14 +230,12 @@ void core_integral_settle(inout core_integral integral, inout core_light light, 
         work += CORE_WORK_A_STEP;
         if (judgement.is_tried) {
             const elvis_real most = judgement.is_exhausted ? CORE_FAR : light.error + allowed;
-            core_add_polynomial(next, fitted.p, fitted.powers, width * per_parameter, fitted.error, most, CORE_QUADRATURE_SHARE * allowed,
-                                held, n_breakpoints, missed, work);
+            core_add_polynomial(next, fitted, length, most, CORE_QUADRATURE_SHARE * allowed, held, n_breakpoints, missed, work);
         }
         // The rest is not of the polynomial's making.
         const bool is_rounding = fitted.error <= elvis_real(2) * integral.error && missed <= allowed;
         const bool is_good = (judgement.is_tried && next.error - light.error <= allowed) ||
                              (integral.has_inner && (core_is_shortest(integral) || is_rounding));
-        const bool is_shorter = !is_good && integral.has_inner;
         integral.n_steps += is_good ? 1u : 0u;
         integral.n_breakpoints += is_good ? n_breakpoints : 0u;
         if (is_good) {
@@ -246,26 +243,7 @@ void core_integral_settle(inout core_integral integral, inout core_light light, 
         } else {
             held = beginning;
         }
-        // On: to the end, or as far again and a little more. Back: to the sample inside, without a new one.
-        const elvis_real inner = integral.left + CORE_INNER_AT * width;
-        const elvis_real reach = integral.right + elvis_real(1.5LF) * width;
-        const bool is_last = reach >= integral.to;
-        // Of half a step, or of one about as long.
-        integral.bend *= is_shorter ? CORE_INNER_AT * CORE_INNER_AT : elvis_real(1);
-        const elvis_real next_right = is_good ? (is_last ? integral.to : reach) : is_shorter ? inner : integral.right;
-        integral.left_value = is_good ? integral.right_value : integral.left_value;
-        integral.left_slope = is_good ? integral.right_slope : integral.left_slope;
-        integral.left = is_good ? integral.right : integral.left;
-        integral.right_value = is_good && is_last && integral.has_end ? integral.end_value : is_shorter ? integral.inner_value : integral.right_value;
-        integral.right_slope = is_good && is_last && integral.has_end ? integral.end_slope : is_shorter ? integral.inner_slope : integral.right_slope;
-        integral.right = next_right;
-        const bool is_known = is_last && integral.has_end;
-        integral.wants = is_good ? (integral.left >= integral.to ? CORE_WANTS_NOTHING : is_known ? CORE_WANTS_TO_SETTLE : CORE_WANTS_RIGHT)
-                         : integral.is_line ? CORE_WANTS_LEFT
-                         : is_shorter       ? CORE_WANTS_TO_SETTLE
-                                            : CORE_WANTS_INNER;
-        integral.has_left = integral.has_left || is_good;
-        integral.has_inner = integral.is_line = false;
+        core_choose_step(integral, is_good);
         if (integral.wants != CORE_WANTS_TO_SETTLE) {
             break;
         }

@@ -4,18 +4,13 @@
 #define CORE_VOLUME_STATE
 
 #include "segments/walk_state.glsl"
+#include "volume/volume_light.glsl"
 
 struct core_volume_state {
-    // Up to here light is settled; where the walk has got to; where it began, and the element in which it began.
-    elvis_real done, walk, start;
+    core_walk_state walk;
     // How long the next step may be, where there was no time for all of an element; CORE_FAR if there was.
     elvis_real step;
-    elvis_real red, green, blue, left, error;
-    uint start_element;
-    // Of all elements of the volume: the walk's next one; of a ray that seeks, that of the nearest start found so far, at `walk`.
-    uint element;
-    uint status;
-    uint flags;
+    core_light light;
 };
 
 #endif

@@ -2,14 +2,10 @@
 // where the breakpoints of the transfer function are not known (B. Nelson, 2012, chapter 6). Riemann's sums take both integrals to
 // first order, the trapezoidal rule to second, where no step has more than one breakpoint.
 //
-// The kernel brings volume/volume_light.glsl.
+// The kernel brings volume/volume_light.glsl and segments/ray_sample.glsl.
 
 #include "volume/volume_optics.glsl"
 
-// Of what the kernel does in one dispatch.
-#define CORE_WORK_A_SAMPLE 3u
-
-#define CORE_WANTS_NOTHING 0u
 #define CORE_WANTS_VALUE 1u
 
 struct core_integral {
@@ -33,23 +29,15 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
     return integral;
 }
 
-// All of a segment is done at once.
-bool core_integral_may_stop(core_integral integral) { return false; }
-bool core_integral_wants_sample(core_integral integral) { return integral.wants != CORE_WANTS_NOTHING; }
-elvis_real core_integral_done(core_integral integral) { return integral.from; }
-elvis_real core_integral_step(core_integral integral) { return CORE_FAR; }
-elvis_real core_integral_span(core_integral integral) { return elvis_real(0); }
-
 elvis_real core_integral_at(core_integral integral) {
     const elvis_real share = elvis_real(integral.n_samples) / elvis_real(max(integral.n_steps, 1u));
     return integral.n_samples == integral.n_steps ? integral.to : integral.from + (integral.to - integral.from) * share;
 }
 
-void core_integral_add(inout core_integral integral, inout core_light light, elvis_real value, elvis_real slope, elvis_real error,
-                       elvis_real bend, elvis_real per_parameter, elvis_real tolerance, elvis_real ahead,
+void core_integral_add(inout core_integral integral, inout core_light light, core_ray_sample found, core_accuracy wanted,
                        inout core_held_piece held, inout uint work) {
-    const core_optics optics = core_optics_at(value);
-    const elvis_real length = (integral.to - integral.from) * per_parameter, width = length / elvis_real(integral.n_steps);
+    const core_optics optics = core_optics_at(found.value);
+    const elvis_real length = (integral.to - integral.from) * wanted.per_parameter, width = length / elvis_real(integral.n_steps);
     const bool is_first = integral.n_samples == 0u;
 #if CORE_INTEGRATOR == CORE_INTEGRATOR_RIEMANN
     core_add_light(light, width * core_light_of(optics), elvis_exp(-width * optics.density));
@@ -57,8 +45,8 @@ void core_integral_add(inout core_integral integral, inout core_light light, elv
 #else
     // From the last sample to this one.
     const elvis_real half_width = is_first ? elvis_real(0) : elvis_real(0.5LF) * width;
-    const elvis_real through = elvis_exp(-half_width * (integral.last.density + optics.density));
-    core_add_light(light, half_width * (core_light_of(integral.last) + through * core_light_of(optics)), through);
+    const elvis_real transmittance = elvis_exp(-half_width * (integral.last.density + optics.density));
+    core_add_light(light, half_width * (core_light_of(integral.last) + transmittance * core_light_of(optics)), transmittance);
     const uint n_wanted = integral.n_steps + 1u;
 #endif
     light.error += is_first && core_has_too_few_steps(length) ? elvis_real(1) : elvis_real(0);

@@ -3,7 +3,6 @@
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "picture/samples.glsl"
-#include "volume/volume_light.glsl"
 #include "volume/volume_state.glsl"
 
 layout(set = 0, binding = 0, std430) buffer core_states_block { core_volume_state core_states[]; };
@@ -22,14 +21,10 @@ void main() {
     const uint safe = min(pixel, core_n_pixels - 1u);
     const bool is_seen = pixel < core_n_pixels && core_layer_depths[safe] < core_depths[safe];
     if (is_seen) {
-        const core_volume_state state = core_states[pixel];
+        core_volume_state state = core_states[pixel];
         const elvis_vec4 color = core_layer_colors[pixel];
-        core_light light = core_light(state.red, state.green, state.blue, state.left, state.error);
-        core_add_light(light, color.w * color.xyz, elvis_real(1) - color.w);
-        core_states[pixel].red = light.red;
-        core_states[pixel].green = light.green;
-        core_states[pixel].blue = light.blue;
-        core_states[pixel].left = light.left;
-        core_states[pixel].status = state.status == CORE_RAY_WAITS ? CORE_RAY_GOES : state.status;
+        core_add_light(state.light, color.w * color.xyz, elvis_real(1) - color.w);
+        state.walk.status = state.walk.status == CORE_RAY_WAITS ? CORE_RAY_GOES : state.walk.status;
+        core_states[pixel] = state;
     }
 }

@@ -34,10 +34,10 @@ struct MarchParameters {
 
 /** Of shaders/segments/segment_state.glsl. */
 template <class Real> struct RayState {
-    Real done = -static_cast<Real>(far), walk = static_cast<Real>(far), start = -static_cast<Real>(far);
-    Real done_error = 0, chain_error = 0, sum = 0;
+    Real done = -static_cast<Real>(far), at = static_cast<Real>(far), start = -static_cast<Real>(far);
     std::uint32_t start_element = no_element, element = no_element;
     std::uint32_t status = ray_seeks, flags = 0;
+    Real done_error = 0, at_error = 0, sum = 0;
     std::uint32_t n_segments = 0, is_estimated = 0;
 };
 

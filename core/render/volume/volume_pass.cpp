@@ -132,23 +132,23 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
 }
 
 const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
-    std::unique_ptr<ComposedKernel>& kernel =
-        m_march[index][2 * static_cast<std::size_t>(m_wanted.integrator) + (m_has_steps ? 1 : 0)];
-    if (!kernel) {
-        const WalkSearch::Range& range = m_search.ranges()[index];
-        KernelRequest request = m_search.request(range, "volume/volume_march");
-        request.buffers.push_back(m_models.host_buffer(range.element_class));
-        m_data.add_field(request, range.element_class, true);
-        request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
-        request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
-        request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
-        for (std::uint32_t binding = 1; binding <= 7; ++binding) {
-            request.bindings.push_back({binding, BindingType::storage_buffer});
-        }
-        request.push_constant_bytes = sizeof(MarchParameters);
-        kernel = std::make_unique<ComposedKernel>(m_device, request);
+    const std::pair key{m_wanted.integrator, m_has_steps};
+    const auto compiled = m_march[index].find(key);
+    if (compiled != m_march[index].end()) {
+        return compiled->second;
     }
-    return *kernel;
+    const WalkSearch::Range& range = m_search.ranges()[index];
+    KernelRequest request = m_search.request(range, "volume/volume_march");
+    request.buffers.push_back(m_models.host_buffer(range.element_class));
+    m_data.add_field(request, range.element_class, true);
+    request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
+    request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
+    request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
+    for (std::uint32_t binding = 1; binding <= 7; ++binding) {
+        request.bindings.push_back({binding, BindingType::storage_buffer});
+    }
+    request.push_constant_bytes = sizeof(MarchParameters);
+    return m_march[index].try_emplace(key, m_device, request).first->second;
 }
 
 bool VolumePass::march(std::size_t index, const Picture& picture, const RayGroups& groups, FrameCounts& counts) {

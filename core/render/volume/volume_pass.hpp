@@ -14,11 +14,11 @@
 #include <core/volume/isosurface/linear_models.hpp>
 #include <core/volume/segments/walk_data.hpp>
 
-#include <array>
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -56,7 +56,7 @@ private:
     LiveRays m_live;
     Buffer m_frame, m_counts;
     /** By the search's ranges; by integrator, and whether the transfer function has steps. */
-    std::vector<std::array<std::unique_ptr<ComposedKernel>, 10>> m_march;
+    std::vector<std::map<std::pair<Integrator, bool>, ComposedKernel>> m_march;
     VolumeRendering m_wanted;
     ShownComponent m_component;
     std::uint32_t m_n_breakpoints = 0;
