@@ -40,8 +40,8 @@ core_square core_square_of(uint word) {
 }
 
 // By how much a point lies outside the square [-1, 1]^2, or its lower half.
-float core_patch_excess(float a, float b, bool is_diagonal) {
-    const float outside = max(abs(a), abs(b)) - 1.0;
+elvis_real core_patch_excess(elvis_real a, elvis_real b, bool is_diagonal) {
+    const elvis_real outside = max(abs(a), abs(b)) - elvis_real(1);
     return is_diagonal ? max(outside, a + b) : outside;
 }
 

@@ -1,0 +1,8 @@
+// Sums over all invocations. The kernel brings core_counts.
+
+void core_count(uint which, uint n) {
+    const uint n_in_subgroup = subgroupAdd(n);
+    if (subgroupElect()) {
+        atomicAdd(core_counts[which], n_in_subgroup);
+    }
+}
