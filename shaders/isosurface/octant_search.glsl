@@ -38,10 +38,10 @@ struct core_verdict {
     bool is_crossing;
     // It cannot be decided; nor can anything behind it.
     bool is_stuck, is_broken;
-    // What is next: the interval behind it; the part of it from part_low to part_high; the same one, looked at from nearer or wider. Otherwise
+    // What is next: the interval behind it; the part of it from cut_low to cut_high; the same one, looked at from nearer or wider. Otherwise
     // its first half.
     bool goes_on, cuts, moves_on, widens;
-    elvis_real part_low, part_high;
+    elvis_real cut_low, cut_high;
 };
 
 core_verdict core_judge_interval(core_evaluation evaluation, core_root root, core_interval_search search) {
@@ -71,10 +71,10 @@ core_verdict core_judge_interval(core_evaluation evaluation, core_root root, cor
     // A narrow part is looked at as a whole, even if it reaches beyond the interval: then the root is in its middle.
     const elvis_real from = crossing.s - crossing.half_width, to = crossing.s + crossing.half_width;
     const elvis_real narrow = elvis_real(0.6LF) * (interval.high - interval.low);
-    const bool is_part = interval.is_known && to - from < narrow && from <= interval.high && to >= interval.low;
-    verdict.part_low = root.is_crossing || is_part ? from : max(from, interval.low);
-    verdict.part_high = root.is_crossing || is_part ? to : min(to, interval.high);
-    const bool is_cut = is_part || (interval.is_known && verdict.part_high - verdict.part_low < narrow);
+    const bool is_narrow = interval.is_known && to - from < narrow && from <= interval.high && to >= interval.low;
+    verdict.cut_low = root.is_crossing || is_narrow ? from : max(from, interval.low);
+    verdict.cut_high = root.is_crossing || is_narrow ? to : min(to, interval.high);
+    const bool is_cut = is_narrow || (interval.is_known && verdict.cut_high - verdict.cut_low < narrow);
 
     const bool is_short = evaluation.half_width < evaluation.shortest;
     const elvis_real wider = core_wider(crossing);
@@ -99,16 +99,16 @@ bool core_interval_search_next(core_evaluation evaluation, core_verdict verdict,
     const elvis_real length_next = (is_done_with ? elvis_real(4) : elvis_real(2)) * max(evaluation.half_width, evaluation.shortest);
     const elvis_real after = search.next + length_next;
     const elvis_real from = verdict.goes_on    ? search.next
-                            : verdict.cuts     ? evaluation.middle + verdict.part_low
+                            : verdict.cuts     ? evaluation.middle + verdict.cut_low
                             : verdict.moves_on ? search.from
                                                : evaluation.middle + interval.low;
     const elvis_real to = verdict.goes_on    ? (after + elvis_real(0.5LF) * length_next >= search.last ? search.last : after)
-                          : verdict.cuts     ? evaluation.middle + verdict.part_high
+                          : verdict.cuts     ? evaluation.middle + verdict.cut_high
                           : verdict.moves_on ? search.to
                                              : evaluation.middle + elvis_real(0.5LF) * (interval.low + interval.high);
     // After a part that holds the only isovalue of the interval, the interval is over.
-    const elvis_real after_part = evaluation.crossing.is_only ? search.next : min(search.next, evaluation.middle + verdict.part_high);
-    search.next = verdict.goes_on ? to : verdict.cuts ? after_part : verdict.moves_on ? search.next : to;
+    const elvis_real after_cut = evaluation.crossing.is_only ? search.next : min(search.next, evaluation.middle + verdict.cut_high);
+    search.next = verdict.goes_on ? to : verdict.cuts ? after_cut : verdict.moves_on ? search.next : to;
     const bool is_short = evaluation.half_width < evaluation.shortest;
     search.moves = (verdict.moves_on && !verdict.widens) || (verdict.cuts && is_short) ? search.moves + 1u : 0u;
     search.wide = verdict.widens ? core_wider(evaluation.crossing) : verdict.goes_on ? elvis_real(0) : search.wide;
