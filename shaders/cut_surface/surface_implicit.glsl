@@ -34,14 +34,15 @@ core_interval core_implicit_coordinate(elvis_real a, elvis_real b, elvis_real no
 // What is known of the function on an interval of the ray.
 struct core_implicit_interval {
     elvis_real low, high, width;
-    // There: values that tell a sign.
+    // Values at both ends, and whether their signs are known to differ.
     elvis_real at_low, at_high;
-    bool is_excluded, is_monotone, has_change;
+    bool has_change;
+    // It has no zero; the function only rises or only falls.
+    bool is_excluded, is_monotone;
     // It cannot be halved any more.
     bool is_last;
 };
 
-// `width`, of the interval: 2^-level of the extent.
 core_implicit_interval core_implicit_interval_at(core_surface_ray ray, elvis_real from, elvis_real extent, uint level, uint index) {
     const elvis_real zero = elvis_real(0);
     core_implicit_interval interval;

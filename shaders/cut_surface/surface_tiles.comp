@@ -4,11 +4,6 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "tiles/hierarchy.glsl"
-#include "tiles/cut_tiles.glsl"
-#include "arithmetic/driver_limit.glsl"
-#define CORE_LISTED_BINDING 2
-#include "tiles/list_tile.glsl"
 
 layout(std430, set = 0, binding = 0) readonly buffer core_boxes_block { float core_boxes[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer core_output { uint core_tiles[]; };
@@ -21,6 +16,9 @@ layout(push_constant) uniform core_constants {
     // Boxes of a tile, one below the other.
     uint core_n_parts;
 };
+
+#define CORE_LISTED_BINDING 2
+#include "cut_surface/list_nodes.glsl"
 
 void main() {
     const uint tile = core_first_tile + gl_GlobalInvocationID.x;
@@ -37,41 +35,5 @@ void main() {
         high_z = max(high_z, -core_boxes[6u * part + 5u]);
     }
     const vec3 lower = vec3(low_x, low_y, low_z), upper = vec3(high_x, high_y, high_z);
-
-    uint stack[CORE_STACK_SIZE];
-    uint stack_size = is_wanted && low_x <= high_x ? 1u : 0u;
-    stack[0] = 0u;
-    uint n_entries = 0u;
-    const uint first = tile * CORE_TILE_STRIDE + 1u;
-    while (stack_size > 0u) {
-        stack_size -= 1u;
-        const uint index = stack[stack_size];
-        const core_node node = core_fetch_node(index);
-        const bool is_touched = core_overlaps(node, lower, upper);
-        // A node that could leave too many entries behind stays an entry itself, for the pixels to descend from.
-        const bool is_entry = node.is_leaf || n_entries + stack_size + 2u > CORE_TILE_CAPACITY;
-        if (is_touched && is_entry) {
-            core_tiles[first + n_entries] = index;
-            n_entries += 1u;
-        }
-        if (is_touched && !is_entry) {
-            stack[stack_size] = node.child + 1u;
-            stack[stack_size + 1u] = node.child;
-            stack_size += 2u;
-        }
-        if (stack_size == 0u) {
-            break;
-        }
-    }
-    // Then pixels descend from the root.
-    const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_n_tiles >> 31));
-    if (is_cut_short) {
-        core_tiles[first] = 0u;
-    }
-    if (is_wanted) {
-        core_tiles[tile * CORE_TILE_STRIDE] = is_cut_short ? 1u : n_entries;
-    }
-    if (is_cut_short || n_entries > 0u) {
-        core_list_tile(tile, 0u, core_n_tiles);
-    }
+    core_list_nodes(tile, is_wanted, low_x <= high_x, lower, upper, core_n_tiles);
 }
