@@ -1,4 +1,4 @@
-// Bindings of the kernels that draw faces, and how what they have found gets into the picture.
+// Bindings of the kernels that draw faces, and how the nearest crossing gets into the picture.
 
 #include "element/place.glsl"
 
@@ -50,8 +50,8 @@ uint core_show(uint pixel, core_ray ray, core_face_crossing nearest, bool is_sho
     const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
     uint n_evaluations = 0u;
     if (is_shown && (has_found || is_cut_short)) {
-        n_evaluations = core_merge(pixel, core_cut_point(has_found, nearest.t, ray.origin + nearest.t * ray.direction, ray.direction, ray.error),
-                                   found, value);
+        const elvis_vec3 position = ray.origin + nearest.t * ray.direction;
+        n_evaluations = core_merge(pixel, core_cut_point(has_found, nearest.t, position, ray.direction, ray.error), found, value);
     }
     if (n_evaluations > 0u) {
         const uint local_face = elvis_fetch4_core_faces(nearest.face, 0u).y;

@@ -2,11 +2,11 @@
 // field there.
 //
 // A face is a map of (u, v), both from -1 to 1, with u + v <= 0 in a triangle. A ray o + t d meets it where x(u, v) = o + t d.
-// Patches of it come with a linear model and bounds of the rest (boundary/face_patch.glsl), which tell most patches that a ray
-// misses before anything is evaluated, give Newton's method its start, and say where no ray like this one crosses a patch twice.
-// Pixels that meet a patch for which that is not certain, near silhouettes, are left to boundary/faces_careful.comp.
+// Each of its patches has a linear model and bounds of the rest (boundary/face_patch.glsl). Before anything is evaluated they show that a
+// ray misses most patches; they give Newton's method its start; and they tell where a ray crosses a patch at most once. Pixels whose
+// rays meet a patch for which that is not certain, near silhouettes, are left to boundary/faces_careful.comp.
 //
-// A work group is a tile of pixels, an invocation one of its columns; its list (tiles/ray_tiles.comp) is in the order of
+// A work group is a tile of pixels, an invocation one of its columns. The tile's list (tiles/ray_tiles.comp) is in the order of
 // depth, so that the search ends at the first patch behind the crossing found. The next pixel of a column starts where this one's
 // crossing moves to. Tiles whose lists hold inner nodes of the hierarchy are drawn by a second version (CORE_DESCENDS).
 //

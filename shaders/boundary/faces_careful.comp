@@ -1,4 +1,4 @@
-// Pixels that boundary/faces.comp left: their rays may cross a patch twice, or touch it.
+// Faces in the pixels that boundary/faces.comp leaves: their rays may cross a patch twice, or touch it.
 //
 // A patch is divided into squares until each is missed for certain, or crossed at most once for certain, which Newton's method
 // then decides. In a square the face is its tangent plane at the middle and a remainder of at most q = Q h^2 in each coordinate
@@ -8,9 +8,9 @@
 //     |g . (x - o)| > |g . x_a| + |g . x_b| + |g| . q,
 //
 // for g across one of the tangents or towards the square's middle. The linear part, seen along the ray, changes by the share L =
-// 2 |rows| . q within the square; below one half there is one crossing at most. A square whose remainder is below the rounding of
-// positions, and for which neither is known, is touched within rounding: the pixel is flagged as undecided, and the patch not
-// taken as met there.
+// 2 |rows| . q within the square; below one half there is one crossing at most. Where a square's remainder is below the rounding of
+// positions, and still neither is known, the ray touches the patch within rounding: the pixel is flagged as undecided, and no crossing
+// is taken there.
 
 layout(local_size_x = 32) in;
 
@@ -78,8 +78,8 @@ void core_next_patch(core_ray ray, float end_t, inout core_face_search search, i
 // A square of a patch.
 struct core_patch_square {
     uint level, column, row;
-    // Half its side, over the patch's; and on the face.
-    elvis_real part, half_size;
+    // Half its side: over the patch's, and on the face.
+    elvis_real share, half_size;
     // Its middle in the patch and on the face.
     elvis_real a, b, u, v;
 };
@@ -89,10 +89,10 @@ core_patch_square core_patch_square_of(uint word, core_square patch_square) {
     square.level = word & 15u;
     square.column = (word >> 4) & 8191u;
     square.row = word >> 17;
-    square.part = exp2(-float(square.level));
-    square.half_size = elvis_real(patch_square.size) * square.part;
-    square.a = elvis_real(2u * square.column + 1u) * square.part - elvis_real(1);
-    square.b = elvis_real(2u * square.row + 1u) * square.part - elvis_real(1);
+    square.share = exp2(-float(square.level));
+    square.half_size = elvis_real(patch_square.size) * square.share;
+    square.a = elvis_real(2u * square.column + 1u) * square.share - elvis_real(1);
+    square.b = elvis_real(2u * square.row + 1u) * square.share - elvis_real(1);
     square.u = elvis_real(patch_square.a) + elvis_real(patch_square.size) * square.a;
     square.v = elvis_real(patch_square.b) + elvis_real(patch_square.size) * square.b;
     return square;
@@ -111,7 +111,7 @@ core_square_verdict core_judge_square(core_ray ray, core_face_step s, uint patch
                                       core_face_crossing nearest) {
     const uint safe_patch = patch_index == CORE_NO_FACE ? 0u : patch_index;
     const elvis_vec3 bound = elvis_vec3(uintBitsToFloat(elvis_fetch4_core_patches(safe_patch, 5u).xyz));
-    const elvis_vec3 q = square.part * square.part * bound;
+    const elvis_vec3 q = square.share * square.share * bound;
     const elvis_vec3 tangent_a = square.half_size * s.point.along_u, tangent_b = square.half_size * s.point.along_v;
     const elvis_vec3 away = s.point.x - (s.shift + ray.origin);
     const elvis_vec3 terms = abs(s.shift) + abs(s.point.x) + abs(tangent_a) + abs(tangent_b) + abs(away);
@@ -125,7 +125,7 @@ core_square_verdict core_judge_square(core_ray ray, core_face_step s, uint patch
     const elvis_real gap2 = abs(dot(g2, away)) - abs(dot(g2, tangent_a)) - dot(abs(g2), room);
     const elvis_real gap3 = abs(dot(g3, away)) - abs(dot(g3, tangent_a)) - abs(dot(g3, tangent_b)) - dot(abs(g3), room);
     const elvis_real t_reach = (abs(dot(d, tangent_a)) + abs(dot(d, tangent_b)) + dot(abs(d), room)) * per_length;
-    const bool is_upper = patch_square.is_diagonal && square.a + square.b - elvis_real(2) * square.part > elvis_real(0);
+    const bool is_upper = patch_square.is_diagonal && square.a + square.b - elvis_real(2) * square.share > elvis_real(0);
     const bool is_elsewhere = t_middle - t_reach > nearest.t + nearest.slack || t_middle + t_reach < ray.least_t;
     core_square_verdict verdict;
     verdict.is_excluded = is_upper || is_elsewhere || max(max(gap1, gap2), gap3) > elvis_real(0);
@@ -171,12 +171,13 @@ void core_step_in_square(core_ray ray, inout core_face_search search, inout core
     const elvis_real left = square.half_size *
                             core_patch_prediction_error(float(search.slope), float(search.slope), step_length / square.half_size);
     const elvis_real outside = max(abs(u - square.u), abs(v - square.v)) - square.half_size;
-    const elvis_real above_diagonal = patch_square.is_diagonal ? u - elvis_real(patch_square.a) + v - elvis_real(patch_square.b) : elvis_real(-1);
+    const elvis_real from_middle = u - elvis_real(patch_square.a) + v - elvis_real(patch_square.b);
+    const elvis_real above_diagonal = patch_square.is_diagonal ? from_middle : elvis_real(-1);
     const core_face_verdict of_step = core_judge_face_step(ray, s, u, v, max(outside, above_diagonal), left);
     core_take_crossing(search.is_polishing && of_step.is_hit,
                        core_face_crossing_at(search.face, search.patch_index, search.square_word, u, v, s, elvis_vec3(0)), nearest);
 
-    // A crossing beyond the square's edge keeps it from either; it is farther beyond that of a part.
+    // Near the square's edge a step may show neither a crossing nor a miss; smaller squares have their edges elsewhere.
     const bool is_done = of_step.has_converged || of_step.has_missed;
     const bool has_stalled = search.is_polishing && !is_done && search.steps == CORE_STEPS;
     const bool is_open = has_stalled || (is_square && !of_square.is_excluded && !of_square.is_single);

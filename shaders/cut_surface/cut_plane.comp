@@ -64,9 +64,9 @@ core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, e
     const elvis_vec3 origin = shift - position;
     const elvis_real error = square.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
     const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
-    core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
-                                  origin + square.corner2, origin + square.corner3, curvature, core_plane_normal.xyz, direction,
-                                  CORE_NO_FACE);
+    core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0,
+                                              origin + square.corner1, origin + square.corner2, origin + square.corner3, curvature,
+                                              core_plane_normal.xyz, direction, CORE_NO_FACE);
 #if ELVIS_HAS_INSIDE
     core_judge_inside(subpixel, element, xi);
 #endif

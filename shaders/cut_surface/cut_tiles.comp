@@ -33,7 +33,8 @@ void main() {
     const core_cut_point p01 = core_cut_pixel(left, last_row), p11 = core_cut_pixel(right, last_row);
 
     // Where the four corner rays meet the plane in front of the eye, the pixels between them meet it inside the quadrilateral of
-    // the four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all, unless it is behind the volume.
+    // the four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all, unless
+    // it is behind the volume.
     const bool all_hit = p00.is_hit && p10.is_hit && p01.is_hit && p11.is_hit;
     const bool any_hit = p00.is_hit || p10.is_hit || p01.is_hit || p11.is_hit;
     const vec3 shift = vec3(core_reference_in_hierarchy.xyz);

@@ -41,8 +41,10 @@ struct core_net {
 // That of the square from (u, v) with sides h.
 core_net core_subnet(core_net net, elvis_real u, elvis_real v, elvis_real h) {
     const elvis_real u_high = u + h, v_high = v + h;
-    const elvis_vec4 u0 = core_bernstein(u), u1 = core_blossom(u, u, u_high), u2 = core_blossom(u, u_high, u_high), u3 = core_bernstein(u_high);
-    const elvis_vec4 v0 = core_bernstein(v), v1 = core_blossom(v, v, v_high), v2 = core_blossom(v, v_high, v_high), v3 = core_bernstein(v_high);
+    const elvis_vec4 u0 = core_bernstein(u), u1 = core_blossom(u, u, u_high);
+    const elvis_vec4 u2 = core_blossom(u, u_high, u_high), u3 = core_bernstein(u_high);
+    const elvis_vec4 v0 = core_bernstein(v), v1 = core_blossom(v, v, v_high);
+    const elvis_vec4 v2 = core_blossom(v, v_high, v_high), v3 = core_bernstein(v_high);
     const elvis_vec4 a = u0.x * net.c0 + u0.y * net.c1 + u0.z * net.c2 + u0.w * net.c3;
     const elvis_vec4 b = u1.x * net.c0 + u1.y * net.c1 + u1.z * net.c2 + u1.w * net.c3;
     const elvis_vec4 c = u2.x * net.c0 + u2.y * net.c1 + u2.z * net.c2 + u2.w * net.c3;
@@ -199,7 +201,7 @@ core_bezier_root core_bezier_newton(core_unit_square unit, bool is_wanted) {
         last_step = max(abs(step_a), abs(step_b));
         step = last_step <= half_one * max(unit.off_s, unit.off_r) ? CORE_BEZIER_STEPS : step + 1u;
     }
-    // |J^-1| <= 2 turns the error of values into one of parameters.
+    // |J^-1| <= 2 makes an error of parameters from one of values.
     const elvis_real tolerance = elvis_real(4) * max(unit.off_s, unit.off_r);
     const elvis_real excess = max(abs(root.a - half_one), abs(root.b - half_one)) - half_one;
     root.is_root = last_step <= elvis_real(1e-2LF) && excess <= tolerance;
@@ -222,7 +224,8 @@ core_bezier_point core_bezier_point_at(core_bezier_patch surface, elvis_real u, 
     const elvis_vec3 tangent_v =
         elvis_vec3(core_net_value(surface.x, wu, dv), core_net_value(surface.y, wu, dv), core_net_value(surface.z, wu, dv));
     point.normal = cross(tangent_u, tangent_v);
-    point.error = surface.off * core_norm1(point.normal) / max(abs(point.normal.z), elvis_real(1e-30LF) * core_norm1(point.normal)) / stretch;
+    const elvis_real size = core_norm1(point.normal);
+    point.error = surface.off * size / max(abs(point.normal.z), elvis_real(1e-30LF) * size) / stretch;
     return point;
 }
 

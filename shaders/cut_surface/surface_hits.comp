@@ -23,7 +23,7 @@ layout(set = 0, binding = 2, std430) buffer core_hits_block { core_hit_record co
 // Three numbers a pixel: unit, towards the viewer.
 layout(set = 0, binding = 3, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
-// Lower and upper corner of each part of a tile, in the hierarchies' coordinates; lower above upper where there is no crossing.
+// Lower corner and negated upper corner of each work group's crossings, in the hierarchies' coordinates.
 layout(set = 0, binding = 5, std430) writeonly buffer core_boxes_block { float core_boxes[]; };
 layout(set = 0, binding = 6, std430) buffer core_marks_block { core_mark core_marks[]; };
 // [0]: crossings found.
@@ -78,7 +78,7 @@ elvis_real core_after(uint pixel, elvis_real stretch, elvis_real reference_dista
     return after;
 }
 
-// The part of the pixel's ray in the box, a little more; none if nothing is wanted there.
+// The pixel's ray in the box, from a little before to a little behind; nothing of it if nothing is wanted there.
 core_surface_ray core_surface_ray_of(core_cut_column along, elvis_real row, uint pixel) {
     const elvis_real down = row - along.row0;
     core_surface_ray ray;
@@ -132,8 +132,9 @@ struct core_hit_box {
 void core_add_to_box(bool is_hit, core_surface_ray ray, elvis_real t, elvis_real along_ray, inout core_hit_box box) {
     const vec3 place = vec3(ray.origin + t * ray.direction + core_reference_in_hierarchy.xyz);
     const vec3 shift = abs(vec3(core_reference_in_hierarchy.xyz));
-    const float width = float(elvis_real(4) * ray.noise + elvis_real(2) * min(along_ray, core_shape[0].w)) +
-                        8.0 * CORE_FLOAT_ROUNDOFF * (max(max(shift.x, shift.y), shift.z) + max(max(abs(place.x), abs(place.y)), abs(place.z)));
+    const float size = max(max(shift.x, shift.y), shift.z) + max(max(abs(place.x), abs(place.y)), abs(place.z));
+    const elvis_real error = elvis_real(4) * ray.noise + elvis_real(2) * min(along_ray, core_shape[0].w);
+    const float width = float(error) + 8.0 * CORE_FLOAT_ROUNDOFF * size;
     box.low_x = is_hit ? min(box.low_x, place.x - width) : box.low_x;
     box.low_y = is_hit ? min(box.low_y, place.y - width) : box.low_y;
     box.low_z = is_hit ? min(box.low_z, place.z - width) : box.low_z;
@@ -142,8 +143,8 @@ void core_add_to_box(bool is_hit, core_surface_ray ray, elvis_real t, elvis_real
     box.minus_high_z = is_hit ? min(box.minus_high_z, -(place.z + width)) : box.minus_high_z;
 }
 
-// The boxes of all columns together: six lanes, one for each end. `part`: of core_boxes. All of the group's invocations come here.
-void core_store_box(core_hit_box box, uint part) {
+// The box of all columns: six lanes, one for each end. `group`: in core_boxes. All of the group's invocations come here.
+void core_store_box(core_hit_box box, uint group) {
     const uint lane = gl_LocalInvocationID.x;
     core_lane_boxes[lane] = box.low_x;
     core_lane_boxes[CORE_TILE_WIDTH + lane] = box.low_y;
@@ -157,7 +158,7 @@ void core_store_box(core_hit_box box, uint part) {
         for (uint i = 0u; i < CORE_TILE_WIDTH; ++i) {
             least = min(least, core_lane_boxes[lane * CORE_TILE_WIDTH + i]);
         }
-        core_boxes[6u * part + lane] = least;
+        core_boxes[6u * group + lane] = least;
     }
 }
 

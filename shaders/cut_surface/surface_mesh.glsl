@@ -54,8 +54,8 @@ elvis_vec3 core_sheared(core_shear shear, elvis_vec3 point) {
     return elvis_vec3(x, y, z);
 }
 
-void core_consider_triangle(uint triangle, bool is_active, core_surface_ray ray, elvis_vec3 origin, core_shear shear, inout core_votes votes,
-                            inout core_hit best) {
+void core_consider_triangle(uint triangle, bool is_active, core_surface_ray ray, elvis_vec3 origin, core_shear shear,
+                            inout core_votes votes, inout core_hit best) {
     const elvis_vec4 row0 = elvis_fetch4_core_triangles(triangle, 0u), row1 = elvis_fetch4_core_triangles(triangle, 1u);
     const elvis_vec4 row2 = elvis_fetch4_core_triangles(triangle, 2u);
     precise const elvis_vec3 corner_a = row0.xyz - origin;

@@ -13,8 +13,8 @@ layout(push_constant) uniform core_constants {
     // Of the whole picture; and those that are wanted.
     uint core_n_tiles;
     uint core_first_tile, core_end_tile;
-    // Boxes of a tile, one below the other.
-    uint core_n_parts;
+    // Work groups of cut_surface/surface_hits.comp in a tile, one below the other, each with a box.
+    uint core_n_groups;
 };
 
 #define CORE_LISTED_BINDING 2
@@ -25,14 +25,14 @@ void main() {
     const bool is_wanted = tile < core_end_tile;
     const float infinite = 3e38;
     float low_x = infinite, low_y = infinite, low_z = infinite, high_x = -infinite, high_y = -infinite, high_z = -infinite;
-    for (uint i = 0u; i < (is_wanted ? core_n_parts : 0u); ++i) {
-        const uint part = ((tile / core_tiles_per_row) * core_n_parts + i) * core_tiles_per_row + tile % core_tiles_per_row;
-        low_x = min(low_x, core_boxes[6u * part]);
-        low_y = min(low_y, core_boxes[6u * part + 1u]);
-        low_z = min(low_z, core_boxes[6u * part + 2u]);
-        high_x = max(high_x, -core_boxes[6u * part + 3u]);
-        high_y = max(high_y, -core_boxes[6u * part + 4u]);
-        high_z = max(high_z, -core_boxes[6u * part + 5u]);
+    for (uint i = 0u; i < (is_wanted ? core_n_groups : 0u); ++i) {
+        const uint group = ((tile / core_tiles_per_row) * core_n_groups + i) * core_tiles_per_row + tile % core_tiles_per_row;
+        low_x = min(low_x, core_boxes[6u * group]);
+        low_y = min(low_y, core_boxes[6u * group + 1u]);
+        low_z = min(low_z, core_boxes[6u * group + 2u]);
+        high_x = max(high_x, -core_boxes[6u * group + 3u]);
+        high_y = max(high_y, -core_boxes[6u * group + 4u]);
+        high_z = max(high_z, -core_boxes[6u * group + 5u]);
     }
     const vec3 lower = vec3(low_x, low_y, low_z), upper = vec3(high_x, high_y, high_z);
     core_list_nodes(tile, is_wanted, low_x <= high_x, lower, upper, core_n_tiles);

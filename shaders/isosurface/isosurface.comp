@@ -4,17 +4,17 @@
 // depth, so that the search ends at the first octant behind the crossing found. A work group is a few rows of a tile, and takes over what
 // these can meet (isosurface/group_octants.glsl).
 //
-// A ray is cut down to what an octant's linear models of mapping and field leave (isosurface/octant.glsl), and then an interval at a time is
-// looked at, front to back (isosurface/ray_interval.glsl). One evaluation bounds the field over the whole interval by a line and an error. So it
-// is known that
+// A ray is cut down to what an octant's linear models of mapping and field leave (isosurface/octant.glsl). Then one interval after the
+// other is looked at, front to back (isosurface/ray_interval.glsl). One evaluation bounds the field over the interval by a line and an
+// error, which tells
 //
-//   no isovalue is taken         the interval is done: that is certified, as far as the bounds are
-//   one is taken in a part       the interval is cut down to that part, before which there is none: the interval Newton method
-//                                (R. E. Moore, Interval Analysis, 1966), which converges quadratically where the field is steep
-//   or little                    the interval is halved
+//   that no isovalue is taken     the interval is done: that is certified, as far as the bounds are
+//   where one may be taken        the interval is cut down to there; before, none is: the interval Newton method (R. E. Moore, Interval
+//                                 Analysis, 1966), which converges quadratically where the field is steep
+//   or little                     the interval is halved
 //
-// until the interval is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
-// pixel is undecided if that cannot be told: isosurface/interval_bounds.glsl, interval_root.glsl and octant_search.glsl.
+// until the interval is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error. If that
+// cannot be told the pixel is undecided: isosurface/interval_bounds.glsl, interval_root.glsl and octant_search.glsl.
 //
 // One evaluation of mapping and field an iteration, whatever element and interval a lane is at, so that lanes do not wait for each other.
 
@@ -67,16 +67,17 @@ layout(push_constant) uniform core_parameters {
 
 // The root, as a crossing of the ray.
 core_nearest_crossing core_found_at(core_evaluation evaluation, core_root root) {
-    return core_nearest_crossing(evaluation.middle + evaluation.crossing.s, evaluation.crossing.half_width, root.xi.x, root.xi.y, root.xi.z, evaluation.crossing.isovalue,
-                        root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
-                        elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
+    const core_linear_root crossing = evaluation.crossing;
+    return core_nearest_crossing(evaluation.middle + crossing.s, crossing.half_width, root.xi.x, root.xi.y, root.xi.z, crossing.isovalue,
+                                 root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
+                                 elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
 }
 
 // Flag of a pixel in which rounding may have led the crossing away.
 uint core_blur_of(core_nearest_crossing nearest, core_ray ray, elvis_real stretch) {
 #if ELVIS_REAL_IS_DOUBLE
-    // Rounding alone: the crossing's own width is that of the interval in which it was found. In single precision bounds of rounding say too
-    // little: projection would be as uncertain, and less exact.
+    // Rounding alone: the crossing's own width is that of the interval in which it was found. In single precision bounds of rounding say
+    // too little: projection would be as uncertain, and less exact.
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     const elvis_vec3 xi = elvis_vec3(nearest.xi_x, nearest.xi_y, nearest.xi_z);
     const elvis_vec3 gradient = elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z);
@@ -92,8 +93,9 @@ struct core_interval_counts {
     uint n_evaluations, n_excluded, n_outside, n_undecided, n_crossings;
 };
 
-// An evaluation at the search's interval, and to the next one. Returns flags of the pixel.
-uint core_search_step(core_ray ray, inout core_interval_search search, inout core_nearest_crossing nearest, inout core_interval_counts counts) {
+// One evaluation, then to the next interval. Returns flags of the pixel.
+uint core_search_step(core_ray ray, inout core_interval_search search, inout core_nearest_crossing nearest,
+                      inout core_interval_counts counts) {
     const bool is_active = search.element != CORE_NO_ELEMENT;
     search.used += 1u;
     const core_evaluation evaluation = core_evaluate_at(ray, search);

@@ -3,11 +3,11 @@
 // rendering, 2006).
 //
 // Elements whose range holds an isovalue are visited nearest first, and in each the segments, from exact entry to
-// exact exit (segments/segment.glsl). Along a segment the field is sampled and becomes a polynomial (segments/fit.glsl), whose
-// degree is raised, and then the segment halved, until the error E is small beside how much the polynomial varies. Beside values each
-// sample has the field's slope along the ray, which the polynomial must have, too: few values alone can deceive. An interval without an
-// isovalue within E of the polynomial's Bernstein coefficients is left out: that is verified, not certified. Else the polynomial's
-// crossings are looked at in order. Each is polished on the field itself by Newton's method along the ray; it is taken if
+// exact exit (segments/segment.glsl). Samples of the field along a segment become a polynomial (segments/fit.glsl). Its degree is raised,
+// and then the segment is halved, until the error E is small beside how much the polynomial varies. Samples have the field's slope along
+// the ray, too, and the polynomial must have the same: few values alone can deceive. An interval is left out if no isovalue lies within E
+// of the polynomial's Bernstein coefficients: that is verified, not certified. Else the polynomial's crossings are looked at in order.
+// Each is polished on the field itself by Newton's method along the ray; it is taken if
 //
 //     E shows that the field crosses in the bracket in which the root was found    or
 //     the field is seen on both sides, or surely keeps its slope within what rounding moves the root.
@@ -126,7 +126,8 @@ void core_next_node(core_ray ray, core_traced_ray traced_ray, elvis_real nearest
     }
 }
 
-// One step of whatever the search is at; at most one evaluation each of a segment and of a sample. `size`: of the volume, in the ray's parameter.
+// The step that the search's phase asks for, and those that follow from it without a further sample. `size`: of the volume, in the
+// ray's parameter.
 void core_projection_step(core_ray ray, core_traced_ray traced_ray, elvis_real size, inout core_projection_search search,
                           inout core_nearest_crossing nearest) {
     if (search.phase == CORE_PHASE_CLIP) {

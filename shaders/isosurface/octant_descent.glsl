@@ -1,4 +1,5 @@
-// The way of a ray through the octants of its work group, front to back, and with CORE_DESCENDS from inner nodes among them down to octants.
+// The way of a ray through the octants of its work group, front to back, and with CORE_DESCENDS from inner nodes among them down to
+// octants.
 //
 // The kernel brings isosurface/group_octants.glsl.
 

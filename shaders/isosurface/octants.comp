@@ -70,7 +70,7 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
     mapping.frame = core_frame_at(position, mapping.jacobian, elvis_real(0));
     mapping.position = (elvis_origin(element) - elvis_vec3(core_centre[0], core_centre[1], core_centre[2])) +
                        (position + mapping.jacobian * place.shift);
-    // Rounding: of the inverse, which is told by its product with the Jacobian, and of positions.
+    // Rounding of the inverse shows in its product with the Jacobian; then there is rounding of positions.
     elvis_real defect = elvis_real(0);
     for (int k = 0; k < 3; ++k) {
         elvis_vec3 column = core_to_xi(mapping.frame, mapping.jacobian[k]);
@@ -88,7 +88,8 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
     mapping.curvature = is_measured ? measured : of_element;
     mapping.bending = mapping.curvature * place.radius * place.radius + rounding;
     mapping.size = place.half_side + mapping.bending;
-    mapping.is_linear = frame.is_sound && core_is_finite(mapping.size + core_max_norm(mapping.position)) && mapping.bending < CORE_MOST_BENDING;
+    const bool is_finite = core_is_finite(mapping.size + core_max_norm(mapping.position));
+    mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING;
     return mapping;
 }
 

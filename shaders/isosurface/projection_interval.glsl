@@ -2,14 +2,14 @@
 //
 // The kernel brings isosurface/projection_search.glsl.
 
-// E over how much the polynomial varies, above which it is not believed.
+// The polynomial is not believed if E is more than this share of how much it varies.
 #if CORE_USES_COLLEAGUE
 // Eigenvalues tell no error: as little as there can be.
 #define CORE_ROUGH elvis_real(0)
 #else
 #define CORE_ROUGH elvis_real(1e-3LF)
 #endif
-// What slopes that differ say about E, over the same, below which it may be the gradient's own error.
+// Below this share of the same, what differences of slopes say about E may be the gradient's own error.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_LEAST_SLOPE_ERROR elvis_real(1e-6LF)
 #else
@@ -76,12 +76,13 @@ void core_projection_solve(core_traced_ray traced_ray, inout core_projection_sea
     search.is_seen_below = search.is_seen_above = false;
     // Beside an interval's end the root of the field may be outside of the bracket.
     const bool is_verified = search.candidate.kind == CORE_CROSSING_VERIFIED;
-    const elvis_real margin = is_verified ? elvis_real(0) : elvis_real(2) * traced_ray.tolerance + elvis_real(1e-6LF) * (search.to - search.from);
-    search.bracket_from = search.from + search.candidate.lower * (search.to - search.from) - margin;
-    search.bracket_to = search.from + search.candidate.upper * (search.to - search.from) + margin;
+    const elvis_real extent = search.to - search.from;
+    const elvis_real margin = is_verified ? elvis_real(0) : elvis_real(2) * traced_ray.tolerance + elvis_real(1e-6LF) * extent;
+    search.bracket_from = search.from + search.candidate.lower * extent - margin;
+    search.bracket_to = search.from + search.candidate.upper * extent + margin;
     search.polish_iterations = 0u;
     search.last_step = CORE_FAR;
-    core_follow_to(search.follower, search.from + search.candidate.t * (search.to - search.from));
+    core_follow_to(search.follower, search.from + search.candidate.t * extent);
     const bool is_ignored = CORE_PLAIN == 1 && search.candidate.kind == CORE_CROSSING_TOUCH;
     search.phase = is_none ? CORE_PHASE_INTERVAL_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
     if (refines && (halves || !is_full)) {

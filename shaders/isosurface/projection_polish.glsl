@@ -6,8 +6,8 @@
 #define CORE_CANDIDATE_ITERATIONS 16u
 
 // After a sample at the follower's parameter. `size`: of the volume, in the ray's parameter.
-void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found, inout core_projection_search search,
-                        inout core_nearest_crossing nearest) {
+void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found,
+                            inout core_projection_search search, inout core_nearest_crossing nearest) {
     search.polish_iterations += 1u;
     const elvis_real t = search.follower.at, off = found.value - search.isovalue;
     const bool is_above = off > found.error, is_below = off < -found.error;
@@ -54,13 +54,14 @@ void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real
     search.undecided_t = is_undecided || is_blurred ? min(search.undecided_t, is_undecided ? candidate_t : root_t) : search.undecided_t;
 
     const core_frame frame = found.frame;
+    const uint number = elvis_fetch_core_elements(search.element, 0u);
     const elvis_vec3 gradient = found.gradient.x * frame.row0 + found.gradient.y * frame.row1 + found.gradient.z * frame.row2;
     const elvis_vec3 point = found.xi + found.q + (root_t - t) * found.w;
     const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
     core_nearest_take(is_hit,
-                      core_nearest_crossing(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y, gradient.z,
-                                   inverse_square * bend_here / length(gradient), search.element, elvis_fetch_core_elements(search.element, 0u),
-                                   is_surely_inside),
+                      core_nearest_crossing(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y,
+                                            gradient.z, inverse_square * bend_here / length(gradient), search.element, number,
+                                            is_surely_inside),
                       nearest);
     const bool is_estimated = core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1;
     search.flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;

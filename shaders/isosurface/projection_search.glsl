@@ -1,5 +1,5 @@
-// What projection (isosurface/isosurface_projection.comp) is at with a ray: the element, the segment, the interval of that, and
-// the candidate for a crossing.
+// The state of projection (isosurface/isosurface_projection.comp) along a ray: the element, the segment, the dyadic interval of that,
+// and the candidate for a crossing.
 //
 // The kernel brings segments/segment.glsl, segments/ray_sample.glsl, segments/root_candidate.glsl and segments/dyadic_interval.glsl.
 
