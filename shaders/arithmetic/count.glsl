@@ -1,9 +1,8 @@
-// The kernel brings core_counts.
+// Sums over all invocations. The kernel brings core_counts.
 
-// Of all lanes of the subgroup together.
 void core_count(uint index, uint n) {
-    const uint all = subgroupAdd(n);
+    const uint n_in_subgroup = subgroupAdd(n);
     if (subgroupElect()) {
-        atomicAdd(core_counts[index], all);
+        atomicAdd(core_counts[index], n_in_subgroup);
     }
 }

@@ -3,12 +3,12 @@
 //
 // A patch is x(a, b) = x0 + a A + b B + r(a, b), -1 <= a, b <= 1 (a + b <= 0 on the diagonal of a triangle). In the coordinates
 // (u, v, s) = (mu . (x - x0), mv . (x - x0), n . (x - x0)), with mu, mv dual to A, B and n their unit normal, the linear part is
-// (a, b, 0), and |r| is at most (flat, flat, high). A ray that is at (u0, v0) where s = 0 and moves by (wu, wv) while s grows by
-// one is therefore at
+// (a, b, 0), and |r| is at most (flat, flat, high). A ray that passes (u0, v0) where s = 0, and moves by (wu, wv) while s grows by
+// one, meets the patch at
 //
 //     a = u0 - r_u + wu r_s,   b = v0 - r_v + wv r_s
 //
-// where it meets the patch: outside of [-1, 1] by more than flat + |w| high it does not. With Lipschitz constants (slope_flat,
+// so it misses the patch if (u0, v0) is outside of [-1, 1] by more than flat + |w| high. With Lipschitz constants (slope_flat,
 // slope_high) of r in the maximum norm, r_u - wu r_s has the constant slope_flat + |w| slope_high: below one there is at most one
 // crossing. These constants, and those of the derivatives of r (bend_...), hold on the patch enlarged by CORE_PATCH_REACH.
 
@@ -22,7 +22,7 @@ struct core_patch_meeting {
     float slope, bend;
 };
 
-// Of the row of eight words that holds the square: level, then its column and row.
+// The patch's square of parameters, from a word of its row: level, column, row, and whether it lies on the diagonal of a triangle.
 struct core_square {
     float a, b, size;
     bool is_diagonal;
@@ -40,8 +40,8 @@ core_square core_square_of(uint word) {
 }
 
 // By how much a point lies outside the square [-1, 1]^2, or its lower half.
-float core_patch_excess(float a, float b, bool is_diagonal) {
-    const float outside = max(abs(a), abs(b)) - 1.0;
+elvis_real core_patch_excess(elvis_real a, elvis_real b, bool is_diagonal) {
+    const elvis_real outside = max(abs(a), abs(b)) - elvis_real(1);
     return is_diagonal ? max(outside, a + b) : outside;
 }
 

@@ -1,12 +1,21 @@
-// Rays of pixels against faces: one step of Newton's method, and what is known of the nearest crossing.
+// One step of Newton's method from a ray to a face, what it tells, and the nearest crossing.
 //
-// The kernel brings picture/pixel_ray.glsl, element/face_frame.glsl, boundary/face_patch.glsl, boundary/face_point.glsl, and the buffer
-// core_faces: local element, local face, number, misfit of the polynomial.
+// The kernel brings picture/pixel_ray.glsl, element/face_frame.glsl, element/inside.glsl, boundary/face_patch.glsl,
+// boundary/face_point.glsl, and the buffer core_faces: local element, local face, number, misfit of the polynomial.
 
 #define CORE_NO_FACE 0xffffffffu
 
 struct core_face_step {
+    // Of the row of core_faces.
+    uint element, number;
+    int local_face;
+    // The face where the step begins, and its error there; from elvis_origin of the element to the reference point.
+    core_face_point point;
+    elvis_real misfit;
+    elvis_vec3 shift;
+
     bool is_regular;
+    // Where the ray meets the tangent plane, and the step to there.
     elvis_real t, step_u, step_v;
     // Of (u, v), from rounding; and twice that of t.
     elvis_real error, width;
@@ -15,84 +24,105 @@ struct core_face_step {
     elvis_real across;
 };
 
-// t from the tangent plane, and the step in it.
-core_face_step core_face_newton(core_face_point point, elvis_vec3 shift, core_ray ray, elvis_real misfit) {
-    const elvis_vec3 origin = shift + ray.origin;
+core_face_step core_face_newton(uint face, elvis_real u, elvis_real v, core_ray ray) {
     core_face_step s;
-    s.normal = cross(point.along_u, point.along_v);
+    const uvec4 row = elvis_fetch4_core_faces(face, 0u);
+    s.element = row.x;
+    s.local_face = int(row.y);
+    s.number = row.z;
+    s.misfit = elvis_real(uintBitsToFloat(row.w));
+    s.point = core_face_at(face, s.element, s.local_face, u, v);
+    s.shift = core_reference.xyz - elvis_origin(s.element);
+    const elvis_vec3 origin = s.shift + ray.origin;
+    s.normal = cross(s.point.along_u, s.point.along_v);
     s.across = dot(s.normal, ray.direction);
     const elvis_real least = elvis_real(64) * CORE_ROUNDOFF;
     // The squares of both sides: less work than their lengths.
     s.is_regular = s.across * s.across > least * least * dot(s.normal, s.normal) * dot(ray.direction, ray.direction);
     const elvis_real inverse = s.is_regular ? elvis_real(1) / s.across : elvis_real(0);
-    s.t = dot(s.normal, point.x - origin) * inverse;
-    const elvis_vec3 left = origin + s.t * ray.direction - point.x;
-    s.row_u = inverse * cross(point.along_v, ray.direction);
-    s.row_v = inverse * cross(ray.direction, point.along_u);
+    s.t = dot(s.normal, s.point.x - origin) * inverse;
+    const elvis_vec3 left = origin + s.t * ray.direction - s.point.x;
+    s.row_u = inverse * cross(s.point.along_v, ray.direction);
+    s.row_v = inverse * cross(ray.direction, s.point.along_u);
     s.step_u = dot(s.row_u, left);
     s.step_v = dot(s.row_v, left);
     // Rounding of positions, and what the inverse makes of it.
-    const elvis_vec3 terms = abs(shift) + abs(point.along_u) + abs(point.along_v) + abs(point.x) + abs(s.t * ray.direction);
-    const elvis_vec3 noise = elvis_vec3(ray.error + misfit) + elvis_real(4) * CORE_ROUNDOFF * terms;
+    const elvis_vec3 terms = abs(s.shift) + abs(s.point.along_u) + abs(s.point.along_v) + abs(s.point.x) + abs(s.t * ray.direction);
+    const elvis_vec3 noise = elvis_vec3(ray.error + s.misfit) + elvis_real(4) * CORE_ROUNDOFF * terms;
     s.error = max(dot(abs(s.row_u), noise), dot(abs(s.row_v), noise)) + elvis_real(4) * CORE_ROUNDOFF;
     s.width = elvis_real(4) * abs(inverse) * dot(abs(s.normal), noise);
     return s;
 }
 
-// The nearest crossing so far.
-struct core_nearest_face {
-    uint face, number, patch_index, key;
+struct core_face_verdict {
+    // The step ends at the crossing; the crossing is surely outside of the square; it is in it, and counts for the ray.
+    bool has_converged, has_missed, is_hit;
+};
+
+// What is known after a step to (u, v), which is `outside` of the square, and at most `left` from the crossing but for rounding.
+core_face_verdict core_judge_face_step(core_ray ray, core_face_step s, elvis_real u, elvis_real v, elvis_real outside, elvis_real left) {
+    core_face_verdict verdict;
+    const elvis_real step_length = max(abs(s.step_u), abs(s.step_v));
+    verdict.has_converged = s.is_regular && (step_length <= s.error || left <= elvis_real(0.5LF) * s.error);
+    // Beyond the diagonal of a triangle u + v is off by both errors.
+    verdict.has_missed = s.is_regular && outside > elvis_real(2) * (left + elvis_real(2) * s.error);
+    verdict.is_hit = verdict.has_converged && outside <= elvis_real(2) * s.error && s.t > ray.least_t + ray.widths_behind * s.width;
+#if ELVIS_HAS_INSIDE
+    verdict.is_hit = verdict.is_hit && core_is_within(s.element, core_face_xi(s.local_face, u, v), elvis_vec3(s.error));
+#endif
+    return verdict;
+}
+
+// A crossing of the ray with a face.
+struct core_face_crossing {
+    // CORE_NO_FACE: there is none.
+    uint face, number, patch_index;
+    // 1 if the ray enters the element here and the one that it leaves is drawn, too: that one, on the viewer's side, goes first.
+    uint key;
     elvis_real u, v, t, slack;
     // Where the next pixel of the column meets the face, to first order.
     elvis_real next_u, next_v;
     bool is_on_edge;
+    // Faces that have the crossing.
     uint n_candidates;
 };
 
-core_nearest_face core_nothing_yet() {
-    core_nearest_face nearest;
-    nearest.face = nearest.number = nearest.patch_index = CORE_NO_FACE;
-    nearest.key = 0u;
-    nearest.u = nearest.v = nearest.slack = nearest.next_u = nearest.next_v = elvis_real(0);
-    nearest.t = elvis_real(3.0e38LF);
-    nearest.is_on_edge = false;
-    nearest.n_candidates = 0u;
-    return nearest;
+core_face_crossing core_no_crossing() {
+    const elvis_real zero = elvis_real(0), far = elvis_real(3.0e38LF);
+    return core_face_crossing(CORE_NO_FACE, CORE_NO_FACE, CORE_NO_FACE, 0u, zero, zero, far, zero, zero, zero, false, 0u);
 }
 
-// Takes a crossing if it is before the nearest, or the same within rounding and goes before it: of two faces that coincide, that
-// of the element on the viewer's side; on an edge, the face that the ray meets less obliquely, because its error is smaller; of
-// equals, the lower number.
-void core_take_crossing(inout core_nearest_face nearest, bool is_hit, uint face, uint number, uint patch_index, uint key, elvis_real u,
-                        elvis_real v, bool is_on_edge, core_face_step s, elvis_vec3 motion) {
-    const bool is_same = abs(s.t - nearest.t) <= max(s.width, nearest.slack);
-    const bool is_number_lower = number < nearest.number || (number == nearest.number && face < nearest.face);
-    const bool is_lower = key != nearest.key ? key < nearest.key
-                                             : s.width < elvis_real(0.5LF) * nearest.slack ||
-                                                   (is_number_lower && s.width <= elvis_real(2) * nearest.slack);
-    const bool is_better = is_hit && (is_same ? is_lower : s.t < nearest.t);
-    const bool is_other = is_hit && is_same && face != nearest.face;
-    nearest.n_candidates = is_hit && !is_same && s.t < nearest.t ? 1u : nearest.n_candidates + (is_other ? 1u : 0u);
-    nearest.face = is_better ? face : nearest.face;
-    nearest.number = is_better ? number : nearest.number;
-    nearest.patch_index = is_better ? patch_index : nearest.patch_index;
-    nearest.key = is_better ? key : nearest.key;
-    nearest.u = is_better ? u : nearest.u;
-    nearest.v = is_better ? v : nearest.v;
-    nearest.t = is_better ? s.t : nearest.t;
-    nearest.slack = is_better ? s.width : nearest.slack;
-    nearest.is_on_edge = is_better ? is_on_edge : nearest.is_on_edge;
-    nearest.next_u = is_better ? u + dot(s.row_u, motion) : nearest.next_u;
-    nearest.next_v = is_better ? v + dot(s.row_v, motion) : nearest.next_v;
-}
+// Behind this nothing need be looked at.
+float core_end_t(core_face_crossing nearest) { return float(nearest.t + nearest.slack); }
 
 elvis_real core_face_excess(elvis_real u, elvis_real v, uint square_word) {
     return (square_word & CORE_FACE_IS_TRIANGLE) != 0u ? max(max(-u, -v) - elvis_real(1), u + v)
                                                        : max(abs(u), abs(v)) - elvis_real(1);
 }
 
-// 1 if the ray enters the element here and the one that it leaves is drawn, too: that one, on the viewer's side, goes first.
-uint core_partner_key(uint square_word, elvis_real across) {
-    const bool leaves = (across > elvis_real(0)) == ((square_word & CORE_FACE_IS_OUTWARD) != 0u);
-    return (square_word & CORE_FACE_HAS_PARTNER) != 0u && !leaves ? 1u : 0u;
+// After the step s to (u, v). `motion`: of the ray's point from this pixel to the next one of the column.
+core_face_crossing core_face_crossing_at(uint face, uint patch_index, uint square_word, elvis_real u, elvis_real v, core_face_step s,
+                                         elvis_vec3 motion) {
+    const bool leaves = (s.across > elvis_real(0)) == ((square_word & CORE_FACE_IS_OUTWARD) != 0u);
+    const uint key = (square_word & CORE_FACE_HAS_PARTNER) != 0u && !leaves ? 1u : 0u;
+    const bool is_on_edge = core_face_excess(u, v, square_word) >= elvis_real(-2) * s.error;
+    return core_face_crossing(face, s.number, patch_index, key, u, v, s.t, s.width, u + dot(s.row_u, motion), v + dot(s.row_v, motion),
+                              is_on_edge, 1u);
+}
+
+// Takes a crossing (`is_hit`) if it is before the nearest, or the same within rounding and goes before it: of two faces that coincide,
+// that of the element on the viewer's side; on an edge, the face that the ray meets less obliquely, because its error is smaller; of
+// equals, the lower number.
+void core_take_crossing(bool is_hit, core_face_crossing found, inout core_face_crossing nearest) {
+    const bool is_same = abs(found.t - nearest.t) <= max(found.slack, nearest.slack);
+    const bool is_number_lower = found.number < nearest.number || (found.number == nearest.number && found.face < nearest.face);
+    const bool is_lower = found.key != nearest.key ? found.key < nearest.key
+                                                   : found.slack < elvis_real(0.5LF) * nearest.slack ||
+                                                         (is_number_lower && found.slack <= elvis_real(2) * nearest.slack);
+    const bool is_before = !is_same && found.t < nearest.t, is_other = is_hit && is_same && found.face != nearest.face;
+    const uint n_candidates = is_hit && is_before ? 1u : nearest.n_candidates + (is_other ? 1u : 0u);
+    if (is_hit && (is_same ? is_lower : is_before)) {
+        nearest = found;
+    }
+    nearest.n_candidates = n_candidates;
 }

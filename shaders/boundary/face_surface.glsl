@@ -1,4 +1,4 @@
-// Bindings of the kernels that draw faces, and how what they have found gets into the picture.
+// Bindings of the kernels that draw faces, and how the nearest crossing gets into the picture.
 
 #include "element/place.glsl"
 
@@ -29,53 +29,45 @@ layout(push_constant) uniform core_parameters {
     uint core_wants_places;
 };
 
+#include "arithmetic/count.glsl"
 #include "picture/look_beyond.glsl"
 #include "cut_surface/show.glsl"
 
-core_location core_location_of(core_nearest_face nearest, uint n_steps) {
+core_location core_location_of(core_face_crossing nearest) {
     const bool has_found = nearest.face != CORE_NO_FACE;
     const uvec4 place = elvis_fetch4_core_faces(has_found ? nearest.face : 0u, 0u);
-    core_location found;
-    found.element = has_found ? place.x : CORE_NO_ELEMENT;
-    found.number = nearest.number;
-    found.key = nearest.key;
     const elvis_vec3 xi = core_face_xi(int(place.y), nearest.u, nearest.v);
-    found.x = xi.x;
-    found.y = xi.y;
-    found.z = xi.z;
-    found.is_on_face = found.is_on_crossing_face = nearest.is_on_edge;
-    found.n_candidates = nearest.n_candidates;
-    found.n_steps = n_steps;
-    found.n_failures = 0u;
-    found.is_cut_short = false;
-    return found;
+    return core_location(has_found ? place.x : CORE_NO_ELEMENT, nearest.number, nearest.key, xi.x, xi.y, xi.z, nearest.is_on_edge,
+                         nearest.is_on_edge, nearest.n_candidates, 0u, 0u, false);
 }
 
-// Returns the number of field evaluations.
-uint core_show(uint pixel, core_ray ray, core_nearest_face nearest, core_location found, elvis_real value) {
-    core_cut_point point;
-    point.is_hit = found.element != CORE_NO_ELEMENT;
-    point.t = nearest.t;
-    point.direction = ray.direction;
-    point.position = ray.origin + nearest.t * ray.direction;
-    point.error = ray.error;
-    const uint n_evaluations = core_merge(pixel, point, found, value);
-    // At the crossing itself: where Newton's method took its last step from, the normal may be off by that step.
-    if (n_evaluations > 0u && core_wants_normals != 0u) {
-        const uvec4 place = elvis_fetch4_core_faces(nearest.face, 0u);
-        const core_face_point there = core_face_at(nearest.face, place.x, int(place.y), nearest.u, nearest.v);
-        const elvis_vec3 normal = cross(there.along_u, there.along_v);
-        const elvis_vec3 unit = -sign(dot(normal, ray.direction)) * normalize(normal);
-        core_normals[3u * pixel] = unit.x;
-        core_normals[3u * pixel + 1u] = unit.y;
-        core_normals[3u * pixel + 2u] = unit.z;
-    }
-    if (n_evaluations > 0u && core_wants_places != 0u) {
-        const uint face = elvis_fetch4_core_faces(nearest.face, 0u).y;
-        core_places[pixel] =
-            core_place(found.x, found.y, found.z, found.element, (CORE_CLASS << CORE_PLACE_FACE_BITS) | (face + 1u));
+// Evaluates the field where the ray meets the nearest face, and puts it into the picture if `is_shown`. Returns the number of
+// evaluations.
+uint core_show(uint pixel, core_ray ray, core_face_crossing nearest, bool is_shown, bool is_cut_short) {
+    core_location found = core_location_of(nearest);
+    found.is_cut_short = is_cut_short;
+    const bool has_found = found.element != CORE_NO_ELEMENT;
+    const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
+    uint n_evaluations = 0u;
+    if (is_shown && (has_found || is_cut_short)) {
+        const elvis_vec3 position = ray.origin + nearest.t * ray.direction;
+        n_evaluations = core_merge(pixel, core_cut_point(has_found, nearest.t, position, ray.direction, ray.error), found, value);
     }
     if (n_evaluations > 0u) {
+        const uint local_face = elvis_fetch4_core_faces(nearest.face, 0u).y;
+        // At the crossing itself: where Newton's method took its last step from, the normal may be off by that step.
+        if (core_wants_normals != 0u) {
+            const core_face_point there = core_face_at(nearest.face, found.element, int(local_face), nearest.u, nearest.v);
+            const elvis_vec3 normal = cross(there.along_u, there.along_v);
+            const elvis_vec3 unit = -sign(dot(normal, ray.direction)) * normalize(normal);
+            core_normals[3u * pixel] = unit.x;
+            core_normals[3u * pixel + 1u] = unit.y;
+            core_normals[3u * pixel + 2u] = unit.z;
+        }
+        if (core_wants_places != 0u) {
+            core_places[pixel] =
+                core_place(found.x, found.y, found.z, found.element, (CORE_CLASS << CORE_PLACE_FACE_BITS) | (local_face + 1u));
+        }
 #ifndef CORE_FACE_ORDER
         // The patches' bounds are those of polynomials near the faces.
         core_marks[pixel].flags |= CORE_FLAG_ESTIMATED;

@@ -39,6 +39,7 @@ uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE
 
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
+#include "arithmetic/count.glsl"
 #include "cut_surface/show.glsl"
 #include "picture/distrust_column.glsl"
 #include "cut_surface/locate.glsl"
@@ -63,9 +64,9 @@ core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, e
     const elvis_vec3 origin = shift - position;
     const elvis_real error = square.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
     const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
-    core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
-                                  origin + square.corner2, origin + square.corner3, curvature, core_plane_normal.xyz, direction,
-                                  CORE_NO_FACE);
+    core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0,
+                                              origin + square.corner1, origin + square.corner2, origin + square.corner3, curvature,
+                                              core_plane_normal.xyz, direction, CORE_NO_FACE);
 #if ELVIS_HAS_INSIDE
     core_judge_inside(subpixel, element, xi);
 #endif
@@ -121,19 +122,10 @@ void main() {
             break;
         }
     }
-
-    // Then no pixel of the column is to be trusted.
-    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
-    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
-
+    core_distrust_column(column, first_row, row, end_row, core_surface >> 31);
     if (end_row > first_row) {
-        const uint all_evaluations = subgroupAdd(n_evaluations);
-        const uint all_steps = subgroupAdd(n_steps);
-        const uint all_failures = subgroupAdd(n_failures);
-        if (subgroupElect()) {
-            atomicAdd(core_counts[0], all_evaluations);
-            atomicAdd(core_counts[1], all_steps);
-            atomicAdd(core_counts[2], all_failures);
-        }
+        core_count(0u, n_evaluations);
+        core_count(1u, n_steps);
+        core_count(2u, n_failures);
     }
 }

@@ -1,16 +1,9 @@
-// For each tile of pixels, the nodes of a hierarchy that the tile's part of the cut plane can touch: neighbouring pixels share most
-// of their way through the hierarchy, so it is gone once for all of them.
+// For each tile of pixels, the nodes of a hierarchy that the tile's share of the cut plane can touch.
 
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
 #include "picture/cut_frame.glsl"
-#include "tiles/hierarchy.glsl"
-#include "cut_surface/cut_horizon.glsl"
-#include "tiles/cut_tiles.glsl"
-#include "arithmetic/driver_limit.glsl"
-#define CORE_LISTED_BINDING 2
-#include "tiles/list_tile.glsl"
 
 layout(std430, set = 0, binding = 1) writeonly buffer core_output {
     uint core_tiles[];
@@ -20,6 +13,10 @@ layout(push_constant) uniform core_constants {
     uint core_tiles_per_row;
     uint core_n_tiles;
 };
+
+#define CORE_LISTED_BINDING 2
+#include "cut_surface/list_nodes.glsl"
+#include "cut_surface/cut_horizon.glsl"
 
 void main() {
     const uint tile = gl_GlobalInvocationID.x;
@@ -36,7 +33,8 @@ void main() {
     const core_cut_point p01 = core_cut_pixel(left, last_row), p11 = core_cut_pixel(right, last_row);
 
     // Where the four corner rays meet the plane in front of the eye, the pixels between them meet it inside the quadrilateral of
-    // the four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all, unless it is behind the volume.
+    // the four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all, unless
+    // it is behind the volume.
     const bool all_hit = p00.is_hit && p10.is_hit && p01.is_hit && p11.is_hit;
     const bool any_hit = p00.is_hit || p10.is_hit || p01.is_hit || p11.is_hit;
     const vec3 shift = vec3(core_reference_in_hierarchy.xyz);
@@ -50,41 +48,6 @@ void main() {
     const vec3 lower = all_hit ? lowest - margin : vec3(-infinite);
     const vec3 upper = all_hit ? highest + margin : vec3(infinite);
 
-    uint stack[CORE_STACK_SIZE];
     const bool is_seen = all_hit || (any_hit && !core_is_behind_volume(p00, p10, p01, p11, core_volume_end()));
-    uint stack_size = is_wanted && is_seen ? 1u : 0u;
-    stack[0] = 0u;
-    uint n_entries = 0u;
-    const uint first = tile * CORE_TILE_STRIDE + 1u;
-    while (stack_size > 0u) {
-        stack_size -= 1u;
-        const uint index = stack[stack_size];
-        const core_node node = core_fetch_node(index);
-        const bool is_touched = core_overlaps(node, lower, upper);
-        // A node that could leave too many entries behind stays an entry itself, for the pixels to descend from.
-        const bool is_entry = node.is_leaf || n_entries + stack_size + 2u > CORE_TILE_CAPACITY;
-        if (is_touched && is_entry) {
-            core_tiles[first + n_entries] = index;
-            n_entries += 1u;
-        }
-        if (is_touched && !is_entry) {
-            stack[stack_size] = node.child + 1u;
-            stack[stack_size + 1u] = node.child;
-            stack_size += 2u;
-        }
-        if (stack_size == 0u) {
-            break;
-        }
-    }
-    // Then pixels descend from the root.
-    const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_n_tiles >> 31));
-    if (is_cut_short) {
-        core_tiles[first] = 0u;
-    }
-    if (is_wanted) {
-        core_tiles[tile * CORE_TILE_STRIDE] = is_cut_short ? 1u : n_entries;
-    }
-    if (is_cut_short || n_entries > 0u) {
-        core_list_tile(tile, 0u, core_n_tiles);
-    }
+    core_list_nodes(tile, is_wanted, is_seen, lower, upper, core_n_tiles);
 }

@@ -125,124 +125,159 @@ bool core_is_outside(core_newton state) {
            CORE_CONSTRAINT_NORM * (core_prediction_error(state.curvature, state.last_step) + CORE_START_ERROR);
 }
 
-core_location core_locate(core_cut_point point, uint n_entries, inout core_track track) {
-    core_location found;
-    found.element = CORE_NO_ELEMENT;
-    found.number = 0xffffffffu;
-    found.key = 2u;
-    found.x = found.y = found.z = elvis_real(0);
-    found.is_on_face = found.is_on_crossing_face = false;
-    found.n_candidates = 0u;
-    found.n_steps = 0u;
-    found.n_failures = 0u;
+core_location core_nothing_found() {
+    const elvis_real zero = elvis_real(0);
+    return core_location(CORE_NO_ELEMENT, 0xffffffffu, 2u, zero, zero, zero, false, false, 0u, 0u, 0u, false);
+}
 
+struct core_candidate {
+    // CORE_NO_ELEMENT: none is looked at.
+    uint element;
+    // It held the column's last pixel.
+    bool is_tracked;
+    core_target target;
+    core_newton state;
+};
+
+// First the element that held the column's last pixel.
+core_candidate core_tracked_candidate(core_cut_point point, bool is_wanted, core_track track) {
+    core_candidate candidate;
+    candidate.element = is_wanted ? track.element : CORE_NO_ELEMENT;
+    candidate.is_tracked = candidate.element != CORE_NO_ELEMENT;
+    candidate.target = core_target_in(candidate.is_tracked ? candidate.element : 0u, point);
+    const elvis_vec3 motion = elvis_vec3(candidate.target.x, candidate.target.y, candidate.target.z) - track.target;
+    const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
+    candidate.state = core_newton_begin(track.x + step.x, track.y + step.y, track.z + step.z,
+                                        max(max(abs(step.x), abs(step.y)), abs(step.z)), track.curvature);
+    return candidate;
+}
+
+// What is left of the list, and nodes that wait.
+struct core_descent {
+    uint n_entries, entry, stack_size;
+};
+uint core_stack[CORE_STACK_SIZE];
+
+bool core_has_more(core_descent descent) { return descent.stack_size > 0u || descent.entry < descent.n_entries; }
+
+// To the next node: a candidate if it is an element that the point is not certain to lie outside of.
+void core_next_candidate(core_cut_point point, vec3 in_hierarchy, float box_tolerance, inout core_descent descent,
+                         inout core_candidate candidate) {
+    const bool is_popped = descent.stack_size > 0u;
+    const uint index = is_popped ? core_stack[descent.stack_size - 1u] : core_entry(descent.entry);
+    descent.stack_size -= is_popped ? 1u : 0u;
+    descent.entry += is_popped ? 0u : 1u;
+    const core_node node = core_fetch_node(index);
+    const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
+    if (is_touched && node.is_leaf) {
+        candidate.target = core_target_in(node.child, point);
+        candidate.state =
+            core_newton_start(node.child, elvis_vec3(candidate.target.x, candidate.target.y, candidate.target.z));
+        candidate.element = core_is_outside(candidate.state) ? CORE_NO_ELEMENT : node.child;
+    }
+    // Entries are leaves as a rule.
+    if (is_touched && !node.is_leaf) {
+        core_stack[descent.stack_size] = node.child + 1u;
+        core_stack[descent.stack_size + 1u] = node.child;
+        descent.stack_size += 2u;
+    }
+}
+
+// Where the candidate's solution lies in its element. `excess`: over the faces; `most`: what rounding makes of it.
+core_side core_judge_candidate(uint element, core_candidate candidate, core_inverse inverse, elvis_vec3 direction, bool has_converged,
+                               elvis_real excess, elvis_real most) {
+    const elvis_vec3 xi = elvis_vec3(candidate.state.x, candidate.state.y, candidate.state.z);
+    const bool is_inside = has_converged && excess <= most;
+    core_side side = core_side(is_inside, is_inside && excess >= -most, false, 0u);
+    if (side.is_on_face) {
+        side = core_side_of(xi, inverse, direction);
+    }
+#if ELVIS_HAS_INSIDE
+    if (side.is_inside) {
+        core_add_own_side(element, xi, inverse, direction, side);
+    }
+#endif
+    return side;
+}
+
+// Takes the candidate if it goes before what was found.
+void core_take_candidate(bool is_accepted, core_candidate candidate, uint number, core_side side, inout core_location found) {
+    const bool is_better = is_accepted && (side.key < found.key || (side.key == found.key && number < found.number));
+    found.n_candidates += is_accepted ? 1u : 0u;
+    found.element = is_better ? candidate.element : found.element;
+    found.number = is_better ? number : found.number;
+    found.key = is_better ? side.key : found.key;
+    found.x = is_better ? candidate.state.x : found.x;
+    found.y = is_better ? candidate.state.y : found.y;
+    found.z = is_better ? candidate.state.z : found.z;
+    found.is_on_face = is_better ? side.is_on_face : found.is_on_face;
+    found.is_on_crossing_face = is_better ? side.is_on_crossing_face : found.is_on_crossing_face;
+}
+
+// `is_alone`: the candidate holds the point, and no other element does.
+void core_keep_track(bool is_done, bool is_alone, core_candidate candidate, core_inverse inverse, inout core_track track) {
+    track.element = is_done ? (is_alone ? candidate.element : CORE_NO_ELEMENT) : track.element;
+    track.x = is_alone ? candidate.state.x : track.x;
+    track.y = is_alone ? candidate.state.y : track.y;
+    track.z = is_alone ? candidate.state.z : track.z;
+    track.target = is_alone ? elvis_vec3(candidate.target.x, candidate.target.y, candidate.target.z) : track.target;
+    track.curvature = is_alone ? candidate.state.curvature : track.curvature;
+    track.row0 = is_alone ? inverse.row0 : track.row0;
+    track.row1 = is_alone ? inverse.row1 : track.row1;
+    track.row2 = is_alone ? inverse.row2 : track.row2;
+}
+
+// A step of Newton's method in the candidate.
+void core_step_in_candidate(core_cut_point point, inout core_candidate candidate, inout core_descent descent, inout core_location found,
+                            inout core_track track) {
+    const bool is_active = candidate.element != CORE_NO_ELEMENT;
+    const uint element = is_active ? candidate.element : 0u;
+    core_inverse inverse;
+    const uint ending = core_newton_step(element, elvis_vec3(candidate.target.x, candidate.target.y, candidate.target.z),
+                                         candidate.target.error, candidate.state, inverse);
+    const uint status = is_active ? ending : CORE_NEWTON_OUTSIDE;
+    found.n_steps += is_active ? 1u : 0u;
+    // A failure from the last pixel's solution is none: the search tries the element again from its own start.
+    found.n_failures += status == CORE_NEWTON_FAILED && !candidate.is_tracked ? 1u : 0u;
+    const elvis_real excess = core_excess(candidate.state.x, candidate.state.y, candidate.state.z);
+    // No constraint sums more than the three coordinates. 2: the point's error and the solution's.
+    const elvis_real most = elvis_real(2) * (inverse.error0 + inverse.error1 + inverse.error2);
+    const core_side side =
+        core_judge_candidate(element, candidate, inverse, point.direction, status == CORE_NEWTON_CONVERGED, excess, most);
+    // In no other element of a valid mesh.
+    const bool is_alone = side.is_inside && excess < -most && (ELVIS_HAS_INSIDE == 0 || !side.is_on_face);
+    const bool is_accepted = side.is_inside && (is_alone || !candidate.is_tracked);
+    core_take_candidate(is_accepted, candidate, elvis_fetch_core_elements(element, 0u), side, found);
+    const bool is_done = status != CORE_NEWTON_RUNNING;
+    core_keep_track(is_done, is_alone, candidate, inverse, track);
+    candidate.is_tracked = candidate.is_tracked && !is_done;
+    candidate.element = is_done ? CORE_NO_ELEMENT : candidate.element;
+    descent.entry = is_alone ? descent.n_entries : descent.entry;
+    descent.stack_size = is_alone ? 0u : descent.stack_size;
+}
+
+core_location core_locate(core_cut_point point, uint n_entries, inout core_track track) {
     const vec3 in_hierarchy = vec3(point.position + core_reference_in_hierarchy.xyz);
     // Rounding of the point, and of its conversion to single precision.
     const float box_tolerance = 2.0 * float(point.error) + 2.0 * CORE_FLOAT_ROUNDOFF *
                                                                max(max(abs(in_hierarchy.x), abs(in_hierarchy.y)), abs(in_hierarchy.z));
-    uint stack[CORE_STACK_SIZE];
-    uint stack_size = 0u;
-    uint entry = 0u;
+    core_location found = core_nothing_found();
+    core_descent descent = core_descent(n_entries, 0u, 0u);
+    core_candidate candidate = core_tracked_candidate(point, n_entries > 0u, track);
     uint work = 0u;
-    // First the element that held the column's last pixel.
-    uint element = n_entries > 0u ? track.element : CORE_NO_ELEMENT;
-    bool is_tracked = element != CORE_NO_ELEMENT;
-    core_target target = core_target_in(is_tracked ? element : 0u, point);
-    const elvis_vec3 motion = elvis_vec3(target.x, target.y, target.z) - track.target;
-    const elvis_vec3 step = elvis_vec3(dot(track.row0, motion), dot(track.row1, motion), dot(track.row2, motion));
-    core_newton state = core_newton_begin(track.x + step.x, track.y + step.y, track.z + step.z,
-                                          max(max(abs(step.x), abs(step.y)), abs(step.z)), track.curvature);
-
-    while ((element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries) && work < CORE_WORK_LIMIT) {
+    while ((candidate.element != CORE_NO_ELEMENT || core_has_more(descent)) && work < CORE_WORK_LIMIT) {
         work += 1u;
-        // The next element that the point is not certain to lie outside of.
-        while (element == CORE_NO_ELEMENT && (stack_size > 0u || entry < n_entries)) {
-            const bool is_popped = stack_size > 0u;
-            const uint index = is_popped ? stack[stack_size - 1u] : core_entry(entry);
-            stack_size -= is_popped ? 1u : 0u;
-            entry += is_popped ? 0u : 1u;
-            const core_node node = core_fetch_node(index);
-            const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
-            if (is_touched && node.is_leaf) {
-                target = core_target_in(node.child, point);
-                state = core_newton_start(node.child, elvis_vec3(target.x, target.y, target.z));
-                element = core_is_outside(state) ? CORE_NO_ELEMENT : node.child;
-            }
-            // Entries are leaves as a rule.
-            if (is_touched && !node.is_leaf) {
-                stack[stack_size] = node.child + 1u;
-                stack[stack_size + 1u] = node.child;
-                stack_size += 2u;
-            }
-            if (element != CORE_NO_ELEMENT || (stack_size == 0u && entry >= n_entries)) {
+        while (candidate.element == CORE_NO_ELEMENT && core_has_more(descent)) {
+            core_next_candidate(point, in_hierarchy, box_tolerance, descent, candidate);
+            if (candidate.element != CORE_NO_ELEMENT || !core_has_more(descent)) {
                 break;
             }
         }
-
-        const bool is_active = element != CORE_NO_ELEMENT;
-        const uint safe_element = is_active ? element : 0u;
-        core_inverse inverse;
-        const uint ending = core_newton_step(safe_element, elvis_vec3(target.x, target.y, target.z), target.error, state, inverse);
-        const uint status = is_active ? ending : CORE_NEWTON_OUTSIDE;
-        found.n_steps += is_active ? 1u : 0u;
-        // A failure from the last pixel's solution is none: the search tries the element again from its own start.
-        found.n_failures += status == CORE_NEWTON_FAILED && !is_tracked ? 1u : 0u;
-        const elvis_real excess = core_excess(state.x, state.y, state.z);
-        // No constraint sums more than the three coordinates. 2: the point's error and the solution's.
-        const elvis_real most = elvis_real(2) * (inverse.error0 + inverse.error1 + inverse.error2);
-        bool is_inside = status == CORE_NEWTON_CONVERGED && excess <= most;
-        bool is_on_face = is_inside && excess >= -most;
-        bool is_on_crossing_face = false;
-        uint key = 0u;
-        if (is_on_face) {
-            const core_side side = core_side_of(elvis_vec3(state.x, state.y, state.z), inverse, point.direction);
-            is_inside = side.is_inside;
-            is_on_face = side.is_on_face;
-            is_on_crossing_face = side.is_on_crossing_face;
-            key = side.key;
-        }
-#if ELVIS_HAS_INSIDE
-        if (is_inside) {
-            core_side side = core_side(is_inside, is_on_face, is_on_crossing_face, key);
-            core_add_own_side(safe_element, elvis_vec3(state.x, state.y, state.z), inverse, point.direction, side);
-            is_inside = side.is_inside;
-            is_on_face = side.is_on_face;
-            is_on_crossing_face = side.is_on_crossing_face;
-            key = side.key;
-        }
-#endif
-        // In no other element of a valid mesh.
-        const bool is_alone = is_inside && excess < -most && (ELVIS_HAS_INSIDE == 0 || !is_on_face);
-        const bool is_accepted = is_inside && (is_alone || !is_tracked);
-        const uint number = elvis_fetch_core_elements(safe_element, 0u);
-        const bool is_better = is_accepted && (key < found.key || (key == found.key && number < found.number));
-        found.n_candidates += is_accepted ? 1u : 0u;
-        found.element = is_better ? element : found.element;
-        found.number = is_better ? number : found.number;
-        found.key = is_better ? key : found.key;
-        found.x = is_better ? state.x : found.x;
-        found.y = is_better ? state.y : found.y;
-        found.z = is_better ? state.z : found.z;
-        found.is_on_face = is_better ? is_on_face : found.is_on_face;
-        found.is_on_crossing_face = is_better ? is_on_crossing_face : found.is_on_crossing_face;
-        const bool is_done = status != CORE_NEWTON_RUNNING;
-        track.element = is_done ? (is_alone ? element : CORE_NO_ELEMENT) : track.element;
-        track.x = is_alone ? state.x : track.x;
-        track.y = is_alone ? state.y : track.y;
-        track.z = is_alone ? state.z : track.z;
-        track.target = is_alone ? elvis_vec3(target.x, target.y, target.z) : track.target;
-        track.curvature = is_alone ? state.curvature : track.curvature;
-        track.row0 = is_alone ? inverse.row0 : track.row0;
-        track.row1 = is_alone ? inverse.row1 : track.row1;
-        track.row2 = is_alone ? inverse.row2 : track.row2;
-        is_tracked = is_tracked && !is_done;
-        element = is_done ? CORE_NO_ELEMENT : element;
-        entry = is_alone ? n_entries : entry;
-        stack_size = is_alone ? 0u : stack_size;
-        if (element == CORE_NO_ELEMENT && stack_size == 0u && entry >= n_entries) {
+        core_step_in_candidate(point, candidate, descent, found, track);
+        if (candidate.element == CORE_NO_ELEMENT && !core_has_more(descent)) {
             break;
         }
     }
-    found.is_cut_short = element != CORE_NO_ELEMENT || stack_size > 0u || entry < n_entries;
+    found.is_cut_short = candidate.element != CORE_NO_ELEMENT || core_has_more(descent);
     return found;
 }

@@ -1,5 +1,5 @@
-// Where the rays of a square of the picture can meet a quadric: the part of the middle ray around the point where the quadric's
-// function f is extreme along it, and how far the other rays run from that part.
+// Where the rays of a square of the picture can meet a quadric: a span of the middle ray around the point where the quadric's function f
+// is extreme along it, and how far the other rays run from that span.
 //
 // Along the ray, with s counted from that point, f = c + b s + a s^2. Another ray of the square is at most h = h0 + |s| h1 away at
 // the same s. With |q| the largest of the quadric's coefficients, f is steeper there by no more than g0 + 2 |q| |d| |s| and bends
@@ -11,8 +11,8 @@
 // upper bound: where that is negative, nothing is met, either, and all rays have met the quadric before. The front is met where f
 // falls, at s <= B / (2 A).
 //
-// Where all rays of the square meet the quadric's front, that is a cell of its own: near the tangent plane at a point p of the
-// front. At a point y of that plane, f(y) = f(p) + q(y - p); where f falls along the ray there by at least B, the front is at most
+// Where all rays of the square meet the quadric's front, they do near the tangent plane at a point p of the front.
+// At a point y of that plane, f(y) = f(p) + q(y - p); where f falls along the ray there by at least B, the front is at most
 // 2 |f(y)| / B away along the ray, since a > 0.
 
 #include "cut_surface/surface_quadric.glsl"
@@ -78,7 +78,7 @@ core_quadric_span core_quadric_span_at(elvis_real column, elvis_real row, elvis_
     return quadric_span;
 }
 
-// The part of the front that a square of the picture shows, flat but for `departure` along the rays.
+// The front that a square of the picture shows, flat but for `departure` along the rays.
 struct core_front {
     core_tangent tangent;
     core_cut_square square;

@@ -1,11 +1,11 @@
 // Meshes of bicubic Bezier patches. The ray meets a patch x(u, v) where its two coordinates across the ray vanish: two bicubic
 // polynomials, whose control points are those of x, projected.
 //
-// A part of a patch is left out if its projected control points, whose hull holds it, lie on one side of the ray. They are judged in
-// coordinates in which the part is nearly the unit square (the mean derivatives at its corners are the unit vectors), so that the hull's
-// box is tight. There the derivatives' control points bound how far the Jacobian J is from the identity I: with |J - I| < 1/2 in the
+// A square of a patch's parameters is left out if its projected control points, whose hull holds it, lie on one side of the ray. They are
+// judged in coordinates in which it is nearly the unit square (the mean derivatives at its corners are the unit vectors), so that the
+// hull's box is tight. There the derivatives' control points bound how far the Jacobian J is from the identity I: with |J - I| < 1/2 in the
 // maximum norm the map is one to one (its mean values are regular) and Newton's method finds the only zero or shows that there is none.
-// Otherwise the part is halved in u and v, down to CORE_BEZIER_LEVELS; what is left then lies where the ray touches the surface, or where
+// Otherwise the square is halved in u and v, down to CORE_BEZIER_LEVELS; what is left then lies where the ray touches the surface, or where
 // the patch is degenerate, and is undecided. (See T. Nishita, T. Sederberg, M. Kakimoto, "Ray tracing trimmed rational surface patches",
 // 1990; A. Neumaier, Interval Methods for Systems of Equations, 1990.)
 //
@@ -17,7 +17,7 @@
 
 // Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 3000u
-// Halvings of one patch. Beyond, parts are below what single precision tells apart.
+// Halvings of one patch. Beyond, squares are below what single precision tells apart.
 #define CORE_BEZIER_LEVELS 10u
 #define CORE_BEZIER_STEPS 8u
 
@@ -38,8 +38,13 @@ struct core_net {
     elvis_vec4 c0, c1, c2, c3;
 };
 
-core_net core_subnet(core_net net, elvis_vec4 u0, elvis_vec4 u1, elvis_vec4 u2, elvis_vec4 u3, elvis_vec4 v0, elvis_vec4 v1,
-                       elvis_vec4 v2, elvis_vec4 v3) {
+// That of the square from (u, v) with sides h.
+core_net core_subnet(core_net net, elvis_real u, elvis_real v, elvis_real h) {
+    const elvis_real u_high = u + h, v_high = v + h;
+    const elvis_vec4 u0 = core_bernstein(u), u1 = core_blossom(u, u, u_high);
+    const elvis_vec4 u2 = core_blossom(u, u_high, u_high), u3 = core_bernstein(u_high);
+    const elvis_vec4 v0 = core_bernstein(v), v1 = core_blossom(v, v, v_high);
+    const elvis_vec4 v2 = core_blossom(v, v_high, v_high), v3 = core_bernstein(v_high);
     const elvis_vec4 a = u0.x * net.c0 + u0.y * net.c1 + u0.z * net.c2 + u0.w * net.c3;
     const elvis_vec4 b = u1.x * net.c0 + u1.y * net.c1 + u1.z * net.c2 + u1.w * net.c3;
     const elvis_vec4 c = u2.x * net.c0 + u2.y * net.c1 + u2.z * net.c2 + u2.w * net.c3;
@@ -75,160 +80,223 @@ elvis_real core_net_deviation_v(core_net net, elvis_real from) {
     return max(max(most.x, most.y), most.z);
 }
 
+// The ray is the third axis.
+struct core_ray_frame {
+    // Of the ray, where control points are counted from.
+    elvis_vec3 origin;
+    elvis_vec3 across_x, across_y, along;
+    // Length of the ray's direction.
+    elvis_real stretch;
+};
+
+core_ray_frame core_ray_frame_of(core_surface_ray ray) {
+    core_ray_frame frame;
+    frame.origin = ray.origin + CORE_SHAPE(0).xyz;
+    frame.stretch = length(ray.direction);
+    frame.along = ray.direction / frame.stretch;
+    const elvis_vec3 other = abs(frame.along.x) < elvis_real(0.5LF) ? elvis_vec3(1, 0, 0) : elvis_vec3(0, 1, 0);
+    frame.across_x = normalize(cross(frame.along, other));
+    frame.across_y = cross(frame.along, frame.across_x);
+    return frame;
+}
+
+// A patch in the ray's frame, and how far rounding moves a point across the ray.
+struct core_bezier_patch {
+    core_net x, y, z;
+    elvis_real off;
+};
+
+void core_fetch_column(uint index, uint first, core_ray_frame frame, out elvis_vec4 x, out elvis_vec4 y, out elvis_vec4 z) {
+    const elvis_vec4 r0 = elvis_fetch4_core_patches(index, first), r1 = elvis_fetch4_core_patches(index, first + 1u);
+    const elvis_vec4 r2 = elvis_fetch4_core_patches(index, first + 2u);
+    const elvis_vec3 p0 = r0.xyz - frame.origin, p1 = elvis_vec3(r0.w, r1.xy) - frame.origin;
+    const elvis_vec3 p2 = elvis_vec3(r1.zw, r2.x) - frame.origin, p3 = r2.yzw - frame.origin;
+    x = elvis_vec4(dot(p0, frame.across_x), dot(p1, frame.across_x), dot(p2, frame.across_x), dot(p3, frame.across_x));
+    y = elvis_vec4(dot(p0, frame.across_y), dot(p1, frame.across_y), dot(p2, frame.across_y), dot(p3, frame.across_y));
+    z = elvis_vec4(dot(p0, frame.along), dot(p1, frame.along), dot(p2, frame.along), dot(p3, frame.along));
+}
+
+core_bezier_patch core_fetch_patch(uint index, core_ray_frame frame, elvis_real noise) {
+    core_bezier_patch surface;
+    core_fetch_column(index, 0u, frame, surface.x.c0, surface.y.c0, surface.z.c0);
+    core_fetch_column(index, 3u, frame, surface.x.c1, surface.y.c1, surface.z.c1);
+    core_fetch_column(index, 6u, frame, surface.x.c2, surface.y.c2, surface.z.c2);
+    core_fetch_column(index, 9u, frame, surface.x.c3, surface.y.c3, surface.z.c3);
+    surface.off = elvis_real(2) * noise +
+                 elvis_real(16) * CORE_ROUNDOFF * (core_net_size(surface.x) + core_net_size(surface.y) + core_net_size(surface.z));
+    return surface;
+}
+
+// The square of a patch that is looked at.
+struct core_bezier_square {
+    uint level, column, row;
+};
+
+// The square's coordinates across the ray, (s, r), in which it is nearly the unit square, and how far rounding moves them. Where there are
+// none the ray's own.
+struct core_unit_square {
+    core_net s, r;
+    elvis_real off_s, off_r;
+    bool is_regular;
+};
+
+core_unit_square core_unit_square_of(core_net x, core_net y, elvis_real off) {
+    const elvis_real half_one = elvis_real(0.5LF);
+    const elvis_real xu = half_one * (x.c3.x - x.c0.x + x.c3.w - x.c0.w), xv = half_one * (x.c0.w - x.c0.x + x.c3.w - x.c3.x);
+    const elvis_real yu = half_one * (y.c3.x - y.c0.x + y.c3.w - y.c0.w), yv = half_one * (y.c0.w - y.c0.x + y.c3.w - y.c3.x);
+    const elvis_real determinant = xu * yv - xv * yu;
+    const elvis_real scale = (abs(xu) + abs(yu)) * (abs(xv) + abs(yv));
+    core_unit_square unit;
+    unit.is_regular = abs(determinant) > elvis_real(1e-4LF) * scale;
+    const elvis_real inverse = unit.is_regular ? elvis_real(1) / determinant : elvis_real(0);
+    unit.s = core_net_combine(unit.is_regular ? yv * inverse : elvis_real(1), x, unit.is_regular ? -xv * inverse : elvis_real(0), y);
+    unit.r = core_net_combine(unit.is_regular ? -yu * inverse : elvis_real(0), x, unit.is_regular ? xu * inverse : elvis_real(1), y);
+    unit.off_s = unit.is_regular ? off * (abs(yv) + abs(xv)) * abs(inverse) : off;
+    unit.off_r = unit.is_regular ? off * (abs(yu) + abs(xu)) * abs(inverse) : off;
+    return unit;
+}
+
+struct core_bezier_verdict {
+    // The ray misses the square; it meets it at most once; neither is known, and rounding decides.
+    bool is_missed, is_simple, is_lost;
+};
+
+core_bezier_verdict core_judge_square(core_unit_square unit, uint level) {
+    const elvis_real one = elvis_real(1), zero = elvis_real(0);
+    core_bezier_verdict verdict;
+    verdict.is_missed = core_net_least(unit.s) > unit.off_s || core_net_most(unit.s) < -unit.off_s ||
+                        core_net_least(unit.r) > unit.off_r || core_net_most(unit.r) < -unit.off_r;
+    const elvis_real deviation = max(core_net_deviation_u(unit.s, one) + core_net_deviation_v(unit.s, zero),
+                                     core_net_deviation_u(unit.r, zero) + core_net_deviation_v(unit.r, one));
+    verdict.is_simple = unit.is_regular && deviation < elvis_real(0.5LF);
+    // Too small for the digits at hand.
+    const bool is_small = max(unit.off_s, unit.off_r) > elvis_real(0.05LF) && unit.is_regular;
+    verdict.is_lost = !verdict.is_simple && (level >= CORE_BEZIER_LEVELS || is_small);
+    return verdict;
+}
+
+// The zero of (s, r) by Newton's method.
+struct core_bezier_root {
+    // In the square, which is [0, 1]^2.
+    elvis_real a, b;
+    bool is_root, is_clear;
+};
+
+core_bezier_root core_bezier_newton(core_unit_square unit, bool is_wanted) {
+    const elvis_real half_one = elvis_real(0.5LF);
+    core_bezier_root root;
+    root.a = root.b = half_one;
+    elvis_real last_step = elvis_real(1);
+    uint step = 0u;
+    while (step < (is_wanted ? CORE_BEZIER_STEPS : 0u)) {
+        const elvis_vec4 wu = core_bernstein(root.a), wv = core_bernstein(root.b);
+        const elvis_vec4 du = core_bernstein_derivative(root.a), dv = core_bernstein_derivative(root.b);
+        const elvis_real fs = core_net_value(unit.s, wu, wv), fr = core_net_value(unit.r, wu, wv);
+        const elvis_real su = core_net_value(unit.s, du, wv), sv = core_net_value(unit.s, wu, dv);
+        const elvis_real ru = core_net_value(unit.r, du, wv), rv = core_net_value(unit.r, wu, dv);
+        const elvis_real det = su * rv - sv * ru;
+        const elvis_real step_a = (sv * fr - rv * fs) / det, step_b = (ru * fs - su * fr) / det;
+        root.a = clamp(root.a + step_a, elvis_real(-0.25LF), elvis_real(1.25LF));
+        root.b = clamp(root.b + step_b, elvis_real(-0.25LF), elvis_real(1.25LF));
+        last_step = max(abs(step_a), abs(step_b));
+        step = last_step <= half_one * max(unit.off_s, unit.off_r) ? CORE_BEZIER_STEPS : step + 1u;
+    }
+    // |J^-1| <= 2 makes an error of parameters from one of values.
+    const elvis_real tolerance = elvis_real(4) * max(unit.off_s, unit.off_r);
+    const elvis_real excess = max(abs(root.a - half_one), abs(root.b - half_one)) - half_one;
+    root.is_root = last_step <= elvis_real(1e-2LF) && excess <= tolerance;
+    root.is_clear = excess <= -tolerance;
+    return root;
+}
+
+// A point of a patch: where along the ray it is, the normal there in the ray's frame, and the error of t.
+struct core_bezier_point {
+    elvis_real t, error;
+    elvis_vec3 normal;
+};
+
+core_bezier_point core_bezier_point_at(core_bezier_patch surface, elvis_real u, elvis_real v, elvis_real stretch) {
+    const elvis_vec4 wu = core_bernstein(u), wv = core_bernstein(v), du = core_bernstein_derivative(u), dv = core_bernstein_derivative(v);
+    core_bezier_point point;
+    point.t = core_net_value(surface.z, wu, wv) / stretch;
+    const elvis_vec3 tangent_u =
+        elvis_vec3(core_net_value(surface.x, du, wv), core_net_value(surface.y, du, wv), core_net_value(surface.z, du, wv));
+    const elvis_vec3 tangent_v =
+        elvis_vec3(core_net_value(surface.x, wu, dv), core_net_value(surface.y, wu, dv), core_net_value(surface.z, wu, dv));
+    point.normal = cross(tangent_u, tangent_v);
+    const elvis_real size = core_norm1(point.normal);
+    point.error = surface.off * size / max(abs(point.normal.z), elvis_real(1e-30LF) * size) / stretch;
+    return point;
+}
+
+// To the first quarter of the square, or to the next square: in both directions counted like the digits of a number. Returns whether the
+// patch is done with.
+bool core_next_square(bool is_active, bool goes_down, inout core_bezier_square square) {
+    square.column = goes_down ? 2u * square.column : square.column;
+    square.row = goes_down ? 2u * square.row : square.row;
+    square.level += goes_down ? 1u : 0u;
+    bool is_going_up = is_active && !goes_down;
+    while (is_going_up && square.level > 0u) {
+        const bool to_right = (square.column & 1u) == 0u, to_left = !to_right && (square.row & 1u) == 0u;
+        square.row = to_left ? square.row + 1u : square.row;
+        square.column = to_right ? square.column + 1u : to_left ? square.column - 1u : square.column;
+        is_going_up = !to_right && !to_left;
+        square.column = is_going_up ? square.column / 2u : square.column;
+        square.row = is_going_up ? square.row / 2u : square.row;
+        square.level -= is_going_up ? 1u : 0u;
+    }
+    return is_going_up;
+}
+
+// Looks at a square. `touch_t`: the nearest place where rounding decides. Returns whether the patch is done with.
+bool core_consider_square(uint index, bool is_active, core_surface_ray ray, core_ray_frame frame, inout core_bezier_square square,
+                          inout elvis_real touch_t, inout core_votes votes, inout core_hit best) {
+    const core_bezier_patch surface = core_fetch_patch(index, frame, ray.noise);
+    const elvis_real h = elvis_real(1) / elvis_real(1u << square.level);
+    const elvis_real u_low = h * elvis_real(square.column), v_low = h * elvis_real(square.row);
+    const core_unit_square unit =
+        core_unit_square_of(core_subnet(surface.x, u_low, v_low, h), core_subnet(surface.y, u_low, v_low, h), surface.off);
+    const core_bezier_verdict verdict = core_judge_square(unit, square.level);
+    const bool is_open = is_active && !verdict.is_missed;
+    const core_bezier_root root = core_bezier_newton(unit, is_open && verdict.is_simple);
+    const core_bezier_point point = core_bezier_point_at(surface, u_low + h * root.a, v_low + h * root.b, frame.stretch);
+    const bool is_ahead = point.t > ray.from && point.t < ray.to;
+    const bool counts = is_open && verdict.is_simple && root.is_root && is_ahead && point.t - elvis_real(2) * point.error > ray.after;
+    const bool is_better = core_vote(votes, best, point.t, point.error, true, root.is_clear, point.normal.z < elvis_real(0), counts);
+    const elvis_vec3 in_world = point.normal.x * frame.across_x + point.normal.y * frame.across_y + point.normal.z * frame.along;
+    core_take_hit(is_better, point.t, point.error, in_world, CORE_FAR, best);
+    // What touches the ray, or may.
+    touch_t = is_open && verdict.is_lost && is_ahead && point.t > ray.after ? min(touch_t, point.t) : touch_t;
+    return core_next_square(is_active, is_open && !verdict.is_simple && !verdict.is_lost, square);
+}
+
 core_hit core_next_hit(core_surface_ray ray) {
     core_hit best = core_no_hit();
-    const elvis_vec3 origin = ray.origin + CORE_SHAPE(0).xyz;
-    const elvis_real stretch = length(ray.direction);
-    // The ray's frame.
-    const elvis_vec3 along = ray.direction / stretch;
-    const elvis_vec3 other = abs(along.x) < elvis_real(0.5LF) ? elvis_vec3(1, 0, 0) : elvis_vec3(0, 1, 0);
-    const elvis_vec3 across_x = normalize(cross(along, other)), across_y = cross(along, across_x);
-    const core_box_ray box_ray = core_make_box_ray(ray, origin, CORE_SHAPE(0).xyz);
-
-    uint stack[CORE_STACK_SIZE];
-    stack[0] = 0u;
+    const core_ray_frame frame = core_ray_frame_of(ray);
+    const core_box_ray box_ray = core_make_box_ray(ray, frame.origin, CORE_SHAPE(0).xyz);
+    core_stack[0] = 0u;
     uint stack_size = ray.from < ray.to ? 1u : 0u;
-    uint item = CORE_NO_NODE, work = 0u;
-    // The part of the patch at hand.
-    uint level = 0u, part_u = 0u, part_v = 0u;
+    uint index = CORE_NO_NODE, work = 0u;
+    core_bezier_square square = core_bezier_square(0u, 0u, 0u);
     core_votes votes = core_no_votes();
     elvis_real touch_t = CORE_FAR;
-    while ((item != CORE_NO_NODE || stack_size > 0u) && work < CORE_WORK_LIMIT) {
+    while ((index != CORE_NO_NODE || stack_size > 0u) && work < CORE_WORK_LIMIT) {
         work += 1u;
-        while (item == CORE_NO_NODE && stack_size > 0u) {
-            stack_size -= 1u;
-            const core_node node = core_fetch_node(stack[stack_size]);
-            const float farthest = float(best.t + best.error);
-            const bool is_met = core_box_entry(node, box_ray, farthest) < 3e38;
-            item = is_met && node.is_leaf ? node.child : CORE_NO_NODE;
-            if (is_met && !node.is_leaf) {
-                const float first = core_box_entry(core_fetch_node(node.child), box_ray, farthest);
-                const float second = core_box_entry(core_fetch_node(node.child + 1u), box_ray, farthest);
-                stack[stack_size] = node.child + (second < first ? 0u : 1u);
-                stack[stack_size + 1u] = node.child + (second < first ? 1u : 0u);
-                stack_size += 2u;
-            }
-            level = part_u = part_v = 0u;
-            if (item != CORE_NO_NODE || stack_size == 0u) {
+        while (index == CORE_NO_NODE && stack_size > 0u) {
+            index = core_next_item(box_ray, float(best.t + best.error), stack_size);
+            square = core_bezier_square(0u, 0u, 0u);
+            if (index != CORE_NO_NODE || stack_size == 0u) {
                 break;
             }
         }
-        const bool is_active = item != CORE_NO_NODE;
-        const uint safe = is_active ? item : 0u;
-
-        // Control points in the ray's frame.
-        core_net x, y, z;
-#define CORE_COLUMN(column, first)                                                                                                        \
-    {                                                                                                                                     \
-        const elvis_vec4 r0 = elvis_fetch4_core_patches(safe, first), r1 = elvis_fetch4_core_patches(safe, first + 1u);                   \
-        const elvis_vec4 r2 = elvis_fetch4_core_patches(safe, first + 2u);                                                                \
-        const elvis_vec3 p0 = r0.xyz - origin, p1 = elvis_vec3(r0.w, r1.xy) - origin;                                                     \
-        const elvis_vec3 p2 = elvis_vec3(r1.zw, r2.x) - origin, p3 = r2.yzw - origin;                                                     \
-        x.column = elvis_vec4(dot(p0, across_x), dot(p1, across_x), dot(p2, across_x), dot(p3, across_x));                                \
-        y.column = elvis_vec4(dot(p0, across_y), dot(p1, across_y), dot(p2, across_y), dot(p3, across_y));                                \
-        z.column = elvis_vec4(dot(p0, along), dot(p1, along), dot(p2, along), dot(p3, along));                                            \
-    }
-        CORE_COLUMN(c0, 0u)
-        CORE_COLUMN(c1, 3u)
-        CORE_COLUMN(c2, 6u)
-        CORE_COLUMN(c3, 9u)
-#undef CORE_COLUMN
-        // How far rounding moves a point across the ray.
-        const elvis_real off = elvis_real(2) * ray.noise + elvis_real(16) * CORE_ROUNDOFF * (core_net_size(x) + core_net_size(y) + core_net_size(z));
-
-        const elvis_real h = elvis_real(1) / elvis_real(1u << level);
-        const elvis_real u_low = h * elvis_real(part_u), v_low = h * elvis_real(part_v);
-        const elvis_real u_high = u_low + h, v_high = v_low + h;
-        const elvis_vec4 u0 = core_bernstein(u_low), u1 = core_blossom(u_low, u_low, u_high), u2 = core_blossom(u_low, u_high, u_high);
-        const elvis_vec4 u3 = core_bernstein(u_high), v0 = core_bernstein(v_low), v1 = core_blossom(v_low, v_low, v_high);
-        const elvis_vec4 v2 = core_blossom(v_low, v_high, v_high), v3 = core_bernstein(v_high);
-        const core_net part_x = core_subnet(x, u0, u1, u2, u3, v0, v1, v2, v3), part_y = core_subnet(y, u0, u1, u2, u3, v0, v1, v2, v3);
-
-        // Coordinates in which the part is nearly the unit square.
-        const elvis_real half_one = elvis_real(0.5LF);
-        const elvis_real xu = half_one * (part_x.c3.x - part_x.c0.x + part_x.c3.w - part_x.c0.w);
-        const elvis_real xv = half_one * (part_x.c0.w - part_x.c0.x + part_x.c3.w - part_x.c3.x);
-        const elvis_real yu = half_one * (part_y.c3.x - part_y.c0.x + part_y.c3.w - part_y.c0.w);
-        const elvis_real yv = half_one * (part_y.c0.w - part_y.c0.x + part_y.c3.w - part_y.c3.x);
-        const elvis_real determinant = xu * yv - xv * yu;
-        const elvis_real scale = (abs(xu) + abs(yu)) * (abs(xv) + abs(yv));
-        const bool is_regular = abs(determinant) > elvis_real(1e-4LF) * scale;
-        const elvis_real inverse = is_regular ? elvis_real(1) / determinant : elvis_real(0);
-        // Where they are not known, the ray's own do.
-        const core_net s = core_net_combine(is_regular ? yv * inverse : elvis_real(1), part_x, is_regular ? -xv * inverse : elvis_real(0), part_y);
-        const core_net r = core_net_combine(is_regular ? -yu * inverse : elvis_real(0), part_x, is_regular ? xu * inverse : elvis_real(1), part_y);
-        const elvis_real off_s = is_regular ? off * (abs(yv) + abs(xv)) * abs(inverse) : off;
-        const elvis_real off_r = is_regular ? off * (abs(yu) + abs(xu)) * abs(inverse) : off;
-        const bool is_missed = core_net_least(s) > off_s || core_net_most(s) < -off_s || core_net_least(r) > off_r || core_net_most(r) < -off_r;
-        const elvis_real one = elvis_real(1), zero = elvis_real(0);
-        const elvis_real deviation = max(core_net_deviation_u(s, one) + core_net_deviation_v(s, zero),
-                                         core_net_deviation_u(r, zero) + core_net_deviation_v(r, one));
-        const bool is_simple = is_regular && deviation < half_one;
-        const bool is_last = level >= CORE_BEZIER_LEVELS;
-        // Too small for the digits at hand: rounding decides everything.
-        const bool is_lost = !is_simple && (is_last || max(off_s, off_r) > elvis_real(0.05LF) && is_regular);
-
-        elvis_real a = half_one, b = half_one, last_step = one;
-        uint step = 0u;
-        while (step < (is_active && is_simple && !is_missed ? CORE_BEZIER_STEPS : 0u)) {
-            const elvis_vec4 wu = core_bernstein(a), wv = core_bernstein(b), du = core_bernstein_derivative(a), dv = core_bernstein_derivative(b);
-            const elvis_real fs = core_net_value(s, wu, wv), fr = core_net_value(r, wu, wv);
-            const elvis_real su = core_net_value(s, du, wv), sv = core_net_value(s, wu, dv);
-            const elvis_real ru = core_net_value(r, du, wv), rv = core_net_value(r, wu, dv);
-            const elvis_real det = su * rv - sv * ru;
-            const elvis_real step_a = (sv * fr - rv * fs) / det, step_b = (ru * fs - su * fr) / det;
-            a = clamp(a + step_a, elvis_real(-0.25LF), elvis_real(1.25LF));
-            b = clamp(b + step_b, elvis_real(-0.25LF), elvis_real(1.25LF));
-            last_step = max(abs(step_a), abs(step_b));
-            step = last_step <= half_one * max(off_s, off_r) ? CORE_BEZIER_STEPS : step + 1u;
-        }
-        // |J^-1| <= 2 turns the error of values into one of parameters.
-        const elvis_real tolerance = elvis_real(4) * max(off_s, off_r);
-        const elvis_real excess = max(abs(a - half_one), abs(b - half_one)) - half_one;
-        const bool has_root = is_simple && last_step <= elvis_real(1e-2LF) && excess <= tolerance;
-
-        const elvis_real u = u_low + h * a, v = v_low + h * b;
-        const elvis_vec4 wu = core_bernstein(u), wv = core_bernstein(v), du = core_bernstein_derivative(u), dv = core_bernstein_derivative(v);
-        const elvis_real t = core_net_value(z, wu, wv) / stretch;
-        const elvis_vec3 tangent_u = elvis_vec3(core_net_value(x, du, wv), core_net_value(y, du, wv), core_net_value(z, du, wv));
-        const elvis_vec3 tangent_v = elvis_vec3(core_net_value(x, wu, dv), core_net_value(y, wu, dv), core_net_value(z, wu, dv));
-        const elvis_vec3 normal = cross(tangent_u, tangent_v);
-        const elvis_real error = off * core_norm1(normal) / max(abs(normal.z), elvis_real(1e-30LF) * core_norm1(normal)) / stretch;
-        const bool counts = is_active && !is_missed && has_root && t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after;
-        const bool is_better = core_vote(votes, best, t, error, true, excess <= -tolerance, normal.z < zero, counts);
-        const elvis_vec3 in_world = normal.x * across_x + normal.y * across_y + normal.z * along;
-        best.t = is_better ? t : best.t;
-        best.error = is_better ? error : best.error;
-        best.normal_x = is_better ? in_world.x : best.normal_x;
-        best.normal_y = is_better ? in_world.y : best.normal_y;
-        best.normal_z = is_better ? in_world.z : best.normal_z;
-        best.bending = is_better ? CORE_FAR : best.bending;
-        best.is_hit = best.is_hit || is_better;
-        // What touches the ray, or may.
-        const bool touches = is_active && !is_missed && is_lost && t > ray.from && t < ray.to && t > ray.after;
-        touch_t = touches ? min(touch_t, t) : touch_t;
-
-        // Down, or on to the next part: in both directions counted like the digits of a number.
-        const bool goes_down = is_active && !is_missed && !is_simple && !is_lost;
-        part_u = goes_down ? 2u * part_u : part_u;
-        part_v = goes_down ? 2u * part_v : part_v;
-        level += goes_down ? 1u : 0u;
-        bool is_going_up = is_active && !goes_down;
-        while (is_going_up && level > 0u) {
-            const bool to_right = (part_u & 1u) == 0u, to_left = !to_right && (part_v & 1u) == 0u;
-            part_v = to_left ? part_v + 1u : part_v;
-            part_u = to_right ? part_u + 1u : to_left ? part_u - 1u : part_u;
-            is_going_up = !to_right && !to_left;
-            part_u = is_going_up ? part_u / 2u : part_u;
-            part_v = is_going_up ? part_v / 2u : part_v;
-            level -= is_going_up ? 1u : 0u;
-        }
-        item = is_going_up ? CORE_NO_NODE : item;
-        if (item == CORE_NO_NODE && stack_size == 0u) {
+        const bool is_active = index != CORE_NO_NODE;
+        const bool is_done = core_consider_square(is_active ? index : 0u, is_active, ray, frame, square, touch_t, votes, best);
+        index = is_done ? CORE_NO_NODE : index;
+        if (index == CORE_NO_NODE && stack_size == 0u) {
             break;
         }
     }
     best.is_undecided = core_is_undecided(votes, best) || touch_t <= best.t + best.error && touch_t < CORE_FAR;
-    best.is_cut_short = item != CORE_NO_NODE || stack_size > 0u;
+    best.is_cut_short = index != CORE_NO_NODE || stack_size > 0u;
     return best;
 }

@@ -1,5 +1,5 @@
-// What surfaces made of many pieces have in common: the way of a ray through a hierarchy, and how a crossing found in several
-// pieces is judged.
+// What surfaces made of many triangles or patches have in common: the way of a ray through the hierarchy over these, its items, and how
+// a crossing found in several of them is judged.
 
 #include "cut_surface/surface_hit.glsl"
 #include "tiles/hierarchy.glsl"
@@ -34,8 +34,27 @@ float core_box_entry(core_node node, core_box_ray ray, float farthest) {
     return is_met ? enter - slack : 3.3e38;
 }
 
-// Rounding moves edges of pieces across the ray by a little. A crossing well inside some piece is sure. One near edges only is, if
-// two pieces that face the same way hold it; near the edge of a single piece, or of two that fold back there, it is undecided.
+// Nodes that wait.
+uint core_stack[CORE_STACK_SIZE];
+
+// The item of the next node, if that is a leaf that the ray meets before `farthest`; else CORE_NO_NODE, and its children wait, the nearer
+// one before the other.
+uint core_next_item(core_box_ray ray, float farthest, inout uint stack_size) {
+    stack_size -= 1u;
+    const core_node node = core_fetch_node(core_stack[stack_size]);
+    const bool is_met = core_box_entry(node, ray, farthest) < 3e38;
+    if (is_met && !node.is_leaf) {
+        const float first = core_box_entry(core_fetch_node(node.child), ray, farthest);
+        const float second = core_box_entry(core_fetch_node(node.child + 1u), ray, farthest);
+        core_stack[stack_size] = node.child + (second < first ? 0u : 1u);
+        core_stack[stack_size + 1u] = node.child + (second < first ? 1u : 0u);
+        stack_size += 2u;
+    }
+    return is_met && node.is_leaf ? node.child : CORE_NO_NODE;
+}
+
+// Rounding moves edges of items across the ray by a little. A crossing well inside some item is sure. One near edges only is, if
+// two items that face the same way hold it; near the edge of a single item, or of two that fold back there, it is undecided.
 struct core_votes {
     bool is_sure;
     uint n_facing, n_averted;
@@ -46,7 +65,7 @@ struct core_votes {
 
 core_votes core_no_votes() { return core_votes(false, 0u, 0u, CORE_FAR, elvis_real(0), false); }
 
-// A piece that holds the crossing, or nearly. Returns whether it is the nearest one so far.
+// An item that holds the crossing, or nearly. Returns whether it is the nearest one so far.
 bool core_vote(inout core_votes votes, core_hit best, elvis_real t, elvis_real error, bool is_within, bool is_clear, bool is_facing,
                bool counts) {
     const bool is_same = abs(t - best.t) <= elvis_real(2) * (error + best.error);

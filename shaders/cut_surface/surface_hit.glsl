@@ -52,4 +52,14 @@ bool core_is_next(core_surface_ray ray, elvis_real t, elvis_real error, core_hit
     return t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after && t < best.t;
 }
 
+void core_take_hit(bool is_better, elvis_real t, elvis_real error, elvis_vec3 normal, elvis_real bending, inout core_hit best) {
+    best.t = is_better ? t : best.t;
+    best.error = is_better ? error : best.error;
+    best.normal_x = is_better ? normal.x : best.normal_x;
+    best.normal_y = is_better ? normal.y : best.normal_y;
+    best.normal_z = is_better ? normal.z : best.normal_z;
+    best.bending = is_better ? bending : best.bending;
+    best.is_hit = best.is_hit || is_better;
+}
+
 #endif

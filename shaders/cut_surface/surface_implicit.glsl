@@ -1,9 +1,9 @@
 // Where a function of x, y and z changes its sign along a ray.
 //
-// The part of the ray in question is halved until the function's range over a piece, by interval arithmetic, says that there is no
+// The part of the ray in question is halved until the function's range over an interval, by interval arithmetic, says that there is no
 // zero; or the range of its derivative along the ray says that the function only rises or only falls there, so that its values at
-// the piece's ends tell whether there is one. Pieces are gone through from near to far: the first crossing found is the first there
-// is. A piece that single (or double) precision cannot halve any more is a crossing if the signs at its ends differ; else the ray
+// the interval's ends tell whether there is one. Intervals are gone through from near to far: the first crossing found is the first there
+// is. An interval that single (or double) precision cannot halve any more is a crossing if the signs at its ends differ; else the ray
 // touches the surface there, as far as can be known, and the pixel is undecided.
 //
 // The kernel brings core_implicit_value, core_implicit and core_implicit_slopes (core/expression/glsl.hpp), of world coordinates.
@@ -11,6 +11,7 @@
 // Rows: xyz: the reference point, exact in single precision.
 
 #include "cut_surface/surface_hit.glsl"
+#include "cut_surface/illinois.glsl"
 
 // Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 2000u
@@ -25,89 +26,116 @@ core_interval core_implicit_coordinate(elvis_real a, elvis_real b, elvis_real no
     return core_interval_outward(min(a, b) - width, max(a, b) + width, elvis_real(2));
 }
 
+// All that the three coordinates can be between two points.
+#define CORE_IMPLICIT_BOX(a, b, noise)                                                                                                    \
+    core_implicit_coordinate((a).x, (b).x, noise), core_implicit_coordinate((a).y, (b).y, noise),                                         \
+        core_implicit_coordinate((a).z, (b).z, noise)
+
+// What is known of the function on an interval of the ray.
+struct core_implicit_interval {
+    elvis_real low, high, width;
+    // Values at both ends, and whether their signs are known to differ.
+    elvis_real at_low, at_high;
+    bool has_change;
+    // It has no zero; the function only rises or only falls.
+    bool is_excluded, is_monotone;
+    // It cannot be halved any more.
+    bool is_last;
+};
+
+core_implicit_interval core_implicit_interval_at(core_surface_ray ray, elvis_real from, elvis_real extent, uint level, uint index) {
+    const elvis_real zero = elvis_real(0);
+    core_implicit_interval interval;
+    interval.width = extent / elvis_real(1u << level);
+    interval.low = from + elvis_real(index) * interval.width;
+    interval.high = from + elvis_real(index + 1u) * interval.width;
+    const elvis_vec3 a = core_implicit_point(ray, interval.low), b = core_implicit_point(ray, interval.high);
+    core_interval gx, gy, gz;
+    const core_interval range = core_implicit_slopes(CORE_IMPLICIT_BOX(a, b, ray.noise), gx, gy, gz);
+    const core_interval slope = core_interval_add(core_interval_add(core_interval_multiply(gx, core_interval_near(ray.direction.x)),
+                                                                    core_interval_multiply(gy, core_interval_near(ray.direction.y))),
+                                                  core_interval_multiply(gz, core_interval_near(ray.direction.z)));
+    interval.at_low = core_implicit_value(a);
+    interval.at_high = core_implicit_value(b);
+    interval.is_excluded = range.lower > zero || range.upper < zero;
+    const bool is_finite = core_is_finite(interval.at_low) && core_is_finite(interval.at_high);
+    interval.is_monotone = is_finite && core_interval_is_bounded(slope) && (slope.lower > zero || slope.upper < zero);
+    interval.has_change = is_finite && (interval.at_low < zero) != (interval.at_high < zero);
+    interval.is_last = level >= CORE_IMPLICIT_LEVELS || interval.width * core_norm1(ray.direction) <= elvis_real(2) * ray.noise;
+    return interval;
+}
+
+elvis_real core_implicit_zero(core_surface_ray ray, core_implicit_interval interval, bool has_zero) {
+    core_bracket bracket = core_bracket(interval.low, interval.high, interval.at_low, interval.at_high);
+    elvis_real t = core_better_end(bracket);
+    uint step = 0u;
+    while (step < (has_zero ? CORE_IMPLICIT_STEPS : 0u)) {
+        t = core_next_place(bracket, step, clamp(core_secant_fraction(bracket), elvis_real(0.001LF), elvis_real(0.999LF)));
+        const elvis_real value = core_implicit_value(core_implicit_point(ray, t));
+        core_take_value(t, value, bracket);
+        const bool is_done = value == elvis_real(0) ||
+                             bracket.high - bracket.low <= elvis_real(2) * CORE_ROUNDOFF * max(abs(bracket.low), abs(bracket.high));
+        step = is_done ? CORE_IMPLICIT_STEPS : step + 1u;
+    }
+    return t;
+}
+
+// The intervals side by side, found last, in which the surface may be touched; from CORE_FAR: none.
+struct core_touch {
+    elvis_real from, to;
+};
+
+// Takes the zero at t, unless it is a pole or not wanted. Returns whether it is taken.
+bool core_take_zero(core_surface_ray ray, core_implicit_interval interval, elvis_real extent, elvis_real t, inout core_touch touch,
+                    inout core_hit best) {
+    const elvis_vec3 x = core_implicit_point(ray, t);
+    elvis_real value;
+    elvis_vec3 gradient;
+    core_implicit(x, value, gradient);
+    // How far rounding may have moved it: the range that the function has at one point as far as can be known, over the slope.
+    const core_interval here = core_implicit_range(CORE_IMPLICIT_BOX(x, x, ray.noise));
+    const elvis_real steep = abs(dot(gradient, ray.direction)), most = max(abs(here.lower), abs(here.upper));
+    // A pole changes the sign, too.
+    const bool is_pole = interval.is_last && !core_interval_is_bounded(here);
+    // Intervals right before a crossing cannot be told from it, where nothing is known of the slope.
+    const bool joins_touch =
+        !interval.is_monotone && interval.low - touch.to <= interval.width && t - touch.from <= elvis_real(16) * interval.width;
+    const elvis_real error = !interval.is_monotone ? (joins_touch ? interval.high - touch.from : interval.width)
+                             : steep > elvis_real(0) && most < steep * extent ? most / steep
+                                                                              : elvis_real(0.01LF) * extent;
+    const bool is_taken = !is_pole && t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after;
+    core_take_hit(is_taken, t, error, gradient, CORE_FAR, best);
+    touch.from = is_taken && joins_touch ? CORE_FAR : touch.from;
+    best.is_undecided = best.is_undecided || is_pole;
+    return is_taken;
+}
+
+// Where the surface may be touched in the interval. Returns whether intervals before it, apart from it, stay undecided.
+bool core_take_touch(core_implicit_interval interval, inout core_touch touch) {
+    const bool touches = !interval.is_excluded && !interval.is_monotone && interval.is_last && !interval.has_change;
+    const bool is_apart = touches && interval.low - touch.to > interval.width;
+    const bool is_left_behind = is_apart && touch.from < CORE_FAR;
+    touch.from = touches && (is_apart || touch.from >= CORE_FAR) ? interval.low : touch.from;
+    touch.to = touches ? interval.high : touch.to;
+    return is_left_behind;
+}
+
 core_hit core_next_hit(core_surface_ray ray) {
     core_hit best = core_no_hit();
-    const elvis_real zero = elvis_real(0);
     const elvis_real from = max(ray.from, min(ray.after, ray.to)), extent = ray.to - from;
-    const elvis_real stretch = core_norm1(ray.direction);
-    const core_interval dx = core_interval_near(ray.direction.x), dy = core_interval_near(ray.direction.y);
-    const core_interval dz = core_interval_near(ray.direction.z);
     uint level = 0u, index = 0u, work = 0u;
-    // Ends of the last row of pieces that the surface may touch.
-    elvis_real touch_from = CORE_FAR, touch_to = -CORE_FAR;
-    bool is_active = ray.from < ray.to && extent > zero;
+    core_touch touch = core_touch(CORE_FAR, -CORE_FAR);
+    bool is_active = ray.from < ray.to && extent > elvis_real(0);
     while (is_active && work < CORE_WORK_LIMIT) {
         work += 1u;
-        const elvis_real width = extent / elvis_real(1u << level);
-        const elvis_real low = from + elvis_real(index) * width, high = from + elvis_real(index + 1u) * width;
-        const elvis_vec3 a = core_implicit_point(ray, low), b = core_implicit_point(ray, high);
-        core_interval gx, gy, gz;
-        const core_interval range =
-            core_implicit_slopes(core_implicit_coordinate(a.x, b.x, ray.noise), core_implicit_coordinate(a.y, b.y, ray.noise),
-                                 core_implicit_coordinate(a.z, b.z, ray.noise), gx, gy, gz);
-        const core_interval slope = core_interval_add(core_interval_add(core_interval_multiply(gx, dx), core_interval_multiply(gy, dy)),
-                                                      core_interval_multiply(gz, dz));
-        const elvis_real at_low = core_implicit_value(a), at_high = core_implicit_value(b);
-        const bool is_excluded = range.lower > zero || range.upper < zero;
-        const bool is_finite = core_is_finite(at_low) && core_is_finite(at_high);
-        const bool is_monotone = is_finite && core_interval_is_bounded(slope) && (slope.lower > zero || slope.upper < zero);
-        const bool is_last = level >= CORE_IMPLICIT_LEVELS || width * stretch <= elvis_real(2) * ray.noise;
-        const bool has_change = is_finite && (at_low < zero) != (at_high < zero);
-        const bool has_zero = !is_excluded && has_change && (is_monotone || is_last);
-
-        // The zero: by the secant, which keeps the ends on either side (Illinois); every third step halves.
-        elvis_real s0 = low, s1 = high, f0 = at_low, f1 = at_high, t = abs(at_low) < abs(at_high) ? low : high;
-        uint step = 0u;
-        while (step < (has_zero ? CORE_IMPLICIT_STEPS : 0u)) {
-            const elvis_real fraction = clamp(f0 / (f0 - f1), elvis_real(0.001LF), elvis_real(0.999LF));
-            t = s0 + (step % 3u == 2u ? elvis_real(0.5LF) : fraction) * (s1 - s0);
-            const elvis_real value = core_implicit_value(core_implicit_point(ray, t));
-            const bool is_low = (value < zero) == (f0 < zero);
-            f1 = is_low ? elvis_real(0.5LF) * f1 : value;
-            f0 = is_low ? value : elvis_real(0.5LF) * f0;
-            s0 = is_low ? t : s0;
-            s1 = is_low ? s1 : t;
-            const bool is_done = value == zero || s1 - s0 <= elvis_real(2) * CORE_ROUNDOFF * max(abs(s0), abs(s1));
-            step = is_done ? CORE_IMPLICIT_STEPS : step + 1u;
-        }
-
-        // How far rounding may have moved it: the range that the function has at one point as far as can be known, over the slope.
+        const core_implicit_interval interval = core_implicit_interval_at(ray, from, extent, level, index);
+        const bool has_zero = !interval.is_excluded && interval.has_change && (interval.is_monotone || interval.is_last);
+        const elvis_real t = core_implicit_zero(ray, interval, has_zero);
         if (has_zero) {
-            const elvis_vec3 x = core_implicit_point(ray, t);
-            elvis_real value;
-            elvis_vec3 gradient;
-            core_implicit(x, value, gradient);
-            const core_interval here = core_implicit_range(core_implicit_coordinate(x.x, x.x, ray.noise), core_implicit_coordinate(x.y, x.y, ray.noise),
-                                                           core_implicit_coordinate(x.z, x.z, ray.noise));
-            const elvis_real steep = abs(dot(gradient, ray.direction));
-            const elvis_real most = max(abs(here.lower), abs(here.upper));
-            // A pole changes the sign, too.
-            const bool is_pole = is_last && !core_interval_is_bounded(here);
-            // Pieces right before a crossing cannot be told from it, where nothing is known of the slope.
-            const bool is_part = !is_monotone && low - touch_to <= width && t - touch_from <= elvis_real(16) * width;
-            const elvis_real error = !is_monotone ? (is_part ? high - touch_from : width)
-                                     : steep > zero && most < steep * extent ? most / steep
-                                                                             : elvis_real(0.01LF) * extent;
-            const bool counts = !is_pole && t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after;
-            best.t = counts ? t : best.t;
-            best.error = counts ? error : best.error;
-            best.normal_x = counts ? gradient.x : best.normal_x;
-            best.normal_y = counts ? gradient.y : best.normal_y;
-            best.normal_z = counts ? gradient.z : best.normal_z;
-            best.bending = counts ? CORE_FAR : best.bending;
-            best.is_hit = counts;
-            touch_from = counts && is_part ? CORE_FAR : touch_from;
-            best.is_undecided = best.is_undecided || is_pole;
-            is_active = !counts;
+            is_active = !core_take_zero(ray, interval, extent, t, touch, best);
         }
-        // The surface may be touched there.
-        const bool touches = !is_excluded && !is_monotone && is_last && !has_change;
-        const bool is_apart = touches && low - touch_to > width;
-        best.is_undecided = best.is_undecided || (is_apart && touch_from < CORE_FAR);
-        touch_from = touches && (is_apart || touch_from >= CORE_FAR) ? low : touch_from;
-        touch_to = touches ? high : touch_to;
-
-        const bool goes_down = !is_excluded && !is_monotone && !is_last;
+        best.is_undecided = core_take_touch(interval, touch) || best.is_undecided;
+        const bool goes_down = !interval.is_excluded && !interval.is_monotone && !interval.is_last;
         level += goes_down ? 1u : 0u;
         index = goes_down ? 2u * index : index + 1u;
         // Where the second half is done with, so is the whole.
@@ -120,7 +148,7 @@ core_hit core_next_hit(core_surface_ray ray) {
             break;
         }
     }
-    best.is_undecided = best.is_undecided || touch_from < CORE_FAR;
+    best.is_undecided = best.is_undecided || touch.from < CORE_FAR;
     best.is_cut_short = is_active;
     return best;
 }

@@ -49,6 +49,7 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 elvis_vec3 core_normal_here;
 #define CORE_SURFACE_NORMAL core_normal_here
 
+#include "arithmetic/count.glsl"
 #include "cut_surface/show.glsl"
 #include "picture/distrust_column.glsl"
 #include "cut_surface/locate.glsl"
@@ -111,21 +112,11 @@ void main() {
             break;
         }
     }
-
-    // Then no pixel of the column is to be trusted.
-    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
-    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
-
+    core_distrust_column(column, first_row, row, end_row, core_surface >> 31);
     if (end_row > first_row) {
-        const uint all_evaluations = subgroupAdd(n_evaluations);
-        const uint all_steps = subgroupAdd(n_steps);
-        const uint all_failures = subgroupAdd(n_failures);
-        const uint all_found = subgroupAdd(n_found);
-        if (subgroupElect()) {
-            atomicAdd(core_counts[0], all_evaluations);
-            atomicAdd(core_counts[1], all_steps);
-            atomicAdd(core_counts[2], all_failures);
-            atomicAdd(core_counts[3], all_found);
-        }
+        core_count(0u, n_evaluations);
+        core_count(1u, n_steps);
+        core_count(2u, n_failures);
+        core_count(3u, n_found);
     }
 }

@@ -55,22 +55,16 @@ void core_quadric_consider(core_surface_ray ray, elvis_real t0, elvis_real s, el
                                  elvis_real(4) * CORE_ROUNDOFF * (abs(ends.x) + abs(ends.y) + abs(point.y.z));
     const elvis_real beyond = max(ends.x - point.y.z, point.y.z - ends.y);
     is_valid = is_valid && beyond <= tolerance;
-    const bool is_doubtful = is_valid && beyond >= -tolerance;
+    const bool is_uncertain = is_valid && beyond >= -tolerance;
 #else
-    const bool is_doubtful = false;
+    const bool is_uncertain = false;
 #endif
     const bool is_better = is_valid && core_is_next(ray, t, error, best);
     const elvis_vec3 normal = point.gradient.x * CORE_SHAPE(0).xyz + point.gradient.y * CORE_SHAPE(1).xyz +
                               point.gradient.z * CORE_SHAPE(2).xyz;
-    best.t = is_better ? t : best.t;
-    best.error = is_better ? error : best.error;
-    best.normal_x = is_better ? normal.x : best.normal_x;
-    best.normal_y = is_better ? normal.y : best.normal_y;
-    best.normal_z = is_better ? normal.z : best.normal_z;
     const elvis_real bending = CORE_SHAPE(4).w / max(length(point.gradient), elvis_real(1e-30LF));
-    best.bending = is_better ? min(bending, CORE_FAR) : best.bending;
-    best.is_undecided = best.is_undecided || (is_better && is_doubtful);
-    best.is_hit = best.is_hit || is_better;
+    core_take_hit(is_better, t, error, normal, min(bending, CORE_FAR), best);
+    best.is_undecided = best.is_undecided || (is_better && is_uncertain);
 }
 
 #if CORE_HAS_ENDS
@@ -83,14 +77,8 @@ void core_quadric_cap(core_surface_ray ray, elvis_real t0, elvis_real end, elvis
     const elvis_real tolerance = elvis_real(2) * (point.error + error * abs(point.slope));
     const bool is_valid = bounded == s && CORE_SHAPE(5).z != elvis_real(0) && point.value <= tolerance;
     const bool is_better = is_valid && core_is_next(ray, t0 + s, error, best);
-    best.t = is_better ? t0 + s : best.t;
-    best.error = is_better ? error : best.error;
-    best.normal_x = is_better ? CORE_SHAPE(2).x : best.normal_x;
-    best.normal_y = is_better ? CORE_SHAPE(2).y : best.normal_y;
-    best.normal_z = is_better ? CORE_SHAPE(2).z : best.normal_z;
-    best.bending = is_better ? elvis_real(0) : best.bending;
+    core_take_hit(is_better, t0 + s, error, CORE_SHAPE(2).xyz, elvis_real(0), best);
     best.is_undecided = best.is_undecided || (is_better && point.value >= -tolerance);
-    best.is_hit = best.is_hit || is_better;
 }
 #endif
 

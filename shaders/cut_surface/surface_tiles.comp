@@ -4,11 +4,6 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "tiles/hierarchy.glsl"
-#include "tiles/cut_tiles.glsl"
-#include "arithmetic/driver_limit.glsl"
-#define CORE_LISTED_BINDING 2
-#include "tiles/list_tile.glsl"
 
 layout(std430, set = 0, binding = 0) readonly buffer core_boxes_block { float core_boxes[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer core_output { uint core_tiles[]; };
@@ -18,60 +13,27 @@ layout(push_constant) uniform core_constants {
     // Of the whole picture; and those that are wanted.
     uint core_n_tiles;
     uint core_first_tile, core_end_tile;
-    // Boxes of a tile, one below the other.
-    uint core_n_parts;
+    // Work groups of cut_surface/surface_hits.comp in a tile, one below the other, each with a box.
+    uint core_n_groups;
 };
+
+#define CORE_LISTED_BINDING 2
+#include "cut_surface/list_nodes.glsl"
 
 void main() {
     const uint tile = core_first_tile + gl_GlobalInvocationID.x;
     const bool is_wanted = tile < core_end_tile;
     const float infinite = 3e38;
     float low_x = infinite, low_y = infinite, low_z = infinite, high_x = -infinite, high_y = -infinite, high_z = -infinite;
-    for (uint i = 0u; i < (is_wanted ? core_n_parts : 0u); ++i) {
-        const uint part = ((tile / core_tiles_per_row) * core_n_parts + i) * core_tiles_per_row + tile % core_tiles_per_row;
-        low_x = min(low_x, core_boxes[6u * part]);
-        low_y = min(low_y, core_boxes[6u * part + 1u]);
-        low_z = min(low_z, core_boxes[6u * part + 2u]);
-        high_x = max(high_x, -core_boxes[6u * part + 3u]);
-        high_y = max(high_y, -core_boxes[6u * part + 4u]);
-        high_z = max(high_z, -core_boxes[6u * part + 5u]);
+    for (uint i = 0u; i < (is_wanted ? core_n_groups : 0u); ++i) {
+        const uint group = ((tile / core_tiles_per_row) * core_n_groups + i) * core_tiles_per_row + tile % core_tiles_per_row;
+        low_x = min(low_x, core_boxes[6u * group]);
+        low_y = min(low_y, core_boxes[6u * group + 1u]);
+        low_z = min(low_z, core_boxes[6u * group + 2u]);
+        high_x = max(high_x, -core_boxes[6u * group + 3u]);
+        high_y = max(high_y, -core_boxes[6u * group + 4u]);
+        high_z = max(high_z, -core_boxes[6u * group + 5u]);
     }
     const vec3 lower = vec3(low_x, low_y, low_z), upper = vec3(high_x, high_y, high_z);
-
-    uint stack[CORE_STACK_SIZE];
-    uint stack_size = is_wanted && low_x <= high_x ? 1u : 0u;
-    stack[0] = 0u;
-    uint n_entries = 0u;
-    const uint first = tile * CORE_TILE_STRIDE + 1u;
-    while (stack_size > 0u) {
-        stack_size -= 1u;
-        const uint index = stack[stack_size];
-        const core_node node = core_fetch_node(index);
-        const bool is_touched = core_overlaps(node, lower, upper);
-        // A node that could leave too many entries behind stays an entry itself, for the pixels to descend from.
-        const bool is_entry = node.is_leaf || n_entries + stack_size + 2u > CORE_TILE_CAPACITY;
-        if (is_touched && is_entry) {
-            core_tiles[first + n_entries] = index;
-            n_entries += 1u;
-        }
-        if (is_touched && !is_entry) {
-            stack[stack_size] = node.child + 1u;
-            stack[stack_size + 1u] = node.child;
-            stack_size += 2u;
-        }
-        if (stack_size == 0u) {
-            break;
-        }
-    }
-    // Then pixels descend from the root.
-    const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_n_tiles >> 31));
-    if (is_cut_short) {
-        core_tiles[first] = 0u;
-    }
-    if (is_wanted) {
-        core_tiles[tile * CORE_TILE_STRIDE] = is_cut_short ? 1u : n_entries;
-    }
-    if (is_cut_short || n_entries > 0u) {
-        core_list_tile(tile, 0u, core_n_tiles);
-    }
+    core_list_nodes(tile, is_wanted, low_x <= high_x, lower, upper, core_n_tiles);
 }

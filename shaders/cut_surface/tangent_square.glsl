@@ -1,4 +1,4 @@
-// A pixel's square, or a part of it, on the tangent plane of a curved surface where the pixel's ray meets it.
+// A square of the picture, at most a pixel's, on the tangent plane of a curved surface where the pixel's ray meets it.
 
 #ifndef CORE_TANGENT_SQUARE
 #define CORE_TANGENT_SQUARE

@@ -1,4 +1,4 @@
-// What a ray's search in an octant is at, and what one evaluation at it tells.
+// The interval that a ray's search in an octant looks at, and what one evaluation tells of it.
 //
 // The kernel brings isosurface/ray_interval.glsl and isosurface/nearest_crossing.glsl.
 
@@ -8,7 +8,7 @@
 #else
 #define CORE_NARROW elvis_real(2e-3LF)
 #endif
-// Intervals are not made shorter than this part of that.
+// Intervals are not made shorter than this share of that.
 #define CORE_FLOOR elvis_real(0.25LF)
 
 struct core_interval_search {
@@ -16,7 +16,8 @@ struct core_interval_search {
     uint element;
     // The interval; where the one after it begins, and where the octant ends.
     elvis_real from, to, next, last;
-    // Half of what is looked at at least: where the field is so flat that rounding moves the crossing by more than the interval is long.
+    // The field is bounded at least this far to both sides of the interval's middle: more than the interval is long where the field is so
+    // flat that rounding moves the crossing farther.
     elvis_real wide;
     // Where the mapping is linearized.
     elvis_real x, y, z;
@@ -44,7 +45,7 @@ struct core_evaluation {
     uint element;
     elvis_vec3 xi;
     core_frame frame;
-    // Of the interval: where the ray's parameter s is zero, half its length, and half of what was looked at.
+    // Of the interval: where the parameter s is zero, half its length, and how far to both sides of that the field is bounded.
     elvis_real middle, half_width, reach;
     // The shortest half length of an interval.
     elvis_real shortest;
@@ -81,8 +82,8 @@ core_evaluation core_evaluate_at(core_ray ray, inout core_interval_search search
     evaluation.shortest = CORE_FLOOR * CORE_NARROW / evaluation.speed;
     evaluation.half_width = elvis_real(0.5LF) * (search.to - search.from);
     evaluation.reach = max(max(evaluation.half_width, evaluation.shortest), search.wide);
-    evaluation.interval = core_interval_in_element(evaluation.xi, evaluation.frame, ((shift - position) + ray.origin) + step, ray.direction, evaluation.reach,
-                                       search.curvature);
+    evaluation.interval = core_interval_in_element(evaluation.xi, evaluation.frame, ((shift - position) + ray.origin) + step, ray.direction,
+                                                   evaluation.reach, search.curvature);
 #if ELVIS_HAS_INSIDE
     evaluation.own = core_inside_at(evaluation.element, evaluation.xi);
     core_cut_interval_inside(evaluation.own, evaluation.interval);
@@ -92,8 +93,8 @@ core_evaluation core_evaluate_at(core_ray ray, inout core_interval_search search
     core_interval_take_field(evaluation.interval, evaluation.element, evaluation.xi, model, value);
     evaluation.slope = model.slope;
     evaluation.crossing = core_first_linear_root(evaluation.interval);
-    const bool is_wide_enough = evaluation.interval.radius > CORE_WIDE_ENOUGH;
-    search.bend = is_wide_enough ? elvis_real(2) * model.remainder / (evaluation.interval.radius * evaluation.interval.radius) : search.bend;
+    const elvis_real radius = evaluation.interval.radius;
+    search.bend = radius > CORE_WIDE_ENOUGH ? elvis_real(2) * model.remainder / (radius * radius) : search.bend;
     evaluation.bend = search.bend + elvis_real(2) * search.curvature * core_model_norm1(model.slope);
     evaluation.is_finite = core_is_finite(value + core_max_norm(position));
     return evaluation;

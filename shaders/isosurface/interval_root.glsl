@@ -32,19 +32,21 @@ struct core_root {
 core_root core_root_of(core_evaluation evaluation, core_interval_search search) {
     const core_ray_interval interval = evaluation.interval;
     const core_linear_root crossing = evaluation.crossing;
+    const core_frame frame = evaluation.frame;
     core_root root;
-    // At both ends of the part the field lies on different sides. It crosses once only if its slope along the ray surely keeps its sign. The
-    // part may reach beyond a face by what rounding makes of it: then the root is what decides.
-    root.is_crossing = interval.is_known && crossing.s - crossing.half_width >= -evaluation.reach && crossing.s + crossing.half_width <= evaluation.reach &&
+    // At both ends of s +- half_width the field lies on different sides. It crosses once only if its slope along the ray surely keeps its
+    // sign. Rounding may move these ends beyond a face: then the root decides.
+    root.is_crossing = interval.is_known && crossing.s - crossing.half_width >= -evaluation.reach &&
+                       crossing.s + crossing.half_width <= evaluation.reach &&
                        evaluation.speed * evaluation.bend * interval.radius < abs(interval.slope);
     const elvis_vec3 to_root = interval.q + crossing.s * interval.w;
     const elvis_real distance = core_max_norm(to_root);
     root.xi = evaluation.xi + to_root;
     // J^-T times the gradient in xi.
-    root.gradient = evaluation.slope.x * evaluation.frame.row0 + evaluation.slope.y * evaluation.frame.row1 + evaluation.slope.z * evaluation.frame.row2;
+    root.gradient = evaluation.slope.x * frame.row0 + evaluation.slope.y * frame.row1 + evaluation.slope.z * frame.row2;
     // At least the spectral norm of J^-1: the square root of the largest sums of rows and columns.
-    const elvis_vec3 columns = abs(evaluation.frame.row0) + abs(evaluation.frame.row1) + abs(evaluation.frame.row2);
-    const elvis_real rows = max(max(core_model_norm1(evaluation.frame.row0), core_model_norm1(evaluation.frame.row1)), core_model_norm1(evaluation.frame.row2));
+    const elvis_vec3 columns = abs(frame.row0) + abs(frame.row1) + abs(frame.row2);
+    const elvis_real rows = max(max(core_model_norm1(frame.row0), core_model_norm1(frame.row1)), core_model_norm1(frame.row2));
     const elvis_real inverse_size = sqrt(core_max_norm(columns) * rows);
     const elvis_real size = length(root.gradient);
     root.bend = inverse_size * inverse_size * evaluation.bend / size;
@@ -52,7 +54,7 @@ core_root core_root_of(core_evaluation evaluation, core_interval_search search) 
     const elvis_real change = evaluation.bend * distance;
     root.is_exact = (distance <= CORE_LAST_STEP && change * inverse_size <= CORE_NORMAL_ERROR * size &&
                      change * distance * evaluation.speed <= CORE_NORMAL_ERROR * abs(interval.slope)) ||
-                    distance <= core_max_norm(evaluation.frame.xi_error) ||
+                    distance <= core_max_norm(frame.xi_error) ||
                     // Rounding is most of the error: nothing more is to be had.
                     (evaluation.bend * interval.radius * interval.radius <= interval.error &&
                      distance <= (search.moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * evaluation.speed * crossing.half_width);
@@ -62,8 +64,9 @@ core_root core_root_of(core_evaluation evaluation, core_interval_search search) 
     root.is_inside = excess <= CORE_CONSTRAINT_NORM * (elvis_real(2) * interval.beyond + along_ray);
     root.is_surely_inside = excess <= -CORE_CONSTRAINT_NORM * (interval.beyond + along_ray);
 #if ELVIS_HAS_INSIDE
-    const elvis_real own_excess = evaluation.own.value + dot(evaluation.own.slope, to_root), own_size = core_model_norm1(evaluation.own.slope);
-    const elvis_real own_error = evaluation.own.rounding + core_inside_bend(evaluation.own, distance);
+    const core_inside own = evaluation.own;
+    const elvis_real own_excess = own.value + dot(own.slope, to_root), own_size = core_model_norm1(own.slope);
+    const elvis_real own_error = own.rounding + core_inside_bend(own, distance);
     root.is_inside = root.is_inside && own_excess <= own_size * (elvis_real(2) * interval.beyond + along_ray) + own_error;
     root.is_surely_inside = root.is_surely_inside && own_excess <= -own_size * (interval.beyond + along_ray) - own_error;
 #endif

@@ -4,17 +4,17 @@
 // depth, so that the search ends at the first octant behind the crossing found. A work group is a few rows of a tile, and takes over what
 // these can meet (isosurface/group_octants.glsl).
 //
-// A ray is cut down to what an octant's linear models of mapping and field leave (isosurface/octant.glsl), and then an interval at a time is
-// looked at, front to back (isosurface/ray_interval.glsl). One evaluation bounds the field over the whole interval by a line and an error. So it
-// is known that
+// A ray is cut down to what an octant's linear models of mapping and field leave (isosurface/octant.glsl). Then one interval after the
+// other is looked at, front to back (isosurface/ray_interval.glsl). One evaluation bounds the field over the interval by a line and an
+// error, which tells
 //
-//   no isovalue is taken         the interval is done: that is certified, as far as the bounds are
-//   one is taken in a part       the interval is cut down to that part, before which there is none: the interval Newton method
-//                                (R. E. Moore, Interval Analysis, 1966), which converges quadratically where the field is steep
-//   or little                    the interval is halved
+//   that no isovalue is taken     the interval is done: that is certified, as far as the bounds are
+//   where one may be taken        the interval is cut down to there; before, none is: the interval Newton method (R. E. Moore, Interval
+//                                 Analysis, 1966), which converges quadratically where the field is steep
+//   or little                     the interval is halved
 //
-// until the interval is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error, and the
-// pixel is undecided if that cannot be told: isosurface/interval_bounds.glsl, piece_root.glsl and cell_search.glsl.
+// until the interval is short. Then the line's root is the crossing, if the field surely takes the isovalue within the error. If that
+// cannot be told the pixel is undecided: isosurface/interval_bounds.glsl, interval_root.glsl and octant_search.glsl.
 //
 // One evaluation of mapping and field an iteration, whatever element and interval a lane is at, so that lanes do not wait for each other.
 
@@ -30,6 +30,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "picture/pixel_ray.glsl"
 #include "isosurface/isosurface_bindings.glsl"
 #include "isosurface/isosurface_blur.glsl"
+#include "arithmetic/count.glsl"
 
 layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(push_constant) uniform core_parameters {
@@ -55,6 +56,7 @@ layout(push_constant) uniform core_parameters {
 #include "field/shown_model.glsl"
 #include "isosurface/ray_interval.glsl"
 #include "isosurface/group_octants.glsl"
+#include "isosurface/octant_descent.glsl"
 #include "isosurface/nearest_crossing.glsl"
 #include "isosurface/interval_bounds.glsl"
 #include "isosurface/interval_root.glsl"
@@ -65,16 +67,17 @@ layout(push_constant) uniform core_parameters {
 
 // The root, as a crossing of the ray.
 core_nearest_crossing core_found_at(core_evaluation evaluation, core_root root) {
-    return core_nearest_crossing(evaluation.middle + evaluation.crossing.s, evaluation.crossing.half_width, root.xi.x, root.xi.y, root.xi.z, evaluation.crossing.isovalue,
-                        root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
-                        elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
+    const core_linear_root crossing = evaluation.crossing;
+    return core_nearest_crossing(evaluation.middle + crossing.s, crossing.half_width, root.xi.x, root.xi.y, root.xi.z, crossing.isovalue,
+                                 root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
+                                 elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
 }
 
 // Flag of a pixel in which rounding may have led the crossing away.
 uint core_blur_of(core_nearest_crossing nearest, core_ray ray, elvis_real stretch) {
 #if ELVIS_REAL_IS_DOUBLE
-    // Rounding alone: the crossing's own width is that of the interval in which it was found. In single precision bounds of rounding say too
-    // little: projection would be as uncertain, and less exact.
+    // Rounding alone: the crossing's own width is that of the interval in which it was found. In single precision bounds of rounding say
+    // too little: projection would be as uncertain, and less exact.
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     const elvis_vec3 xi = elvis_vec3(nearest.xi_x, nearest.xi_y, nearest.xi_z);
     const elvis_vec3 gradient = elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z);
@@ -86,6 +89,65 @@ uint core_blur_of(core_nearest_crossing nearest, core_ray ray, elvis_real stretc
 #endif
 }
 
+struct core_interval_counts {
+    uint n_evaluations, n_excluded, n_outside, n_undecided, n_crossings;
+};
+
+// One evaluation, then to the next interval. Returns flags of the pixel.
+uint core_search_step(core_ray ray, inout core_interval_search search, inout core_nearest_crossing nearest,
+                      inout core_interval_counts counts) {
+    const bool is_active = search.element != CORE_NO_ELEMENT;
+    search.used += 1u;
+    const core_evaluation evaluation = core_evaluate_at(ray, search);
+    const core_root root = core_root_of(evaluation, search);
+    const core_verdict verdict = core_judge_interval(evaluation, root, search);
+    const core_nearest_crossing found = core_found_at(evaluation, root);
+    const bool is_ahead = found.t > ray.least_t + ray.widths_behind * found.slack && found.t > ray.least_t;
+    const bool is_hit = verdict.is_crossing && root.is_inside && is_ahead;
+    core_nearest_take(is_hit, found, nearest);
+    const bool is_open = core_interval_search_next(evaluation, verdict, is_hit, core_nearest_end(nearest), search);
+    counts.n_evaluations += is_active ? 1u : 0u;
+    counts.n_outside += verdict.is_empty ? 1u : 0u;
+    counts.n_excluded += verdict.is_excluded ? 1u : 0u;
+    counts.n_crossings += verdict.is_crossing ? 1u : 0u;
+    counts.n_undecided += is_open ? 1u : 0u;
+    const uint open_flag = evaluation.is_finite ? CORE_FLAG_ISOSURFACE_UNDECIDED : CORE_FLAG_NAN;
+    return (is_active && core_is_model_estimated(evaluation.element) ? CORE_FLAG_ESTIMATED : 0u) | (is_open ? open_flag : 0u);
+}
+
+// The nearest crossing of a ray. Returns flags of the pixel.
+uint core_search_ray(core_ray ray, core_octant_descent descent, inout core_nearest_crossing nearest, inout core_interval_counts counts) {
+    uint work = 0u, flags = 0u;
+    core_interval_search search = core_no_search();
+    while (descent.entry < descent.n_entries && work < CORE_WORK_LIMIT) {
+        core_look_ahead(ray, float(core_nearest_end(nearest)), descent);
+        while ((search.element != CORE_NO_ELEMENT || core_has_octants_ahead(descent)) && work < CORE_WORK_LIMIT) {
+            work += 1u;
+            while (search.element == CORE_NO_ELEMENT && core_has_octants_ahead(descent) && work < CORE_WORK_LIMIT) {
+                work += 1u;
+                const float end_t = float(core_nearest_end(nearest));
+                const uint index = core_next_octant(ray, end_t, descent);
+                if (index != CORE_NO_NODE) {
+                    const core_octant octant = core_fetch_octant(index);
+                    flags |= core_interval_search_begin(octant, core_octant_span_of(octant, ray, end_t), search);
+                }
+                if (search.element != CORE_NO_ELEMENT || !core_has_octants_ahead(descent)) {
+                    break;
+                }
+            }
+            flags |= core_search_step(ray, search, nearest, counts);
+            if (search.element == CORE_NO_ELEMENT && !core_has_octants_ahead(descent)) {
+                break;
+            }
+        }
+        if (descent.entry >= descent.n_entries) {
+            break;
+        }
+    }
+    const bool is_cut_short = search.element != CORE_NO_ELEMENT || core_has_octants_ahead(descent) || descent.entry < descent.n_entries;
+    return flags | (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u);
+}
+
 void main() {
     const uint tile = core_listed_tile(core_first_listed);
     const uint first_column = tile % core_tiles_per_row * CORE_TILE_WIDTH, column = first_column + gl_LocalInvocationID.x;
@@ -95,92 +157,15 @@ void main() {
     const uint n_listed = core_take_octants(list, core_tiles[list] & ~CORE_TILE_INNER, first_column, first_row);
     const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_ROWS, core_size.y) : first_row;
     const core_cut_column along = core_cut_begin(elvis_real(column));
-    uint n_evaluations = 0u, n_excluded = 0u, n_outside = 0u, n_undecided = 0u, n_crossings = 0u;
+    core_interval_counts counts = core_interval_counts(0u, 0u, 0u, 0u, 0u);
     uint row = first_row;
     while (row < end_row) {
         core_ray ray = core_pixel_ray(along, elvis_real(row));
         const uint pixel = row * core_size.x + column;
         const uint n_entries = core_look_beyond(pixel, ray) ? n_listed : 0u;
         const elvis_real stretch = length(ray.direction);
-#if CORE_DESCENDS
-        uint stack[CORE_STACK_SIZE];
-#define CORE_TOP stack[stack_size - 1u]
-#else
-        // A stack costs a quarter of the time even where it stays empty.
-#define CORE_TOP 0u
-#endif
-        uint stack_size = 0u, entry = 0u, ahead = 0u, work = 0u, flags = 0u;
-        core_interval_search search = core_no_search();
         core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
-        while (entry < n_entries && work < CORE_WORK_LIMIT) {
-            const uint first = entry;
-            entry = min(first + CORE_OCTANTS_AHEAD, n_entries);
-            ahead = core_octants_ahead(ray, first, entry, float(core_nearest_end(nearest)));
-            while ((search.element != CORE_NO_ELEMENT || stack_size > 0u || ahead != 0u) && work < CORE_WORK_LIMIT) {
-                work += 1u;
-                while (search.element == CORE_NO_ELEMENT && (stack_size > 0u || ahead != 0u) && work < CORE_WORK_LIMIT) {
-                    work += 1u;
-                    const bool is_popped = stack_size > 0u;
-                    const uint at = min(first + uint(findLSB(ahead | 1u << 31)), n_listed - 1u);
-                    const uint word = is_popped ? CORE_TOP : core_group_words[at];
-                    const float end_t = float(core_nearest_end(nearest));
-                    const bool is_behind = !is_popped && core_group_entries[at] > end_t;
-                    stack_size -= is_popped ? 1u : 0u;
-                    ahead = is_popped ? ahead : is_behind ? 0u : ahead & (ahead - 1u);
-                    entry = is_behind ? n_entries : entry;
-                    uint index = word;
-                    bool is_cell = !is_behind;
-#if CORE_DESCENDS
-                    if ((word & CORE_TILE_INNER) != 0u && !is_behind) {
-                        const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
-                        const vec2 in_box = core_box_span(node, ray);
-                        const bool is_touched = max(in_box.x, float(ray.least_t)) <= min(in_box.y, end_t);
-                        is_cell = is_touched && node.is_leaf;
-                        index = node.child;
-                        if (is_touched && !node.is_leaf) {
-                            stack[stack_size] = (node.child + 1u) | CORE_TILE_INNER;
-                            stack[stack_size + 1u] = node.child | CORE_TILE_INNER;
-                            stack_size += 2u;
-                        }
-                    }
-#endif
-                    if (is_cell) {
-                        const core_octant octant = core_fetch_octant(index);
-                        flags |= core_interval_search_begin(octant, core_octant_span_of(octant, ray, end_t), search);
-                    }
-                    if (search.element != CORE_NO_ELEMENT || (stack_size == 0u && ahead == 0u)) {
-                        break;
-                    }
-                }
-
-                const bool is_active = search.element != CORE_NO_ELEMENT;
-                search.used += 1u;
-                const core_evaluation evaluation = core_evaluate_at(ray, search);
-                const core_root root = core_root_of(evaluation, search);
-                const core_verdict verdict = core_judge_interval(evaluation, root, search);
-                const core_nearest_crossing found = core_found_at(evaluation, root);
-                const bool is_ahead = found.t > ray.least_t + ray.widths_behind * found.slack && found.t > ray.least_t;
-                const bool is_hit = verdict.is_crossing && root.is_inside && is_ahead;
-                core_nearest_take(is_hit, found, nearest);
-                const bool is_open = core_interval_search_next(evaluation, verdict, is_hit, core_nearest_end(nearest), search);
-
-                n_evaluations += is_active ? 1u : 0u;
-                n_outside += verdict.is_empty ? 1u : 0u;
-                n_excluded += verdict.is_excluded ? 1u : 0u;
-                n_crossings += verdict.is_crossing ? 1u : 0u;
-                n_undecided += is_open ? 1u : 0u;
-                flags |= is_active && core_is_model_estimated(evaluation.element) ? CORE_FLAG_ESTIMATED : 0u;
-                flags |= is_open ? (evaluation.is_finite ? CORE_FLAG_ISOSURFACE_UNDECIDED : CORE_FLAG_NAN) : 0u;
-                if (search.element == CORE_NO_ELEMENT && stack_size == 0u && ahead == 0u) {
-                    break;
-                }
-            }
-            if (entry >= n_entries) {
-                break;
-            }
-        }
-        const bool is_cut_short = search.element != CORE_NO_ELEMENT || stack_size > 0u || ahead != 0u || entry < n_entries;
-        flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
+        uint flags = core_search_ray(ray, core_octant_descent(n_listed, n_entries, 0u, 0u, 0u, 0u), nearest, counts);
         flags |= core_blur_of(nearest, ray, stretch) | core_nearest_store(nearest, pixel, ray, stretch, along.reference_distance);
         if (flags != 0u) {
             core_marks[pixel].flags |= flags;
@@ -190,18 +175,12 @@ void main() {
             break;
         }
     }
-    // Then no pixel of the column is to be trusted.
-    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_surface >> 31));
-    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
+    core_distrust_column(column, first_row, row, end_row, core_surface >> 31);
     if (end_row > first_row) {
-        const uint evaluations = subgroupAdd(n_evaluations), excluded = subgroupAdd(n_excluded), outside = subgroupAdd(n_outside);
-        const uint undecided = subgroupAdd(n_undecided), crossings = subgroupAdd(n_crossings);
-        if (subgroupElect()) {
-            atomicAdd(core_counts[0], evaluations);
-            atomicAdd(core_counts[1], excluded);
-            atomicAdd(core_counts[2], outside);
-            atomicAdd(core_counts[3], undecided);
-            atomicAdd(core_counts[4], crossings);
-        }
+        core_count(0u, counts.n_evaluations);
+        core_count(1u, counts.n_excluded);
+        core_count(2u, counts.n_outside);
+        core_count(3u, counts.n_undecided);
+        core_count(4u, counts.n_crossings);
     }
 }

@@ -3,16 +3,16 @@
 // rendering, 2006).
 //
 // Elements whose range holds an isovalue are visited nearest first, and in each the segments, from exact entry to
-// exact exit (segments/segment.glsl). Along a segment the field is sampled and becomes a polynomial (segments/fit.glsl), whose
-// degree is raised, and then the segment halved, until the error E is small beside how much the polynomial varies. Beside values each
-// sample has the field's slope along the ray, which the polynomial must have, too: few values alone can deceive. An interval without an
-// isovalue within E of the polynomial's Bernstein coefficients is left out: that is verified, not certified. Else the polynomial's
-// crossings are looked at in order. Each is polished on the field itself by Newton's method along the ray; it is taken if
+// exact exit (segments/segment.glsl). Samples of the field along a segment become a polynomial (segments/fit.glsl). Its degree is raised,
+// and then the segment is halved, until the error E is small beside how much the polynomial varies. Samples have the field's slope along
+// the ray, too, and the polynomial must have the same: few values alone can deceive. An interval is left out if no isovalue lies within E
+// of the polynomial's Bernstein coefficients: that is verified, not certified. Else the polynomial's crossings are looked at in order.
+// Each is polished on the field itself by Newton's method along the ray; it is taken if
 //
 //     E shows that the field crosses in the bracket in which the root was found    or
 //     the field is seen on both sides, or surely keeps its slope within what rounding moves the root.
 //
-// (isosurface/projection_segment.glsl, projection_piece.glsl and projection_polish.glsl.)
+// (isosurface/projection_segment.glsl, projection_interval.glsl and projection_polish.glsl.)
 //
 // Where neither holds the interval is halved as long as E is more than rounding; then the pixel is undecided.
 //
@@ -29,6 +29,7 @@ layout(local_size_x = 32) in;
 #include "picture/pixel_ray.glsl"
 #include "isosurface/isosurface_bindings.glsl"
 #include "isosurface/isosurface_blur.glsl"
+#include "arithmetic/count.glsl"
 
 layout(set = 0, binding = 5, std430) readonly buffer core_list_block { uint core_list[]; };
 layout(push_constant) uniform core_parameters {
@@ -84,6 +85,91 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 #include "isosurface/projection_interval.glsl"
 #include "isosurface/projection_polish.glsl"
 
+// Nodes of the hierarchy that wait.
+uint core_stack[CORE_STACK_SIZE];
+
+core_traced_ray core_projection_ray(core_ray ray, elvis_real stretch, out elvis_real size) {
+    const core_node root = core_fetch_node(0u);
+    const vec3 root_size = max(abs(root.lower), abs(root.upper)), root_sides = root.upper - root.lower;
+    const elvis_real far = elvis_real(max(max(max(root_size.x, root_size.y), root_size.z), ray.far));
+    // Of the volume, in the ray's parameter.
+    size = elvis_real(length(root_sides)) / stretch;
+    core_traced_ray traced_ray;
+    traced_ray.origin = ray.origin;
+    traced_ray.direction = ray.direction;
+    traced_ray.speed = stretch;
+    traced_ray.reach = elvis_real(4) * far / stretch;
+    traced_ray.tolerance = CORE_END_TOLERANCE * size;
+    traced_ray.error = ray.error + elvis_real(2) * CORE_ROUNDOFF * far;
+    return traced_ray;
+}
+
+// To the next node: the search begins in its element, or its children wait, the nearer one before the other. `nearest_end`: nothing need
+// be looked at behind.
+void core_next_node(core_ray ray, core_traced_ray traced_ray, elvis_real nearest_end, inout uint stack_size,
+                    inout core_projection_search search) {
+    stack_size -= 1u;
+    const core_node node = core_fetch_node(core_stack[stack_size]);
+    vec2 span = core_box_span(node, ray);
+    span.x = max(span.x, float(ray.least_t));
+    span.y = min(span.y, float(nearest_end));
+    const bool is_met = span.x <= span.y;
+    if (is_met && !node.is_leaf) {
+        const vec2 one = core_box_span(core_fetch_node(node.child), ray), other = core_box_span(core_fetch_node(node.child + 1u), ray);
+        const uint nearer = one.x <= other.x ? 0u : 1u;
+        core_stack[stack_size] = node.child + (1u - nearer);
+        core_stack[stack_size + 1u] = node.child + nearer;
+        stack_size += 2u;
+    }
+    if (is_met && node.is_leaf) {
+        core_projection_element(ray, traced_ray, node.child, span, search);
+    }
+}
+
+// The step that the search's phase asks for, and those that follow from it without a further sample. `size`: of the volume, in the
+// ray's parameter.
+void core_projection_step(core_ray ray, core_traced_ray traced_ray, elvis_real size, inout core_projection_search search,
+                          inout core_nearest_crossing nearest) {
+    if (search.phase == CORE_PHASE_CLIP) {
+        core_projection_segment(ray, traced_ray, search);
+    }
+    if (search.phase == CORE_PHASE_SOLVE) {
+        core_projection_solve(traced_ray, search);
+    }
+    core_ray_sample found;
+    found.status = CORE_SAMPLE_RUNNING;
+    if (search.phase == CORE_PHASE_SAMPLE || search.phase == CORE_PHASE_POLISH) {
+        found = core_projection_sample(traced_ray, search);
+    }
+    bool is_judged = false;
+    if (search.phase == CORE_PHASE_SAMPLE && found.status == CORE_SAMPLE_FOUND) {
+        is_judged = core_projection_add(found, search);
+    }
+    if (is_judged) {
+        core_projection_judge(search);
+    }
+    if (search.phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND) {
+        core_projection_polish(ray, traced_ray, size, found, search, nearest);
+    }
+    if (search.phase == CORE_PHASE_INTERVAL_DONE) {
+        core_projection_behind_interval(core_nearest_end(nearest), search);
+    }
+    if (search.phase == CORE_PHASE_SEGMENT_DONE) {
+        core_projection_behind_segment(traced_ray, core_nearest_end(nearest), search);
+    }
+}
+
+void core_count_projection(core_projection_search search) {
+    core_count(0u, search.n_evaluations);
+    core_count(1u, search.n_certified);
+    core_count(2u, search.n_verified);
+    core_count(3u, search.n_undecided);
+    core_count(4u, search.n_crossings);
+    core_count(5u, search.n_failures);
+    core_count(6u, search.n_intervals);
+    core_count(7u, search.n_degrees);
+}
+
 void main() {
     const uint place = core_first + gl_GlobalInvocationID.x;
     const bool is_pixel = place < core_end;
@@ -93,22 +179,10 @@ void main() {
     const bool is_wanted = core_look_beyond(pixel, ray) && is_pixel;
     const elvis_real stretch = length(ray.direction);
     core_begin_isovalues();
+    elvis_real size;
+    const core_traced_ray traced_ray = core_projection_ray(ray, stretch, size);
 
-    const core_node root = core_fetch_node(0u);
-    const vec3 root_size = max(abs(root.lower), abs(root.upper)), root_sides = root.upper - root.lower;
-    const elvis_real far = elvis_real(max(max(max(root_size.x, root_size.y), root_size.z), ray.far));
-    core_traced_ray traced_ray;
-    traced_ray.origin = ray.origin;
-    traced_ray.direction = ray.direction;
-    traced_ray.speed = stretch;
-    traced_ray.reach = elvis_real(4) * far / stretch;
-    // Of the volume, in the ray's parameter.
-    const elvis_real size = elvis_real(length(root_sides)) / stretch;
-    traced_ray.tolerance = CORE_END_TOLERANCE * size;
-    traced_ray.error = ray.error + elvis_real(2) * CORE_ROUNDOFF * far;
-
-    uint stack[CORE_STACK_SIZE];
-    stack[0] = 0u;
+    core_stack[0] = 0u;
     uint stack_size = is_wanted ? 1u : 0u, work = 0u;
     core_projection_search search = core_projection_begin();
     core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
@@ -116,54 +190,12 @@ void main() {
         work += 1u;
         while (search.phase == CORE_PHASE_SEEK && stack_size > 0u && work < CORE_WORK_LIMIT) {
             work += 1u;
-            stack_size -= 1u;
-            const core_node node = core_fetch_node(stack[stack_size]);
-            vec2 span = core_box_span(node, ray);
-            span.x = max(span.x, float(ray.least_t));
-            span.y = min(span.y, float(core_nearest_end(nearest)));
-            const bool is_touched = span.x <= span.y;
-            if (is_touched && !node.is_leaf) {
-                const vec2 one = core_box_span(core_fetch_node(node.child), ray), other = core_box_span(core_fetch_node(node.child + 1u), ray);
-                const uint nearer = one.x <= other.x ? 0u : 1u;
-                stack[stack_size] = node.child + (1u - nearer);
-                stack[stack_size + 1u] = node.child + nearer;
-                stack_size += 2u;
-            }
-            if (is_touched && node.is_leaf) {
-                core_projection_element(ray, traced_ray, node.child, span, search);
-            }
+            core_next_node(ray, traced_ray, core_nearest_end(nearest), stack_size, search);
             if (search.phase != CORE_PHASE_SEEK || stack_size == 0u) {
                 break;
             }
         }
-
-        if (search.phase == CORE_PHASE_CLIP) {
-            core_projection_segment(ray, traced_ray, search);
-        }
-        if (search.phase == CORE_PHASE_SOLVE) {
-            core_projection_solve(traced_ray, search);
-        }
-        core_ray_sample found;
-        found.status = CORE_SAMPLE_RUNNING;
-        if (search.phase == CORE_PHASE_SAMPLE || search.phase == CORE_PHASE_POLISH) {
-            found = core_projection_sample(traced_ray, search);
-        }
-        bool is_judged = false;
-        if (search.phase == CORE_PHASE_SAMPLE && found.status == CORE_SAMPLE_FOUND) {
-            is_judged = core_projection_add(found, search);
-        }
-        if (is_judged) {
-            core_projection_judge(search);
-        }
-        if (search.phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND) {
-            core_projection_polish(ray, traced_ray, size, found, search, nearest);
-        }
-        if (search.phase == CORE_PHASE_INTERVAL_DONE) {
-            core_projection_behind_interval(core_nearest_end(nearest), search);
-        }
-        if (search.phase == CORE_PHASE_SEGMENT_DONE) {
-            core_projection_behind_segment(traced_ray, core_nearest_end(nearest), search);
-        }
+        core_projection_step(ray, traced_ray, size, search, nearest);
         if (search.phase == CORE_PHASE_SEEK && stack_size == 0u) {
             break;
         }
@@ -171,24 +203,12 @@ void main() {
 
     const bool is_over = search.phase == CORE_PHASE_SEEK && stack_size == 0u;
     const bool is_cut_short = is_pixel && (!is_over || core_has_driver_given_up(core_surface >> 31));
-    search.flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT | CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
-    search.flags |= search.undecided_t <= core_nearest_end(nearest) && search.undecided_t < CORE_FAR ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
+    const bool is_undecided = search.undecided_t <= core_nearest_end(nearest) && search.undecided_t < CORE_FAR;
+    search.flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
+    search.flags |= is_cut_short || is_undecided ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
     search.flags |= core_nearest_store(nearest, pixel, ray, stretch, along.reference_distance);
     if (is_pixel && search.flags != 0u) {
         core_marks[pixel].flags |= search.flags;
     }
-    const uint all_evaluations = subgroupAdd(search.n_evaluations), all_crossings = subgroupAdd(search.n_crossings);
-    const uint all_certified = subgroupAdd(search.n_certified), all_verified = subgroupAdd(search.n_verified);
-    const uint all_undecided = subgroupAdd(search.n_undecided), all_failures = subgroupAdd(search.n_failures);
-    const uint all_pieces = subgroupAdd(search.n_pieces), all_degrees = subgroupAdd(search.n_degrees);
-    if (subgroupElect()) {
-        atomicAdd(core_counts[0], all_evaluations);
-        atomicAdd(core_counts[1], all_certified);
-        atomicAdd(core_counts[2], all_verified);
-        atomicAdd(core_counts[3], all_undecided);
-        atomicAdd(core_counts[4], all_crossings);
-        atomicAdd(core_counts[5], all_failures);
-        atomicAdd(core_counts[6], all_pieces);
-        atomicAdd(core_counts[7], all_degrees);
-    }
+    core_count_projection(search);
 }

@@ -10,7 +10,8 @@
 //
 //     f = value + slope . y + d,   |d| <= error.
 //
-// The curvature is that of element/prediction.glsl in the octant. Where there is no linearization, y is of the element's box, size is zero, and the error CORE_VALUE_UNKNOWN.
+// The curvature is that of element/prediction.glsl in the octant. Where there is no linearization, y is of the element's box, size is
+// zero, and the error CORE_VALUE_UNKNOWN.
 
 #ifndef CORE_OCTANT
 #define CORE_OCTANT
@@ -38,15 +39,17 @@ float core_octant_half_side(uint code) { return exp2(-float(code & 7u)); }
 
 vec3 core_octant_middle(uint code) {
     const uint mask = (1u << CORE_OCTANT_PLACE_BITS) - 1u;
-    const vec3 place = vec3((code >> 3) & mask, (code >> (3 + CORE_OCTANT_PLACE_BITS)) & mask, (code >> (3 + 2 * CORE_OCTANT_PLACE_BITS)) & mask);
+    const vec3 place = vec3((code >> 3) & mask, (code >> (3 + CORE_OCTANT_PLACE_BITS)) & mask,
+                            (code >> (3 + 2 * CORE_OCTANT_PLACE_BITS)) & mask);
     return (2.0 * place + 1.0) * core_octant_half_side(code) - 1.0;
 }
 
 #ifdef elvis_fetch4_core_octants
 
 core_octant core_fetch_octant(uint index) {
-    const uvec4 a = elvis_fetch4_core_octants(index, 0u), b = elvis_fetch4_core_octants(index, 1u), c = elvis_fetch4_core_octants(index, 2u);
-    const uvec4 d = elvis_fetch4_core_octants(index, 3u), e = elvis_fetch4_core_octants(index, 4u);
+    const uvec4 a = elvis_fetch4_core_octants(index, 0u), b = elvis_fetch4_core_octants(index, 1u);
+    const uvec4 c = elvis_fetch4_core_octants(index, 2u), d = elvis_fetch4_core_octants(index, 3u);
+    const uvec4 e = elvis_fetch4_core_octants(index, 4u);
     core_octant octant;
     octant.row0 = uintBitsToFloat(a.xyz);
     octant.row1 = uintBitsToFloat(b.xyz);

@@ -6,13 +6,13 @@
 #define CORE_MOST_EVALUATIONS 96u
 // Times the mapping is linearized anew nearer to the interval before it is halved.
 #define CORE_MAX_MOVES 8u
-// Half of what is looked at at most, in reference coordinates.
+// The field is bounded at most this far to both sides of an interval's middle, in reference coordinates.
 #define CORE_WIDEST elvis_real(0.25LF)
 
-// Half of what is looked at of a field that is flat around the crossing.
+// How far to both sides a field is bounded that is flat around the crossing.
 elvis_real core_wider(core_linear_root crossing) { return elvis_real(4) * crossing.half_width; }
 
-// Starts with the part of a ray in an octant. Returns flags of the pixel.
+// Starts with the ray's span in an octant. Returns flags of the pixel.
 uint core_interval_search_begin(core_octant octant, core_octant_span reached, out core_interval_search search) {
     search.x = elvis_real(reached.xi.x);
     search.y = elvis_real(reached.xi.y);
@@ -32,16 +32,17 @@ uint core_interval_search_begin(core_octant octant, core_octant_span reached, ou
 
 // What is made of an interval.
 struct core_verdict {
-    // Nothing of it lies in the element; or no isovalue is taken in it. These and the next three are false for a search without an interval.
+    // Nothing of it lies in the element; or no isovalue is taken in it. These and the next three are false for a search without an
+    // interval.
     bool is_empty, is_excluded;
     // Its root is a crossing, wherever that lies.
     bool is_crossing;
     // It cannot be decided; nor can anything behind it.
     bool is_stuck, is_broken;
-    // What is next: the interval behind it; the part of it from part_low to part_high; the same one, looked at from nearer or wider. Otherwise
-    // its first half.
+    // What is next: the interval behind it; what is left from cut_low to cut_high; the same one, with the mapping linearized nearer to it
+    // or the field bounded farther around it. Otherwise its first half.
     bool goes_on, cuts, moves_on, widens;
-    elvis_real part_low, part_high;
+    elvis_real cut_low, cut_high;
 };
 
 core_verdict core_judge_interval(core_evaluation evaluation, core_root root, core_interval_search search) {
@@ -68,19 +69,20 @@ core_verdict core_judge_interval(core_evaluation evaluation, core_root root, cor
     verdict.is_crossing = ends_here && root.is_exact;
     verdict.is_broken = is_active && (!evaluation.is_finite || search.used >= CORE_MOST_EVALUATIONS);
 
-    // A narrow part is looked at as a whole, even if it reaches beyond the interval: then the root is in its middle.
+    // If little is left it is looked at as a whole, even if it reaches beyond the interval: then the root is in its middle.
     const elvis_real from = crossing.s - crossing.half_width, to = crossing.s + crossing.half_width;
     const elvis_real narrow = elvis_real(0.6LF) * (interval.high - interval.low);
-    const bool is_part = interval.is_known && to - from < narrow && from <= interval.high && to >= interval.low;
-    verdict.part_low = root.is_crossing || is_part ? from : max(from, interval.low);
-    verdict.part_high = root.is_crossing || is_part ? to : min(to, interval.high);
-    const bool is_cut = is_part || (interval.is_known && verdict.part_high - verdict.part_low < narrow);
+    const bool is_narrow = interval.is_known && to - from < narrow && from <= interval.high && to >= interval.low;
+    verdict.cut_low = root.is_crossing || is_narrow ? from : max(from, interval.low);
+    verdict.cut_high = root.is_crossing || is_narrow ? to : min(to, interval.high);
+    const bool is_cut = is_narrow || (interval.is_known && verdict.cut_high - verdict.cut_low < narrow);
 
     const bool is_short = evaluation.half_width < evaluation.shortest;
     const elvis_real wider = core_wider(crossing);
     verdict.widens = is_short && !is_done_with && !root.is_crossing && !is_cut && wider > elvis_real(1.5LF) * search.wide &&
                      wider * evaluation.speed < CORE_WIDEST;
-    const bool is_nearest = interval.radius <= max(CORE_NARROW, elvis_real(2) * search.wide * evaluation.speed) || search.moves >= CORE_MAX_MOVES;
+    const bool is_nearest =
+        interval.radius <= max(CORE_NARROW, elvis_real(2) * search.wide * evaluation.speed) || search.moves >= CORE_MAX_MOVES;
     verdict.is_stuck = is_active && is_short && !is_done_with && !verdict.widens && !(is_cut && search.moves < CORE_MAX_MOVES) &&
                        is_nearest && !ends_here;
     verdict.goes_on = is_done_with || verdict.is_crossing || verdict.is_stuck || verdict.is_broken;
@@ -90,25 +92,26 @@ core_verdict core_judge_interval(core_evaluation evaluation, core_root root, cor
     return verdict;
 }
 
-// To the next interval, or to none. `ends`: a crossing was found, before which there is none; `nearest_end`: nothing need be looked at
-// behind. Returns whether what is left cannot be decided.
-bool core_interval_search_next(core_evaluation evaluation, core_verdict verdict, bool ends, elvis_real nearest_end, inout core_interval_search search) {
+// To the next interval, or to none. `ends`: a crossing was found, before which there is none; behind `nearest_end` nothing need be
+// looked at. Returns whether something stays undecided.
+bool core_interval_search_next(core_evaluation evaluation, core_verdict verdict, bool ends, elvis_real nearest_end,
+                               inout core_interval_search search) {
     const core_ray_interval interval = evaluation.interval;
     const bool is_done_with = verdict.is_empty || verdict.is_excluded;
     // The next interval is as long as this one, or twice if that was easy; the last one takes what would be left.
     const elvis_real length_next = (is_done_with ? elvis_real(4) : elvis_real(2)) * max(evaluation.half_width, evaluation.shortest);
     const elvis_real after = search.next + length_next;
     const elvis_real from = verdict.goes_on    ? search.next
-                            : verdict.cuts     ? evaluation.middle + verdict.part_low
+                            : verdict.cuts     ? evaluation.middle + verdict.cut_low
                             : verdict.moves_on ? search.from
                                                : evaluation.middle + interval.low;
     const elvis_real to = verdict.goes_on    ? (after + elvis_real(0.5LF) * length_next >= search.last ? search.last : after)
-                          : verdict.cuts     ? evaluation.middle + verdict.part_high
+                          : verdict.cuts     ? evaluation.middle + verdict.cut_high
                           : verdict.moves_on ? search.to
                                              : evaluation.middle + elvis_real(0.5LF) * (interval.low + interval.high);
-    // After a part that holds the only isovalue of the interval, the interval is over.
-    const elvis_real after_part = evaluation.crossing.is_only ? search.next : min(search.next, evaluation.middle + verdict.part_high);
-    search.next = verdict.goes_on ? to : verdict.cuts ? after_part : verdict.moves_on ? search.next : to;
+    // Behind the only isovalue of the interval, the interval is over.
+    const elvis_real after_cut = evaluation.crossing.is_only ? search.next : min(search.next, evaluation.middle + verdict.cut_high);
+    search.next = verdict.goes_on ? to : verdict.cuts ? after_cut : verdict.moves_on ? search.next : to;
     const bool is_short = evaluation.half_width < evaluation.shortest;
     search.moves = (verdict.moves_on && !verdict.widens) || (verdict.cuts && is_short) ? search.moves + 1u : 0u;
     search.wide = verdict.widens ? core_wider(evaluation.crossing) : verdict.goes_on ? elvis_real(0) : search.wide;

@@ -4,7 +4,7 @@
 #include "isosurface/octant.glsl"
 #include "isosurface/value_interval.glsl"
 
-// `start` + t `motion`: the ray in the octant's coordinates. The part of `span` in the octant.
+// What of `span` lies in the octant. `start` + t `motion`: the ray in the octant's coordinates.
 vec2 core_octant_inside(core_octant octant, vec3 start, vec3 motion, float tolerance, vec2 span) {
     const vec3 inverse = 1.0 / mix(motion, vec3(1e-30), lessThan(abs(motion), vec3(1e-30)));
     const vec3 a = (-1.0 - tolerance - start) * inverse, b = (1.0 + tolerance - start) * inverse;
@@ -27,9 +27,10 @@ vec2 core_octant_inside(core_octant octant, vec3 start, vec3 motion, float toler
     return span;
 }
 
-// The part of that in which the field leaves room for an isovalue.
+// What of that leaves room for an isovalue.
 vec2 core_octant_value_span(core_octant octant, vec3 start, vec3 motion, float tolerance, vec2 span) {
-    return core_value_interval(octant.value + dot(octant.slope, start), dot(octant.slope, motion), core_octant_error(octant, tolerance), span);
+    return core_value_interval(octant.value + dot(octant.slope, start), dot(octant.slope, motion), core_octant_error(octant, tolerance),
+                               span);
 }
 
 struct core_octant_span {

@@ -35,94 +35,140 @@ elvis_vec3 core_projected(elvis_vec3 point) {
     return elvis_vec3(x, y, z);
 }
 
+struct core_octant_place {
+    // In reference coordinates; where the mapping and the field are linearized, in the shape; and the way from there to the middle.
+    elvis_vec3 middle, xi, shift;
+    elvis_real half_side;
+    // Around xi; it holds all of the octant.
+    elvis_real radius;
+};
+
+core_octant_place core_place_of(uint code) {
+    core_octant_place place;
+    place.middle = elvis_vec3(core_octant_middle(code));
+    place.half_side = elvis_real(core_octant_half_side(code));
+    place.xi = core_projected(place.middle);
+    place.shift = place.middle - place.xi;
+    place.radius = place.half_side + core_max_norm(place.shift);
+    return place;
+}
+
+struct core_octant_mapping {
+    core_frame frame;
+    elvis_mat3 jacobian;
+    // Of the middle, relative to the hierarchies' centre; and of the coordinates that rounding is judged by.
+    elvis_vec3 position, sizes;
+    // What the linearization leaves out, and half the octant's side with it.
+    elvis_real curvature, bending, size;
+    bool is_linear;
+};
+
+core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place place) {
+    core_octant_mapping mapping;
+    elvis_vec3 position;
+    elvis_mapping_jacobian(element, place.xi, position, mapping.jacobian);
+    mapping.frame = core_frame_at(position, mapping.jacobian, elvis_real(0));
+    mapping.position = (elvis_origin(element) - elvis_vec3(core_centre[0], core_centre[1], core_centre[2])) +
+                       (position + mapping.jacobian * place.shift);
+    // Rounding of the inverse shows in its product with the Jacobian; then there is rounding of positions.
+    elvis_real defect = elvis_real(0);
+    for (int k = 0; k < 3; ++k) {
+        elvis_vec3 column = core_to_xi(mapping.frame, mapping.jacobian[k]);
+        column[k] -= elvis_real(1);
+        defect += core_max_norm(column);
+    }
+    const core_frame frame = mapping.frame;
+    const elvis_real norm = max(max(core_model_norm1(frame.row0), core_model_norm1(frame.row1)), core_model_norm1(frame.row2));
+    mapping.sizes = abs(mapping.position) + abs(elvis_origin(element)) + abs(position);
+    const elvis_real rounding = elvis_real(CORE_OCTANT_ROUNDING) * norm * core_max_norm(mapping.sizes) +
+                                place.half_side * (elvis_real(2) * defect + elvis_real(1e-4LF)) + core_max_norm(frame.xi_error);
+    const elvis_real of_element = elvis_fetch_core_curvatures(element, 0u);
+    const bool is_measured = (code & 7u) != 0u && of_element > CORE_SMALL_CURVATURE;
+    const elvis_real measured = core_measured_curvature(element, place.xi, mapping.jacobian, place.middle, place.half_side, 1u);
+    mapping.curvature = is_measured ? measured : of_element;
+    mapping.bending = mapping.curvature * place.radius * place.radius + rounding;
+    mapping.size = place.half_side + mapping.bending;
+    const bool is_finite = core_is_finite(mapping.size + core_max_norm(mapping.position));
+    mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING;
+    return mapping;
+}
+
+// Patches have four corners: of the octant below and above, and the middles of four faces, which estimates look at, too. Where the octant
+// is cut by the shape, all of it lies within its radius.
+core_model core_field_in(uint element, core_octant_place place) {
+    core_model model;
+    elvis_real remainder = elvis_real(0), value;
+    for (int level = -1; level <= 1; ++level) {
+        const elvis_real side = level == 0 ? elvis_real(0) : place.half_side, up = elvis_real(level) * place.half_side;
+        core_region region;
+        region.corner0 = core_projected(place.middle + elvis_vec3(-place.half_side, -side, up)) - place.xi;
+        region.corner1 = core_projected(place.middle + elvis_vec3(place.half_side, side, up)) - place.xi;
+        region.corner2 = core_projected(place.middle + elvis_vec3(-side, place.half_side, up)) - place.xi;
+        region.corner3 = core_projected(place.middle + elvis_vec3(side, -place.half_side, up)) - place.xi;
+#if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
+        region.beyond = elvis_real(0);
+#else
+        region.beyond = place.radius;
+#endif
+        region.radius = place.radius;
+        model = core_shown_model(element, place.xi, region, value);
+        remainder = max(remainder, model.remainder);
+    }
+    model.remainder = remainder;
+    return model;
+}
+
+void core_write_vector(uint at, vec3 v) {
+    for (int k = 0; k < 3; ++k) {
+        core_words[at + uint(k)] = floatBitsToUint(v[k]);
+    }
+}
+
+void core_write_mapping(uint at, core_octant_mapping mapping) {
+    const vec3 middle = vec3(mapping.position);
+    const float scale = 1.0 / float(mapping.size);
+    core_write_vector(at, scale * vec3(mapping.frame.row0));
+    core_write_vector(at + 4u, scale * vec3(mapping.frame.row1));
+    core_write_vector(at + 8u, scale * vec3(mapping.frame.row2));
+    for (int k = 0; k < 3; ++k) {
+        core_words[at + 4u * uint(k) + 3u] = floatBitsToUint(middle[k]);
+    }
+    core_words[at + 17u] = floatBitsToUint(mapping.is_linear ? float(mapping.size) : 0.0);
+    core_words[at + 20u] = floatBitsToUint(float(mapping.curvature));
+    const elvis_vec3 half_box = mapping.size * (abs(mapping.jacobian[0]) + abs(mapping.jacobian[1]) + abs(mapping.jacobian[2])) +
+                                elvis_real(8.0 * CORE_FLOAT_ROUNDOFF) * mapping.sizes;
+    core_write_vector(at + 26u, middle - vec3(half_box));
+    core_write_vector(at + 29u, middle + vec3(half_box));
+}
+
+void core_write_field(uint at, core_model model, core_octant_place place, core_octant_mapping mapping) {
+    const elvis_real steepness = core_model_norm1(model.slope);
+    const elvis_real at_middle = model.value + dot(model.slope, place.shift);
+    // Single precision, whatever the kernel's.
+    const elvis_real lost = elvis_real(16.0 * CORE_FLOAT_ROUNDOFF) * (abs(model.value) + elvis_real(4) * steepness + model.remainder) +
+                            elvis_real(1e-36LF);
+    const bool is_known = model.remainder <= CORE_LARGEST_REMAINDER;
+    const elvis_real error = model.remainder + steepness * mapping.bending + lost;
+    const elvis_real reach = model.remainder + steepness * place.half_side + lost;
+    core_write_vector(at + 12u, is_known ? vec3(mapping.size * model.slope) : vec3(0));
+    core_words[at + 15u] = floatBitsToUint(is_known ? float(at_middle) : 0.0);
+    core_words[at + 16u] = floatBitsToUint(is_known && mapping.is_linear ? float(error) : CORE_VALUE_UNKNOWN);
+    core_words[at + 24u] = floatBitsToUint(is_known ? float(at_middle - reach) : -CORE_VALUE_UNKNOWN);
+    core_words[at + 25u] = floatBitsToUint(is_known ? float(at_middle + reach) : CORE_VALUE_UNKNOWN);
+}
+
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= core_n_octants) {
         return;
     }
     const uint element = core_wanted[2u * i], code = core_wanted[2u * i + 1u];
-    const elvis_real half_side = elvis_real(core_octant_half_side(code));
-    const elvis_vec3 middle = elvis_vec3(core_octant_middle(code));
-    // Where the mapping and the field are linearized: in the shape.
-    const elvis_vec3 xi = core_projected(middle);
-    const elvis_vec3 shift = middle - xi;
-    const elvis_real radius = half_side + core_max_norm(shift);
-
-    elvis_vec3 position;
-    elvis_mat3 jacobian;
-    elvis_mapping_jacobian(element, xi, position, jacobian);
-    const core_frame frame = core_frame_at(position, jacobian, elvis_real(0));
-    const elvis_vec3 middle_position = (elvis_origin(element) - elvis_vec3(core_centre[0], core_centre[1], core_centre[2])) +
-                                       (position + jacobian * shift);
-    const vec3 rounded_middle = vec3(middle_position);
-    // Rounding: of the inverse, which is told by its product with the Jacobian, and of positions.
-    elvis_real defect = elvis_real(0);
-    for (int k = 0; k < 3; ++k) {
-        elvis_vec3 column = core_to_xi(frame, jacobian[k]);
-        column[k] -= elvis_real(1);
-        defect += core_max_norm(column);
-    }
-    const elvis_real norm = max(max(core_model_norm1(frame.row0), core_model_norm1(frame.row1)), core_model_norm1(frame.row2));
-    const elvis_vec3 sizes = abs(middle_position) + abs(elvis_origin(element)) + abs(position);
-    const elvis_real rounding = elvis_real(CORE_OCTANT_ROUNDING) * norm * core_max_norm(sizes) +
-                                half_side * (elvis_real(2) * defect + elvis_real(1e-4LF)) + core_max_norm(frame.xi_error);
-    const elvis_real of_element = elvis_fetch_core_curvatures(element, 0u);
-    const bool is_measured = (code & 7u) != 0u && of_element > CORE_SMALL_CURVATURE;
-    const elvis_real measured = core_measured_curvature(element, xi, jacobian, middle, half_side, 1u);
-    const elvis_real curvature = is_measured ? measured : of_element;
-    const elvis_real bending = curvature * radius * radius + rounding;
-    const elvis_real size = half_side + bending;
-    const bool is_linear = frame.is_sound && core_is_finite(size + core_max_norm(middle_position)) && bending < CORE_MOST_BENDING;
-
-    // Patches have four corners: of the octant below and above, and the middles of four faces, which estimates look at, too. Where
-    // the octant is cut by the shape, all of it lies within its radius.
-    core_model model;
-    elvis_real remainder = elvis_real(0), value;
-    for (int level = -1; level <= 1; ++level) {
-        const elvis_real side = level == 0 ? elvis_real(0) : half_side, up = elvis_real(level) * half_side;
-        core_region region;
-        region.corner0 = core_projected(middle + elvis_vec3(-half_side, -side, up)) - xi;
-        region.corner1 = core_projected(middle + elvis_vec3(half_side, side, up)) - xi;
-        region.corner2 = core_projected(middle + elvis_vec3(-side, half_side, up)) - xi;
-        region.corner3 = core_projected(middle + elvis_vec3(side, -half_side, up)) - xi;
-#if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
-        region.beyond = elvis_real(0);
-#else
-        region.beyond = radius;
-#endif
-        region.radius = radius;
-        model = core_shown_model(element, xi, region, value);
-        remainder = max(remainder, model.remainder);
-    }
-    const elvis_real steepness = core_model_norm1(model.slope);
-    const elvis_real at_middle = model.value + dot(model.slope, shift);
-    // Single precision, whatever the kernel's.
-    const elvis_real lost = elvis_real(16.0 * CORE_FLOAT_ROUNDOFF) * (abs(model.value) + elvis_real(4) * steepness + remainder) + elvis_real(1e-36LF);
-    const bool is_known = remainder <= CORE_LARGEST_REMAINDER;
-    const float error = is_known && is_linear ? float(remainder + steepness * bending + lost) : CORE_VALUE_UNKNOWN;
-    const elvis_real reach = remainder + steepness * half_side + lost;
-    const vec3 slope = is_known ? vec3(size * model.slope) : vec3(0);
-    const float scale = 1.0 / float(size);
-    const elvis_vec3 half_box = size * (abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2])) +
-                                elvis_real(8.0 * CORE_FLOAT_ROUNDOFF) * sizes;
-
+    const core_octant_place place = core_place_of(code);
+    const core_octant_mapping mapping = core_mapping_in(element, code, place);
+    const core_model model = core_field_in(element, place);
     const uint at = CORE_WORDS * i;
-    const vec3 rows[3] = vec3[3](scale * vec3(frame.row0), scale * vec3(frame.row1), scale * vec3(frame.row2));
-    for (int k = 0; k < 3; ++k) {
-        core_words[at + 4u * uint(k)] = floatBitsToUint(rows[k].x);
-        core_words[at + 4u * uint(k) + 1u] = floatBitsToUint(rows[k].y);
-        core_words[at + 4u * uint(k) + 2u] = floatBitsToUint(rows[k].z);
-        core_words[at + 4u * uint(k) + 3u] = floatBitsToUint(rounded_middle[k]);
-        core_words[at + 12u + uint(k)] = floatBitsToUint(slope[k]);
-        core_words[at + 26u + uint(k)] = floatBitsToUint(rounded_middle[k] - float(half_box[k]));
-        core_words[at + 29u + uint(k)] = floatBitsToUint(rounded_middle[k] + float(half_box[k]));
-    }
-    core_words[at + 15u] = floatBitsToUint(is_known ? float(at_middle) : 0.0);
-    core_words[at + 16u] = floatBitsToUint(error);
-    core_words[at + 17u] = floatBitsToUint(is_linear ? float(size) : 0.0);
+    core_write_mapping(at, mapping);
+    core_write_field(at, model, place, mapping);
     core_words[at + 18u] = element;
     core_words[at + 19u] = code;
-    core_words[at + 20u] = floatBitsToUint(float(curvature));
-    core_words[at + 24u] = floatBitsToUint(is_known ? float(at_middle - reach) : -CORE_VALUE_UNKNOWN);
-    core_words[at + 25u] = floatBitsToUint(is_known ? float(at_middle + reach) : CORE_VALUE_UNKNOWN);
 }

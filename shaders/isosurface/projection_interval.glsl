@@ -2,14 +2,14 @@
 //
 // The kernel brings isosurface/projection_search.glsl.
 
-// E over how much the polynomial varies, above which it is not believed.
+// The polynomial is not believed if E is more than this share of how much it varies.
 #if CORE_USES_COLLEAGUE
 // Eigenvalues tell no error: as little as there can be.
 #define CORE_ROUGH elvis_real(0)
 #else
 #define CORE_ROUGH elvis_real(1e-3LF)
 #endif
-// What slopes that differ say about E, over the same, below which it may be the gradient's own error.
+// Below this share of the same, what differences of slopes say about E may be the gradient's own error.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_LEAST_SLOPE_ERROR elvis_real(1e-6LF)
 #else
@@ -47,7 +47,7 @@ void core_projection_judge(inout core_projection_search search) {
     const bool is_solved = !is_verified && (!is_rough || (is_full && !can_halve));
     const bool halves = !is_verified && !is_solved && is_full;
     search.n_verified += is_verified ? 1u : 0u;
-    search.n_pieces += is_verified || is_solved ? 1u : 0u;
+    search.n_intervals += is_verified || is_solved ? 1u : 0u;
     search.n_degrees += is_verified || is_solved ? search.fit.degree : 0u;
 #if CORE_PLAIN
     search.fit.error = core_bernstein_rounding(search.fit.chebyshev);
@@ -67,8 +67,8 @@ void core_projection_solve(core_traced_ray traced_ray, inout core_projection_sea
     // Where the polynomial is this near, the field may cross more than once; the slope tells.
     const elvis_real lower_value = core_bernstein_value(search.bernstein, search.candidate.lower);
     const elvis_real upper_value = core_bernstein_value(search.bernstein, search.candidate.upper);
-    const bool is_doubtful = search.candidate.kind != CORE_CROSSING_VERIFIED && search.fit.error > elvis_real(2) * search.floor_error;
-    const bool refines = !is_none && is_doubtful && CORE_PLAIN == 0;
+    const bool is_uncertain = search.candidate.kind != CORE_CROSSING_VERIFIED && search.fit.error > elvis_real(2) * search.floor_error;
+    const bool refines = !is_none && is_uncertain && CORE_PLAIN == 0;
     const bool is_full = search.interval.values.status != CORE_FIT_WANTS;
     const bool halves = refines && is_full && search.interval.level < CORE_MOST_LEVELS;
     search.isovalue = core_isovalues[search.candidate.index];
@@ -76,12 +76,13 @@ void core_projection_solve(core_traced_ray traced_ray, inout core_projection_sea
     search.is_seen_below = search.is_seen_above = false;
     // Beside an interval's end the root of the field may be outside of the bracket.
     const bool is_verified = search.candidate.kind == CORE_CROSSING_VERIFIED;
-    const elvis_real margin = is_verified ? elvis_real(0) : elvis_real(2) * traced_ray.tolerance + elvis_real(1e-6LF) * (search.to - search.from);
-    search.bracket_from = search.from + search.candidate.lower * (search.to - search.from) - margin;
-    search.bracket_to = search.from + search.candidate.upper * (search.to - search.from) + margin;
-    search.polish_turns = 0u;
+    const elvis_real extent = search.to - search.from;
+    const elvis_real margin = is_verified ? elvis_real(0) : elvis_real(2) * traced_ray.tolerance + elvis_real(1e-6LF) * extent;
+    search.bracket_from = search.from + search.candidate.lower * extent - margin;
+    search.bracket_to = search.from + search.candidate.upper * extent + margin;
+    search.polish_iterations = 0u;
     search.last_step = CORE_FAR;
-    core_follow_to(search.follower, search.from + search.candidate.t * (search.to - search.from));
+    core_follow_to(search.follower, search.from + search.candidate.t * extent);
     const bool is_ignored = CORE_PLAIN == 1 && search.candidate.kind == CORE_CROSSING_TOUCH;
     search.phase = is_none ? CORE_PHASE_INTERVAL_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
     if (refines && (halves || !is_full)) {
@@ -100,7 +101,7 @@ void core_projection_behind_interval(elvis_real nearest_end, inout core_projecti
         core_next_interval(search.interval);
         search.from = search.to;
         const elvis_real share = elvis_real(search.interval.index + 1u) / elvis_real(1u << search.interval.level);
-        search.to = search.part_from + share * (search.part_to - search.part_from);
+        search.to = search.segment_from + share * (search.segment_to - search.segment_from);
         core_want_sample(search);
     }
     search.phase = is_last ? CORE_PHASE_SEGMENT_DONE : search.from > nearest_end ? CORE_PHASE_SEEK : CORE_PHASE_SAMPLE;

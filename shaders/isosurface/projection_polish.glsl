@@ -6,9 +6,9 @@
 #define CORE_CANDIDATE_ITERATIONS 16u
 
 // After a sample at the follower's parameter. `size`: of the volume, in the ray's parameter.
-void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found, inout core_projection_search search,
-                        inout core_nearest_crossing nearest) {
-    search.polish_turns += 1u;
+void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found,
+                            inout core_projection_search search, inout core_nearest_crossing nearest) {
+    search.polish_iterations += 1u;
     const elvis_real t = search.follower.at, off = found.value - search.isovalue;
     const bool is_above = off > found.error, is_below = off < -found.error;
     search.is_seen_above = search.is_seen_above || is_above;
@@ -28,7 +28,7 @@ void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real
     const elvis_real farthest = max(abs(search.bracket_from), abs(search.bracket_to));
     const bool is_narrow = search.bracket_to - search.bracket_from <= elvis_real(4) * CORE_ROUNDOFF * farthest;
     const bool is_candidate = search.candidate.kind != CORE_CROSSING_VERIFIED;
-    const bool is_last = search.polish_turns >= (is_candidate ? CORE_CANDIDATE_ITERATIONS : CORE_POLISH_ITERATIONS);
+    const bool is_last = search.polish_iterations >= (is_candidate ? CORE_CANDIDATE_ITERATIONS : CORE_POLISH_ITERATIONS);
     const bool is_settled = is_at_root || is_narrow || CORE_PLAIN == 1;
     const elvis_real root_t = is_at_root && CORE_PLAIN == 0 ? next : t;
     const elvis_real bend_here = search.bend + elvis_real(2) * search.curvature * core_model_norm1(found.gradient);
@@ -36,7 +36,7 @@ void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real
     const bool keeps_slope = found.is_known && speed * bend_here * radius < abs(found.slope);
     const bool is_confirmed = !is_candidate || keeps_slope || (search.is_seen_below && search.is_seen_above) || CORE_PLAIN == 1;
     const elvis_real slack = traced_ray.tolerance + elvis_real(0.25LF) * half_width;
-    const elvis_real outside = max(search.part_from - root_t, root_t - search.part_to);
+    const elvis_real outside = max(search.segment_from - root_t, root_t - search.segment_to);
     const bool is_inside = outside <= slack;
     const bool is_surely_inside = root_t >= search.segment.enter + search.segment.enter_error + slack &&
                                   root_t <= search.segment.leave - search.segment.leave_error - slack;
@@ -54,13 +54,14 @@ void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real
     search.undecided_t = is_undecided || is_blurred ? min(search.undecided_t, is_undecided ? candidate_t : root_t) : search.undecided_t;
 
     const core_frame frame = found.frame;
+    const uint number = elvis_fetch_core_elements(search.element, 0u);
     const elvis_vec3 gradient = found.gradient.x * frame.row0 + found.gradient.y * frame.row1 + found.gradient.z * frame.row2;
     const elvis_vec3 point = found.xi + found.q + (root_t - t) * found.w;
     const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
     core_nearest_take(is_hit,
-                      core_nearest_crossing(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y, gradient.z,
-                                   inverse_square * bend_here / length(gradient), search.element, elvis_fetch_core_elements(search.element, 0u),
-                                   is_surely_inside),
+                      core_nearest_crossing(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y,
+                                            gradient.z, inverse_square * bend_here / length(gradient), search.element, number,
+                                            is_surely_inside),
                       nearest);
     const bool is_estimated = core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1;
     search.flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;

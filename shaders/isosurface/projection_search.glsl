@@ -1,5 +1,5 @@
-// What projection (isosurface/isosurface_projection.comp) is at with a ray: the element, the segment, the interval of that, and
-// the candidate for a crossing.
+// The state of projection (isosurface/isosurface_projection.comp) along a ray: the element, the segment, the dyadic interval of that,
+// and the candidate for a crossing.
 //
 // The kernel brings segments/segment.glsl, segments/ray_sample.glsl, segments/root_candidate.glsl and segments/dyadic_interval.glsl.
 
@@ -21,10 +21,10 @@ struct core_projection_search {
     elvis_real curvature, bend;
     // Where it ends at the latest; from where on the segment is looked for; segments so far.
     elvis_real span_end, sought_from;
-    uint n_parts;
+    uint n_segments;
     core_segment segment;
     // The segment, as much longer as its ends may be wrong.
-    elvis_real part_from, part_to;
+    elvis_real segment_from, segment_to;
 
     core_dyadic_interval interval;
     elvis_real from, to;
@@ -40,23 +40,23 @@ struct core_projection_search {
     // Holds the crossing; whether the field rises in it.
     elvis_real bracket_from, bracket_to;
     bool rises, is_seen_below, is_seen_above;
-    uint polish_turns;
+    uint polish_iterations;
     elvis_real last_step;
 
     // The nearest place that is undecided.
     elvis_real undecided_t;
-    uint n_evaluations, n_certified, n_verified, n_undecided, n_crossings, n_failures, n_pieces, n_degrees;
+    uint n_evaluations, n_certified, n_verified, n_undecided, n_crossings, n_failures, n_intervals, n_degrees;
 };
 
 core_projection_search core_projection_begin() {
     core_projection_search search;
     search.phase = CORE_PHASE_SEEK;
-    search.flags = search.element = search.n_parts = 0u;
+    search.flags = search.element = search.n_segments = 0u;
     search.curvature = search.span_end = search.sought_from = elvis_real(0);
     search.bend = CORE_FAR;
     search.segment.element = 0u;
     search.segment.resume = search.segment.last = elvis_real(0);
-    search.part_from = search.part_to = search.from = search.to = elvis_real(0);
+    search.segment_from = search.segment_to = search.from = search.to = elvis_real(0);
     search.interval.values = search.interval.slopes = core_fit_begin();
     search.interval.level = search.interval.index = 0u;
     search.fit = core_fit_of(search.interval.values);
@@ -66,10 +66,10 @@ core_projection_search core_projection_begin() {
     search.candidate = core_candidate(CORE_CROSSING_NONE, 0u, elvis_real(0), elvis_real(0), elvis_real(0));
     search.isovalue = search.bracket_from = search.bracket_to = elvis_real(0);
     search.rises = search.is_seen_below = search.is_seen_above = false;
-    search.polish_turns = 0u;
+    search.polish_iterations = 0u;
     search.last_step = search.undecided_t = CORE_FAR;
     search.n_evaluations = search.n_certified = search.n_verified = search.n_undecided = 0u;
-    search.n_crossings = search.n_failures = search.n_pieces = search.n_degrees = 0u;
+    search.n_crossings = search.n_failures = search.n_intervals = search.n_degrees = 0u;
     return search;
 }
 

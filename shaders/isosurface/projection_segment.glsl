@@ -3,12 +3,12 @@
 // The kernel brings isosurface/projection_search.glsl, isosurface/linear_model.glsl and isosurface/value_span.glsl.
 
 // Segments of a ray in one element.
-#define CORE_MOST_PARTS 16u
+#define CORE_MOST_SEGMENTS 16u
 
 #if ELVIS_REAL_IS_DOUBLE
-#define CORE_DOUBTS_BEGINNINGS false
+#define CORE_BEGINNINGS_ARE_UNCERTAIN false
 #else
-#define CORE_DOUBTS_BEGINNINGS true
+#define CORE_BEGINNINGS_ARE_UNCERTAIN true
 #endif
 
 // Starts with an element, of which the ray meets the box in `span`.
@@ -32,7 +32,7 @@ void core_projection_element(core_ray ray, core_traced_ray traced_ray, uint elem
 #endif
     search.bend = elvis_real(2) * elvis_real(model.remainder) / (CORE_EXTENT * CORE_EXTENT);
     search.span_end = elvis_real(span.y);
-    search.n_parts = 0u;
+    search.n_segments = 0u;
     const elvis_real span_from = elvis_real(span.x), reach_end = min(search.span_end, span_from + traced_ray.reach);
     const bool is_begun =
         !is_missed && !is_excluded && core_segment_begin(traced_ray, search.element, span_from, reach_end, false, search.segment);
@@ -49,16 +49,16 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     search.n_failures += is_lost ? 1u : 0u;
     search.undecided_t = is_lost ? min(search.undecided_t, search.segment.begin) : search.undecided_t;
     // A segment may have been missed. In single precision, where rounding takes many iterations, the beginning of one has been, too.
-    const bool is_found_late = ending == CORE_SEGMENT_FOUND && CORE_DOUBTS_BEGINNINGS;
-    const bool is_doubtful = (ending == CORE_SEGMENT_NONE || is_found_late) && search.segment.is_estimated && CORE_PLAIN == 0;
-    search.undecided_t = is_doubtful ? min(search.undecided_t, search.sought_from) : search.undecided_t;
+    const bool is_found_late = ending == CORE_SEGMENT_FOUND && CORE_BEGINNINGS_ARE_UNCERTAIN;
+    const bool is_uncertain = (ending == CORE_SEGMENT_NONE || is_found_late) && search.segment.is_estimated && CORE_PLAIN == 0;
+    search.undecided_t = is_uncertain ? min(search.undecided_t, search.sought_from) : search.undecided_t;
     search.phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_SEGMENT_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_SEGMENT_DONE;
     // Ends are as wrong as that, and a crossing beside them is one all the same; but none is behind the eye.
-    search.part_from = max(search.segment.enter - search.segment.enter_error - traced_ray.tolerance, ray.least_t);
-    search.part_to = search.segment.leave + search.segment.leave_error + traced_ray.tolerance;
+    search.segment_from = max(search.segment.enter - search.segment.enter_error - traced_ray.tolerance, ray.least_t);
+    search.segment_to = search.segment.leave + search.segment.leave_error + traced_ray.tolerance;
     search.interval.level = search.interval.index = 0u;
-    search.from = search.part_from;
-    search.to = search.part_to;
+    search.from = search.segment_from;
+    search.to = search.segment_to;
     search.interval.values = search.interval.slopes = core_fit_begin();
     search.follower = core_follow_from(search.segment.anchor);
     core_follow_to(search.follower, search.from);
@@ -66,12 +66,12 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
 
 // Behind a segment: on in the element, or to the next one. `nearest_end`: nothing need be looked at behind.
 void core_projection_behind_segment(core_traced_ray traced_ray, elvis_real nearest_end, inout core_projection_search search) {
-    search.n_parts += 1u;
+    search.n_segments += 1u;
     const elvis_real resume = search.segment.resume + traced_ray.tolerance;
     const bool goes_on = search.segment.is_inside && resume < search.span_end && resume < nearest_end;
-    search.undecided_t = goes_on && search.n_parts >= CORE_MOST_PARTS ? min(search.undecided_t, resume) : search.undecided_t;
+    search.undecided_t = goes_on && search.n_segments >= CORE_MOST_SEGMENTS ? min(search.undecided_t, resume) : search.undecided_t;
     bool is_begun = false;
-    if (goes_on && search.n_parts < CORE_MOST_PARTS) {
+    if (goes_on && search.n_segments < CORE_MOST_SEGMENTS) {
         is_begun = core_segment_begin(traced_ray, search.element, resume, search.span_end, false, search.segment);
         search.sought_from = search.segment.begin;
     }

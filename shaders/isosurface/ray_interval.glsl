@@ -47,7 +47,7 @@ core_ray_interval core_interval_in_element(elvis_vec3 xi, core_frame frame, elvi
                                                    half_width * abs(dot(constraint.xyz, interval.w)));
     }
     // What is left is nearer, and so better known: a second time.
-    for (int turn = 0; turn < 2; ++turn) {
+    for (int iteration = 0; iteration < 2; ++iteration) {
         const elvis_real step = core_interval_radius(interval);
         interval.beyond = core_prediction_error(curvature, step) + rounding;
         interval.radius = step + interval.beyond;

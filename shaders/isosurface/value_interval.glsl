@@ -1,5 +1,5 @@
 // Where a linear model of a field along a ray leaves room for an isovalue: within `span`, value + t slope is the field but for `error`.
-// If there is only one isovalue, the part around it; all of the span if there are several.
+// If there is only one isovalue, what is around it; all of the span if there are several.
 
 #ifndef CORE_VALUE_INTERVAL
 #define CORE_VALUE_INTERVAL
@@ -15,9 +15,9 @@ vec2 core_value_interval(float value, float slope, float error, vec2 span) {
     const float inverse = 1.0 / slope;
     const float middle = (isovalue - value) * inverse, half_width = (error + CORE_FLOAT_ROUNDOFF * abs(isovalue)) * abs(inverse);
     const bool is_cut = has_one && !has_more && abs(slope) > 0.0 && error < CORE_VALUE_UNKNOWN;
-    const vec2 part = vec2(max(span.x, middle - half_width), min(span.y, middle + half_width));
+    const vec2 around = vec2(max(span.x, middle - half_width), min(span.y, middle + half_width));
     const bool is_none = !has_one && error < CORE_VALUE_UNKNOWN;
-    return is_none ? vec2(1.0, 0.0) : is_cut ? part : span;
+    return is_none ? vec2(1.0, 0.0) : is_cut ? around : span;
 }
 
 #endif

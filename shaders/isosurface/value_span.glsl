@@ -17,7 +17,7 @@ float core_model_error(core_linear_model model, float beyond) {
     return model.remainder + beyond * (size.x + size.y + size.z);
 }
 
-// The part of the ray, within `span`, that can lie in the element as far as the mapping's linearization at the centroid tells.
+// What of the ray, within `span`, can lie in the element as far as the mapping's linearization at the centroid tells.
 vec2 core_linear_span(vec3 start, vec3 direction, float curvature, vec2 span) {
     const float slack = float(CORE_CONSTRAINT_NORM) * core_linear_error(curvature);
     for (int face = 0; face < CORE_N_FACES; ++face) {
@@ -30,8 +30,8 @@ vec2 core_linear_span(vec3 start, vec3 direction, float curvature, vec2 span) {
     return span;
 }
 
-// The part of that in which the linear model of the whole element leaves room for an isovalue, if there is only one; all of it if
-// there are several.
+// What of that leaves room for an isovalue by the linear model of the whole element, if there is only one; all of it if there are
+// several.
 vec2 core_value_span(core_linear_model model, vec3 start, vec3 direction, float curvature, vec2 span) {
     const float value = model.value + dot(model.slope, start - vec3(CORE_CENTROID)), slope = dot(model.slope, direction);
     return core_value_interval(value, slope, core_model_error(model, core_linear_error(curvature)), span);

@@ -99,99 +99,138 @@ uint core_flags_near(uint pixel, float reach) {
     return flags;
 }
 
-void main() {
-    const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
-    const bool is_inside = pixel < core_n_pixels;
-    const uint owner = is_inside ? core_marks[pixel].owner : 0u;
-    const bool is_drawn = owner != 0u;
-    elvis_real value = elvis_real(0);
-    bool is_clipped = false, is_outside = false;
 #if CORE_HAS_LINES
-    bool is_contour = false, is_contour_undecided = false, is_mesh_line = false, is_mesh_undecided = false;
-#endif
-    if (is_drawn) {
-        value = core_samples[pixel].value;
-        is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
-#if CORE_HAS_LINES
-        // Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own or
-        // are to be left out.
-        const uint contour = core_flags_near(pixel, core_contour_reach);
-        is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
-        is_contour = (contour & CORE_FLAG_CONTOUR) != 0u ||
-                     (is_contour_undecided && (core_contour_style & (CORE_STYLE_UNDECIDED | CORE_STYLE_ONLY_DECIDED)) == 0u);
-        const uint mesh = core_flags_near(pixel, core_mesh_reach);
-        is_mesh_undecided = (mesh & CORE_FLAG_MESH_UNDECIDED) != 0u;
-        is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u ||
-                       (is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) == 0u);
-#endif
-    }
-    if (is_drawn && core_n_clips > 0u) {
-        is_clipped = core_is_clipped(pixel, core_samples[pixel].depth);
-    }
-    const bool is_nan = !core_is_finite(value) && !is_outside;
-#if CORE_HAS_LINES
-    elvis_vec4 contour_color = elvis_vec4(0);
-    if (is_contour) {
-        const elvis_vec4 isovalue = core_nearest_isovalue(value);
-        value = is_nan || (core_contour_style & CORE_STYLE_COLOR) != 0u ? value : isovalue.x;
-        contour_color = elvis_vec4(isovalue.yzw, elvis_real(1));
-    }
+struct core_lines {
+    bool is_contour, is_contour_undecided, is_mesh_line, is_mesh_undecided;
+};
+
+// Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own or are to be
+// left out.
+core_lines core_lines_at(uint pixel) {
+    core_lines lines;
+    const uint contour = core_flags_near(pixel, core_contour_reach), mesh = core_flags_near(pixel, core_mesh_reach);
+    lines.is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
+    lines.is_contour =
+        (contour & CORE_FLAG_CONTOUR) != 0u ||
+        (lines.is_contour_undecided && (core_contour_style & (CORE_STYLE_UNDECIDED | CORE_STYLE_ONLY_DECIDED)) == 0u);
+    lines.is_mesh_undecided = (mesh & CORE_FLAG_MESH_UNDECIDED) != 0u;
+    lines.is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u ||
+                         (lines.is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) == 0u);
+    return lines;
+}
+
+// Lines have their colours whatever the light. What is decided goes over what is not, contours over mesh lines.
+elvis_vec4 core_with_lines(elvis_vec4 color, core_lines lines, elvis_vec4 contour_color) {
+    const bool has_contour_color = lines.is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;
+    const bool shows_undecided_contour =
+        lines.is_contour_undecided && !lines.is_contour && (core_contour_style & CORE_STYLE_UNDECIDED) != 0u;
+    const bool has_mesh_color = lines.is_mesh_line && (core_mesh_style & CORE_STYLE_COLOR) != 0u;
+    color = lines.is_mesh_undecided && !lines.is_mesh_line ? core_special(6u) : color;
+    color = has_mesh_color ? core_special(5u) : color;
+    color = shows_undecided_contour ? core_special(4u) : color;
+    return has_contour_color ? contour_color : color;
+}
 #endif
 
-    // How many points are not above the value.
-    uint low = 0u;
-    uint high = is_drawn && !is_nan && !is_outside ? core_n_points : 0u;
+// How many of the table's points, at most `n_points`, are not above the value.
+uint core_points_up_to(elvis_real value, uint n_points) {
+    uint low = 0u, high = n_points;
     while (low < high) {
         const uint middle = (low + high) / 2u;
         const bool is_below = core_rows[middle].x <= value;
         low = is_below ? middle + 1u : low;
         high = is_below ? high : middle;
     }
+    return low;
+}
+
+// What a pixel shows of its surface.
+struct core_shown {
+    elvis_real value;
+    // There is something that is not cut away; it lies in no element.
+    bool is_seen, is_outside;
+    // The value is no number; it has no place on the table's scale; it is below the table.
+    bool is_nan, has_no_place, is_below;
+};
+
+// The table's colour, or one of those for what has none there.
+elvis_vec4 core_table_color(inout core_shown shown, bool is_drawn) {
+    const uint low = core_points_up_to(shown.value, is_drawn && !shown.is_nan && !shown.is_outside ? core_n_points : 0u);
     const elvis_vec4 from = core_rows[low > 0u ? low - 1u : 0u];
     const elvis_vec4 to = core_rows[min(low, core_n_points - 1u)];
     const elvis_real extent = to.x - from.x;
-    const elvis_real t = extent > elvis_real(0) ? (value - from.x) / extent : elvis_real(0);
-    const bool is_below = low == 0u, is_above = low == core_n_points && value > from.x;
-    const bool is_seen = is_drawn && !is_clipped;
-    const elvis_vec4 limits = core_special(8u);
-    const bool has_no_place = is_nan || (value <= limits.x && !is_outside);
-    const uint special = is_seen ? (has_no_place ? 2u : (is_below ? 0u : 1u)) : 3u;
-    const bool is_special = !is_seen || has_no_place || is_below || is_above;
-    elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
-    color = is_seen && is_outside ? elvis_vec4(core_special(7u).yzw, elvis_real(1)) : color;
+    const elvis_real t = extent > elvis_real(0) ? (shown.value - from.x) / extent : elvis_real(0);
+    shown.is_below = low == 0u;
+    const bool is_above = low == core_n_points && shown.value > from.x;
+    const uint special = shown.is_seen ? (shown.has_no_place ? 2u : (shown.is_below ? 0u : 1u)) : 3u;
+    const bool is_special = !shown.is_seen || shown.has_no_place || shown.is_below || is_above;
+    const elvis_vec4 color = is_special ? core_special(special) : elvis_vec4(from.yzw + t * (to.yzw - from.yzw), elvis_real(1));
+    return shown.is_seen && shown.is_outside ? elvis_vec4(core_special(7u).yzw, elvis_real(1)) : color;
+}
+
 #if CORE_IS_LIT
-    if (is_seen) {
-        elvis_vec3 direction;
-        const elvis_vec3 position = core_position(pixel, core_samples[pixel].depth, direction);
-        const elvis_vec3 own_normal =
-            elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
-        const elvis_vec3 normal = core_is_plane != 0u ? core_plane_normal.xyz : own_normal;
-        color.xyz = core_lit(color.xyz, normal, position, -normalize(direction));
-    }
+elvis_vec3 core_lit_at(uint pixel, elvis_vec3 color) {
+    elvis_vec3 direction;
+    const elvis_vec3 position = core_position(pixel, core_samples[pixel].depth, direction);
+    const elvis_vec3 own_normal =
+        elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+    return core_lit(color, core_is_plane != 0u ? core_plane_normal.xyz : own_normal, position, -normalize(direction));
+}
 #endif
 
-    const bool is_far = !is_outside && (value < limits.y || value > limits.z);
-    if (is_seen && (has_no_place || is_far)) {
-        core_special_values[4u * core_surface + (has_no_place ? 2u : (is_below ? 0u : 1u))] = 1u;
+// Of a pixel that is seen: what core_special_values tells of the surface.
+void core_note_special(core_shown shown, elvis_vec4 limits) {
+    const bool is_far = !shown.is_outside && (shown.value < limits.y || shown.value > limits.z);
+    if (shown.has_no_place || is_far) {
+        core_special_values[4u * core_surface + (shown.has_no_place ? 2u : (shown.is_below ? 0u : 1u))] = 1u;
     }
     // Few write what nearly all would.
-    if (is_seen && core_special_values[4u * core_surface + 3u] == 0u) {
+    if (core_special_values[4u * core_surface + 3u] == 0u) {
         core_special_values[4u * core_surface + 3u] = 1u;
     }
+}
 
+void main() {
+    const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    const bool is_inside = pixel < core_n_pixels;
+    const uint owner = is_inside ? core_marks[pixel].owner : 0u;
+    const bool is_drawn = owner != 0u;
+    core_shown shown = core_shown(elvis_real(0), is_drawn, false, false, false, false);
 #if CORE_HAS_LINES
-    // Lines have their colours whatever the light. What is decided goes over what is not, contours over mesh lines.
-    const bool has_contour_color = is_contour && (core_contour_style & CORE_STYLE_COLOR) != 0u;
-    const bool shows_undecided_contour =
-        is_contour_undecided && !is_contour && (core_contour_style & CORE_STYLE_UNDECIDED) != 0u;
-    const bool has_mesh_color = is_mesh_line && (core_mesh_style & CORE_STYLE_COLOR) != 0u;
-    const bool shows_undecided_mesh = is_mesh_undecided && !is_mesh_line;
-    color = is_seen && shows_undecided_mesh ? core_special(6u) : color;
-    color = is_seen && has_mesh_color ? core_special(5u) : color;
-    color = is_seen && shows_undecided_contour ? core_special(4u) : color;
-    color = is_seen && has_contour_color ? contour_color : color;
+    core_lines lines = core_lines(false, false, false, false);
+    elvis_vec4 contour_color = elvis_vec4(0);
 #endif
-    color.w *= is_seen ? core_special(7u).x : elvis_real(1);
+    if (is_drawn) {
+        shown.value = core_samples[pixel].value;
+        shown.is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
+#if CORE_HAS_LINES
+        lines = core_lines_at(pixel);
+#endif
+    }
+    if (is_drawn && core_n_clips > 0u) {
+        shown.is_seen = !core_is_clipped(pixel, core_samples[pixel].depth);
+    }
+    shown.is_nan = !core_is_finite(shown.value) && !shown.is_outside;
+#if CORE_HAS_LINES
+    if (lines.is_contour) {
+        const elvis_vec4 isovalue = core_nearest_isovalue(shown.value);
+        shown.value = shown.is_nan || (core_contour_style & CORE_STYLE_COLOR) != 0u ? shown.value : isovalue.x;
+        contour_color = elvis_vec4(isovalue.yzw, elvis_real(1));
+    }
+#endif
+    const elvis_vec4 limits = core_special(8u);
+    shown.has_no_place = shown.is_nan || (shown.value <= limits.x && !shown.is_outside);
+    elvis_vec4 color = core_table_color(shown, is_drawn);
+    if (shown.is_seen) {
+#if CORE_IS_LIT
+        color.xyz = core_lit_at(pixel, color.xyz);
+#endif
+        core_note_special(shown, limits);
+#if CORE_HAS_LINES
+        color = core_with_lines(color, lines, contour_color);
+#endif
+        color.w *= core_special(7u).x;
+    }
     if (is_inside) {
         core_colors[pixel] = color;
     }
@@ -199,7 +238,7 @@ void main() {
     // On a face that no other element shares the domain may end; on one that is shared the field may have two values.
     const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
     const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
-    const uint flags = core_common_flags | (is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
+    const uint flags = core_common_flags | (shown.is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
     if (is_drawn && flags != 0u) {
         core_marks[pixel].flags |= flags;
     }

@@ -1,6 +1,6 @@
 // Geometry of one cut plane in one picture, prepared by the host in double precision (core/render/cut_surface/cut_plane_geometry.hpp).
 //
-// Everything is relative to a reference point near the part of the plane that is seen, so that single precision spends its digits
+// Everything is relative to a reference point near what is seen of the plane, so that single precision spends its digits
 // on differences. Pixel (column, row) has the ray
 //     base + t * direction,   base = base0 + (column - column0) * base_column + (row - row0) * base_row,   direction likewise,
 // with (column0, row0) in the picture's middle, so that no large terms cancel, base on a plane across the view, and t the distance

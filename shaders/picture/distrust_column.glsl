@@ -33,3 +33,9 @@ void core_distrust_column(uint column, uint first_row, uint end_row) {
     CORE_DISTRUST(14u)
     CORE_DISTRUST(15u)
 }
+
+// The same for a column whose rows before `row` have been drawn, unless the driver has given up (arithmetic/driver_limit.glsl).
+void core_distrust_column(uint column, uint first_row, uint row, uint end_row, uint zero) {
+    const bool is_cut_short = row < end_row || core_has_driver_given_up(zero);
+    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
+}

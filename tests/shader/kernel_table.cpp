@@ -99,7 +99,7 @@ void add_face_kernels(std::vector<KernelUse>& uses) {
                           .element = Element::value,
                           .buffers = fitted_faces,
                           .choices = {width, height, yes("CORE_LISTS_TILES"), element_class}};
-            use.choices.push_back(use.kernel == "boundary/faces" ? no_or_yes("CORE_DESCENDS") : no("CORE_DESCENDS"));
+            use.choices.push_back(use.kernel == "boundary/faces" ? no_or_yes("CORE_DESCENDS") : yes("CORE_DESCENDS"));
             if (is_polynomial) {
                 use.choices.push_back({"CORE_FACE_ORDER", {"3"}});
             }

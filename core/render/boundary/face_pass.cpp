@@ -48,7 +48,7 @@ const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draw
         const bool is_careful = what == Draws::careful;
         own.kernel = is_careful ? "boundary/faces_careful.comp" : "boundary/faces.comp";
         own.name = std::string(is_careful ? "faces_careful" : "faces") + " of element class " + std::to_string(element_class);
-        own.defines.emplace_back("CORE_DESCENDS", what == Draws::deep_pixels ? "1" : "0");
+        own.defines.emplace_back("CORE_DESCENDS", what == Draws::pixels ? "0" : "1");
         kernel = std::make_unique<ComposedKernel>(device, own);
     }
     return *kernel;
