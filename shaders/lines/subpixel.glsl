@@ -15,6 +15,7 @@
 #define CORE_SUBPIXEL
 
 #include "element/element_frame.glsl"
+#include "lines/element_image.glsl"
 #include "element/inside.glsl"
 #include "isosurface/isovalues.glsl"
 #include "arithmetic/model.glsl"
@@ -135,49 +136,57 @@ void core_judge_inside(inout core_subpixel subpixel, uint element, elvis_vec3 xi
 }
 #endif
 
-// `corners`: relative to the image of xi. `own_face`: as in core_judge_faces.
-core_subpixel core_subpixel_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvis_vec3 corner1, elvis_vec3 corner2,
-                       elvis_vec3 corner3, elvis_real curvature, elvis_vec3 plane_normal, elvis_vec3 direction, int own_face) {
+// `corners`: of a part of the surface that is flat but for their error, around a point with this normal, seen in this direction.
+// `own_face`: as in core_judge_faces.
+core_subpixel core_subpixel_at(core_element_image image, core_frame frame, core_cut_square corners, elvis_vec3 normal,
+                               elvis_vec3 direction, int own_face) {
     core_subpixel subpixel;
-    const elvis_vec3 d0 = core_to_xi(frame, corner0), d1 = core_to_xi(frame, corner1);
-    const elvis_vec3 d2 = core_to_xi(frame, corner2), d3 = core_to_xi(frame, corner3);
+    const elvis_vec3 origin = image.shift - image.position;
+    const elvis_vec3 d0 = core_to_xi(frame, origin + corners.corner0), d1 = core_to_xi(frame, origin + corners.corner1);
+    const elvis_vec3 d2 = core_to_xi(frame, origin + corners.corner2), d3 = core_to_xi(frame, origin + corners.corner3);
     const elvis_vec3 most = max(max(abs(d0), abs(d1)), max(abs(d2), abs(d3)));
     const elvis_real largest_step = max(max(most.x, most.y), most.z);
     const elvis_real rounding = max(max(frame.xi_error.x, frame.xi_error.y), frame.xi_error.z);
-    const elvis_real beyond = core_prediction_error(curvature, largest_step) + rounding;
+    const elvis_real beyond = core_prediction_error(image.curvature, largest_step) + rounding;
     subpixel.region = core_region(d0, d1, d2, d3, beyond, largest_step + beyond);
-    subpixel.middle = xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
-    const elvis_vec3 to_middle = abs(subpixel.middle - xi);
+    subpixel.middle = image.xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
+    const elvis_vec3 to_middle = abs(subpixel.middle - image.xi);
     subpixel.step = max(max(to_middle.x, to_middle.y), to_middle.z);
     subpixel.row0 = frame.row0;
     subpixel.row1 = frame.row1;
     subpixel.row2 = frame.row2;
-    core_judge_faces(subpixel, xi, frame.xi_error, plane_normal, direction, own_face);
+    core_judge_faces(subpixel, image.xi, frame.xi_error, normal, direction, own_face);
     const bool is_sound = frame.is_sound && core_is_finite(largest_step);
     subpixel.is_inside = subpixel.is_inside && is_sound;
     subpixel.is_outside = subpixel.is_outside && is_sound;
     subpixel.is_crossed = subpixel.is_crossed && is_sound;
     subpixel.is_grazed = subpixel.is_grazed && is_sound;
+#if ELVIS_HAS_INSIDE
+    core_judge_inside(subpixel, image.element, image.xi);
+#endif
     return subpixel;
 }
 
-// Whether the subpixel lies outside for another reason than the bound, which says nothing far away from a curved element: the point of
-// the element nearest to the prediction is the one that it was made from but for `move`, and the subpixel lies beyond a face by far
-// more. That element and surface could meet elsewhere all the same takes an element that folds; of those the curvature is not
-// known.
-bool core_is_clear_of(core_subpixel subpixel, elvis_real subpixel_radius, elvis_real move, elvis_real curvature) {
-    return curvature < elvis_real(1e6LF) && subpixel.clearance > elvis_real(0.5LF) * subpixel_radius + elvis_real(8) * move;
-}
+// How the subpixel lies to the point at which the mapping is linearized.
+struct core_approach {
+    // Another point of the element is so much nearer to the subpixel that more would be known from there.
+    bool is_far;
+    // The subpixel lies outside for another reason than the bound, which says nothing far away from a curved element: the point of the
+    // element nearest to the prediction is about the one that it was made from, and the subpixel lies beyond a face by far more than
+    // the two are apart. Only an element that folds could meet the surface elsewhere all the same; of those no curvature is known.
+    bool is_clear;
+};
 
-// Whether the linearized mapping alone (element/linearization.glsl) says that the subpixel lies outside. `start`: what it predicts for
-// the middle of the subpixel; `extent`: the maximum norm of the corners' offsets from it.
-bool core_is_far_outside(elvis_vec3 start, elvis_real extent, elvis_real curvature) {
-    // It keeps this many digits of coordinates in the element.
-    const elvis_real start_error = elvis_real(1e-2LF);
-    const elvis_vec3 from_centroid = abs(start - CORE_CENTROID);
-    const elvis_real step = max(max(from_centroid.x, from_centroid.y), from_centroid.z) + extent;
-    return core_excess(start.x, start.y, start.z) >
-           CORE_CONSTRAINT_NORM * (core_prediction_error(curvature, step) + extent + start_error);
+core_approach core_approach_to(core_subpixel subpixel, core_element_image image) {
+    const elvis_real radius = abs(subpixel.region.radius - subpixel.region.beyond - subpixel.step);
+    elvis_real x = subpixel.middle.x, y = subpixel.middle.y, z = subpixel.middle.z;
+    core_project(x, y, z);
+    const elvis_real move = max(max(abs(x - image.xi.x), abs(y - image.xi.y)), abs(z - image.xi.z));
+    core_approach approach;
+    approach.is_far = move > elvis_real(0.25LF) * radius && move > elvis_real(16) * CORE_ROUNDOFF;
+    approach.is_clear = !approach.is_far && image.curvature < elvis_real(1e6LF) &&
+                        subpixel.clearance > elvis_real(0.5LF) * radius + elvis_real(8) * move;
+    return approach;
 }
 
 struct core_isovalue_test {
