@@ -46,8 +46,9 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 #if CORE_LINES
 layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 
+#define CORE_WITH_CONTOURS 1
+#include "lines/isovalue_test.glsl"
 #include "lines/shown_square.glsl"
-#include "field/shown_model.glsl"
 
 struct core_pixel_lines {
     elvis_real value;
@@ -60,12 +61,12 @@ core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, e
         core_cut_corners(core_picture_square(elvis_real(pixel.x), elvis_real(pixel.y), elvis_real(0.5LF)));
     const core_subpixel subpixel =
         core_shown_square_at(image, square, core_plane_normal.xyz, direction, CORE_NO_FACE).subpixel;
+    const core_isovalue_test test = core_isovalues_in(image, subpixel.region);
     core_pixel_lines lines;
-    const core_model model = core_shown_model(element, xi, subpixel.region, lines.value);
-    const core_isovalue_test test = core_test_isovalues(model, subpixel.region);
+    lines.value = test.value;
     lines.is_settled = square.all_hit && subpixel.is_inside && (test.is_excluded || test.is_met);
     lines.has_contour = lines.is_settled && test.is_met;
-    lines.is_estimated = core_n_isovalues > 0u && core_is_model_estimated(element);
+    lines.is_estimated = test.is_estimated;
     return lines;
 }
 #endif

@@ -1,18 +1,14 @@
-// Which of the listed pixels meet contours of the field, and boundaries of elements, on a cut plane; for the elements of one class
-// (lines/line_search.glsl). These are taken from the list of the pixel's tile.
+// Which of the listed pixels meet contours of the field, and boundaries of elements, on a cut plane; for the elements of one class, of
+// which the list of the pixel's tile tells.
 
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
 #include "picture/cut_frame.glsl"
 #include "tiles/cut_tiles.glsl"
-#include "picture/samples.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_list_block { uint core_list[]; };
-layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
-layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
-layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 layout(push_constant) uniform core_parameters {
     uint core_width;
     uint core_tiles_a_row;
@@ -31,8 +27,8 @@ layout(push_constant) uniform core_parameters {
 #define CORE_LINE_STACK_SIZE (CORE_STACK_SIZE + CORE_TILE_CAPACITY)
 
 #include "arithmetic/driver_limit.glsl"
-#include "field/shown_model.glsl"
 #include "lines/on_plane.glsl"
+#include "lines/subpixel_search.glsl"
 #include "lines/line_search.glsl"
 
 // Puts what the list of the tile names on the stack, its first entry uppermost; returns their number.

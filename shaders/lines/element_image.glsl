@@ -4,6 +4,7 @@
 #define CORE_ELEMENT_IMAGE
 
 #include "element/face_frame.glsl"
+#include "picture/cut_frame.glsl"
 
 struct core_element_image {
     uint element;

@@ -33,6 +33,6 @@ void core_enter_element(uint element, core_cut_square corners, elvis_vec3 middle
     const elvis_real extent = room * max(max(reach.x, reach.y), reach.z);
     const bool is_skipped = room > elvis_real(0) && is_linearized &&
                             core_is_far_outside(start, extent, elvis_fetch_core_curvatures(element, 0u));
-    search.element = is_skipped ? CORE_NO_ELEMENT : element;
+    search.item = is_skipped ? CORE_NO_ITEM : element;
     core_begin_element(search, start);
 }

@@ -1,4 +1,4 @@
-// What is known of the lines in one pixel, and how it is marked. The kernel brings core_marks and core_counts.
+// What is known of the lines in one pixel, and how it is marked.
 
 #ifndef CORE_LINE_MARKS
 #define CORE_LINE_MARKS
@@ -6,13 +6,18 @@
 #include "element/place.glsl"
 #include "picture/samples.glsl"
 
+// [0]: evaluations; others: entries of lists of pixels.
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
+
 struct core_line_marks {
     // What is looked for, and not yet found.
     bool wants_contour, wants_mesh;
     bool has_contour, has_mesh_line;
     // Something is left of which it cannot be told whether it shows such a line.
     bool is_contour_open, is_mesh_open;
-    // The answer rests on bounds that are estimated.
+    // The answer rests on bounds that are estimates.
     bool is_estimated;
 };
 

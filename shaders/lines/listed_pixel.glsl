@@ -1,13 +1,10 @@
 // The pixel of an invocation, from the list of those that are still open, on any surface but planes: it is decided, or listed anew.
 
-#include "element/place.glsl"
-#include "picture/samples.glsl"
+#include "arithmetic/driver_limit.glsl"
+#include "arithmetic/precision.glsl"
+#include "lines/line_marks.glsl"
 
 layout(set = 0, binding = 2, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
-// [0]: evaluations; [core_open_count]: pixels that stay open.
-layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
-layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
-layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 // Words of element/place.glsl, as in core_open.
 layout(set = 0, binding = 7, std430) readonly buffer core_list_block { uint core_list[]; };
 #if CORE_ON_FACES
@@ -35,8 +32,7 @@ layout(push_constant) uniform core_parameters {
     uint core_is_closed;
 };
 
-#include "arithmetic/driver_limit.glsl"
-#include "lines/line_marks.glsl"
+#include "lines/search_state.glsl"
 #include "picture/surroundings.glsl"
 
 struct core_listed_pixel {
@@ -73,14 +69,22 @@ core_listed_pixel core_listed_pixel_here() {
     return listed;
 }
 
-// `lines`: the answer; `is_unfinished`: it lacks something that was to be looked at.
-void core_answer(core_listed_pixel listed, core_line_marks lines, bool is_unfinished) {
-    const uint open = core_undecided_lines(lines, is_unfinished || core_has_driver_given_up(core_size.x >> 31));
+// `is_complete`: what is looked at is all that there may be in the pixel; else that no line is met is not certain.
+core_line_search core_begin_listed(core_listed_pixel listed, uint most_level, bool has_nodes, bool is_complete) {
+    core_line_search search = core_begin_search(listed.column, listed.row, most_level, listed.lines, has_nodes);
+    core_leave_open(search.lines, listed.lines.wants_contour && !is_complete, listed.lines.wants_mesh && !is_complete);
+    return search;
+}
+
+void core_answer(core_listed_pixel listed, core_line_search search) {
+    const bool is_cut_short = core_is_unfinished(search) || core_has_driver_given_up(core_size.x >> 31);
+    const uint open = core_undecided_lines(search.lines, is_cut_short);
     const bool is_last = core_open_count == 0u;
     if (listed.is_pixel && !is_last && open != 0u) {
         core_open[atomicAdd(core_counts[core_open_count], 1u)] = listed.pixel | open;
     }
     if (listed.is_pixel) {
-        core_mark_lines(listed.pixel, lines, is_last ? open : 0u);
+        core_mark_lines(listed.pixel, search.lines, is_last ? open : 0u);
     }
+    core_count_evaluations(search.n_evaluations);
 }

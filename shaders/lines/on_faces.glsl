@@ -1,4 +1,4 @@
-// Faces of elements, for lines/line_search.glsl. The face that the pixel shows is asked first, then all others of which patches reach
+// Faces of elements, for lines/subpixel_search.glsl. The face that the pixel shows is asked first, then all others of which patches reach
 // into a box around the pixel's part of the tangent plane. Each subpixel lies on the tangent plane of the face near it
 // (lines/own_face.glsl), so that what bends vanishes with the subpixel's size.
 //
@@ -6,7 +6,8 @@
 // it.
 
 #include "boundary/face_patch.glsl"
-#include "lines/search_state.glsl"
+#include "element/face_frame.glsl"
+#include "lines/surface_box.glsl"
 #include "lines/own_face.glsl"
 
 #define CORE_MOVES_FIRST 0
@@ -14,8 +15,6 @@
 struct core_surface {
     core_tangent tangent;
     core_box box;
-    // Diagonal of the box around the pixel's square.
-    float diagonal;
     bool is_smooth;
     // Where the pixel's own point lies, and whether that is an element of this class; rays enter the volume there.
     core_place place;
@@ -31,20 +30,17 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     surface.enters = (place.class_and_face & CORE_PLACE_ENTERS) != 0u;
     const core_cut_square corners =
         core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, elvis_real(0.5LF)));
-    const core_box box = core_box_of_corners(corners);
-    surface.diagonal = length(box.upper - box.lower);
     // And what a pixel's part of a smooth surface departs from its plane.
-    surface.box = core_widened(box, core_box_margin(box, corners.error) + 0.1 * surface.diagonal);
+    surface.box = core_box_around(corners, corners.error, 0.1);
 
     const bool is_filled = (place.class_and_face & CORE_PLACE_FILLED) != 0u;
     const bool is_usable = listed.is_pixel && !listed.around.is_hidden;
-    core_line_search search = core_begin_search(listed.column, listed.row, core_subdivisions, listed.lines,
-                                                is_usable && !is_filled && corners.all_hit);
     // Beside a face that fills the pixel, or on a smooth surface, there is nothing else.
     const bool is_complete = is_usable && (is_filled || (listed.around.is_smooth && corners.all_hit));
-    core_leave_open(search.lines, listed.lines.wants_contour && !is_complete, listed.lines.wants_mesh && !is_complete);
+    core_line_search search =
+        core_begin_listed(listed, core_subdivisions, is_usable && !is_filled && corners.all_hit, is_complete);
     if (surface.is_shown_class) {
-        search.element = is_usable ? place.element : CORE_NO_ELEMENT;
+        search.item = is_usable ? place.element : CORE_NO_ITEM;
         search.own_face = core_face_of(place);
         search.x = place.x;
         search.y = place.y;
@@ -52,6 +48,8 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     }
     return search;
 }
+
+bool core_reaches(core_surface surface, core_node node) { return core_overlaps_box(node, surface.box); }
 
 bool core_is_shown_face(core_surface surface, uint element, int face) {
     return surface.is_shown_class && element == surface.place.element && face == core_face_of(surface.place);
@@ -81,7 +79,7 @@ void core_enter(core_surface surface, uint patch_index, inout core_line_search s
     const bool reaches = core_patch_reaches(patch_index, surface.box, core_face_frame(search.own_face), start);
     const bool is_news = !core_is_shown_face(surface, of_face.x, search.own_face) && face != search.last_face;
     search.last_face = reaches && is_news ? face : search.last_face;
-    search.element = reaches && is_news ? of_face.x : CORE_NO_ELEMENT;
+    search.item = reaches && is_news ? of_face.x : CORE_NO_ITEM;
     core_begin_element(search, start);
 }
 
@@ -97,9 +95,9 @@ bool core_is_left_out(core_surface surface, core_line_search search, core_shown_
     // Another sheet of the surface, farther behind than a smooth one departs from its plane: hidden by this one.
     const core_cut_square corners = square.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
-    const bool is_behind = surface.is_smooth && !core_is_shown_face(surface, search.element, search.own_face) && !approach.is_far &&
+    const bool is_behind = surface.is_smooth && !core_is_shown_face(surface, search.item, search.own_face) && !approach.is_far &&
                            dot(surface.tangent.normal, middle - surface.tangent.point) <
-                               elvis_real(-0.5LF) * elvis_real(surface.diagonal);
+                               elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
     return corners.all_hit && (square.subpixel.is_outside || approach.is_clear || is_behind);
 }
 

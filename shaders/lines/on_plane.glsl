@@ -1,6 +1,7 @@
-// A cut plane, for lines/line_search.glsl.
+// A cut plane, for lines/subpixel_search.glsl.
 
 #include "lines/search_state.glsl"
+#include "lines/surface_box.glsl"
 #include "lines/element_start.glsl"
 #include "cut_surface/cut_horizon.glsl"
 
@@ -25,16 +26,17 @@ core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind)
     const core_picture_square place = core_picture_square(column, row, elvis_real(0.5LF));
     core_surface surface;
     surface.corners = core_cut_corners(place);
-    const core_box box = core_box_of_corners(surface.corners);
-    surface.box = core_box(vec3(-3e38), vec3(3e38));
+    surface.box = core_box(vec3(-3e38), vec3(3e38), 3e38);
     if (surface.corners.all_hit) {
-        surface.box = core_widened(box, core_box_margin(box, surface.corners.error));
+        surface.box = core_box_around(surface.corners, surface.corners.error, 0.0);
     }
     surface.hides_behind = hides_behind;
     surface.volume_end = core_volume_end();
     surface.is_absent = core_shows_nothing(surface.corners, place, surface.volume_end);
     return surface;
 }
+
+bool core_reaches(core_surface surface, core_node node) { return core_overlaps_box(node, surface.box); }
 
 void core_enter(core_surface surface, uint element, inout core_line_search search) {
     const core_cut_square corners = surface.corners;

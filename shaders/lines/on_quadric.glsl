@@ -1,16 +1,15 @@
-// A quadric without ends, for lines/line_search.glsl, silhouettes included. All that the rays of a square can meet of it
+// A quadric without ends, for lines/subpixel_search.glsl, silhouettes included. All that the rays of a square can meet of it
 // (cut_surface/quadric_span.glsl) shrinks with the square, and needs no plane of the whole pixel. If the pixel shows the front of the
 // quadric, then its back counts as hidden, and a line on the front is met.
 
-#include "lines/search_state.glsl"
+#include "lines/surface_box.glsl"
 #include "lines/element_start.glsl"
 #include "cut_surface/quadric_span.glsl"
 
 #define CORE_MOVES_FIRST 0
 
 struct core_surface {
-    core_tangent tangent;
-    elvis_vec3 direction;
+    elvis_vec3 normal, direction;
     // The pixel's span.
     core_cut_square corners;
     core_box box;
@@ -24,18 +23,16 @@ core_cut_square core_span_corners(core_quadric_span quadric_span) {
 }
 
 core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
-    surface.tangent = listed.tangent;
+    surface.normal = listed.tangent.normal;
     surface.direction = listed.ray.direction;
     surface.is_front = core_is_quadric_front(listed.column, listed.row, listed.tangent.point);
     surface.corners = core_span_corners(
         core_quadric_span_at(core_picture_square(listed.column, listed.row, elvis_real(0.5LF)), surface.is_front));
-    const core_box box = core_box_of_corners(surface.corners);
-    surface.box = core_widened(box, core_box_margin(box, surface.corners.error));
-    const bool is_known = surface.corners.all_hit;
-    core_line_search search = core_begin_search(listed.column, listed.row, core_subdivisions, listed.lines, is_known);
-    core_leave_open(search.lines, listed.lines.wants_contour && !is_known, listed.lines.wants_mesh && !is_known);
-    return search;
+    surface.box = core_box_around(surface.corners, surface.corners.error, 0.0);
+    return core_begin_listed(listed, core_subdivisions, surface.corners.all_hit, surface.corners.all_hit);
 }
+
+bool core_reaches(core_surface surface, core_node node) { return core_overlaps_box(node, surface.box); }
 
 void core_enter(core_surface surface, uint element, inout core_line_search search) {
     const elvis_vec3 middle = elvis_real(0.5LF) * (surface.corners.corner0 + surface.corners.corner1);
@@ -52,8 +49,7 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     }
     corners.all_hit = true;
     // In no face: a span that looks as if it lay in one may cross it.
-    core_shown_square square =
-        core_shown_square_at(image, corners, surface.tangent.normal, surface.direction, CORE_N_FACES);
+    core_shown_square square = core_shown_square_at(image, corners, surface.normal, surface.direction, CORE_N_FACES);
     square.is_absent = quadric_span.is_absent;
     square.is_seen = front.is_known;
     square.is_whole = search.level == 0u;

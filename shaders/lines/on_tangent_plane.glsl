@@ -1,12 +1,11 @@
-// A curved surface that is not the boundary, for lines/line_search.glsl: its tangent plane at the pixel's own point. What the surface
-// departs from the plane is an error of the corners of squares: half the bending times the square of the distance, along the oblique
-// ray.
+// A curved surface that is no face, for lines/subpixel_search.glsl: its tangent plane at the pixel's own point. What the surface departs
+// from the plane is an error of the corners of squares: half the bending times the square of the distance, along the oblique ray.
 //
 // Where the neighbouring pixels see points near that plane, the surface is smooth. Where one of them sees a point in front of it,
 // something may hide a part of the pixel, and nothing is certain. Elsewhere, at edges and silhouettes, other parts of the surface
 // may show in the pixel: a line that is met there is met. That none is met rests on a square three times the pixel's size.
 
-#include "lines/search_state.glsl"
+#include "lines/surface_box.glsl"
 #include "lines/element_start.glsl"
 #if CORE_SHAPE_ROWS > 0
 #include "cut_surface/quadric_span.glsl"
@@ -31,22 +30,21 @@ struct core_surface {
 elvis_real core_first_half_size(bool is_smooth) { return is_smooth ? elvis_real(0.5LF) : elvis_real(1.5LF); }
 
 core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
+    const bool is_smooth = listed.around.is_smooth;
+    surface.is_smooth = is_smooth;
     surface.tangent = listed.tangent;
     surface.direction = listed.ray.direction;
-    surface.is_smooth = listed.around.is_smooth;
-    surface.corners = core_tangent_square(
-        listed.tangent, core_picture_square(listed.column, listed.row, core_first_half_size(surface.is_smooth)));
-    const elvis_real facing = -dot(listed.tangent.normal, listed.ray.direction), stretch = length(listed.ray.direction);
-    const core_departure bent = core_departure_in(listed.tangent, surface.corners, core_bending[listed.pixel],
-                                                  listed.around.turning, facing / stretch);
+    surface.corners =
+        core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, core_first_half_size(is_smooth)));
+    const core_departure bent = core_departure_in(surface.corners, listed.tangent, listed.ray, core_bending[listed.pixel],
+                                                  listed.around.turning);
     surface.departure = bent.distance;
-    const core_box box = core_box_of_corners(surface.corners);
-    surface.box = core_widened(box, core_box_margin(box, surface.corners.error + bent.distance));
+    surface.box = core_box_around(surface.corners, surface.corners.error + bent.distance, 0.0);
 
     // Where corners miss the plane, or nearly so, the surface is seen edge on.
-    const bool is_edge_on = facing < CORE_EDGE_ON * stretch;
+    const bool is_edge_on = -dot(listed.tangent.normal, listed.ray.direction) < CORE_EDGE_ON * length(listed.ray.direction);
     // Where the surface is not smooth, only lines that are met are looked for, and not twice.
-    const bool is_searched = surface.is_smooth || core_subdivisions <= CORE_FEW_SUBDIVISIONS;
+    const bool is_searched = is_smooth || core_subdivisions <= CORE_FEW_SUBDIVISIONS;
 #if CORE_SHAPE_ROWS > 0
     // lines/on_quadric.glsl decides more.
     const bool is_left = core_subdivisions > 0u && core_is_quadric_front(listed.column, listed.row, listed.tangent.point);
@@ -54,13 +52,13 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     const bool is_left = false;
 #endif
     const bool is_known = surface.corners.all_hit && !listed.around.is_hidden && !is_edge_on && is_searched && !is_left;
-    core_line_search search =
-        core_begin_search(listed.column, listed.row,
-                          surface.is_smooth ? core_subdivisions : min(core_subdivisions, CORE_ROUGH_LEVEL), listed.lines, is_known);
-    core_leave_open(search.lines, listed.lines.wants_contour && !is_known, listed.lines.wants_mesh && !is_known);
-    search.lines.is_estimated = !surface.is_smooth || bent.is_estimated;
+    const uint most_level = is_smooth ? core_subdivisions : min(core_subdivisions, CORE_ROUGH_LEVEL);
+    core_line_search search = core_begin_listed(listed, most_level, is_known, is_known);
+    search.lines.is_estimated = !is_smooth || bent.is_estimated;
     return search;
 }
+
+bool core_reaches(core_surface surface, core_node node) { return core_overlaps_box(node, surface.box); }
 
 void core_enter(core_surface surface, uint element, inout core_line_search search) {
     // What the surface departs from its tangent plane is less than the pixel's size where it is smooth.
@@ -70,14 +68,13 @@ void core_enter(core_surface surface, uint element, inout core_line_search searc
 
 core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
     const bool is_first = search.level == 0u;
-    core_cut_square corners = core_tangent_square(
-        surface.tangent,
-        core_picture_square(place.column, place.row, is_first ? core_first_half_size(surface.is_smooth) : place.half_size));
+    core_picture_square asked = place;
+    asked.half_size = is_first ? core_first_half_size(surface.is_smooth) : place.half_size;
+    core_cut_square corners = core_tangent_square(surface.tangent, asked);
     // As those around them were.
     corners.all_hit = true;
     corners.error += surface.departure;
-    core_shown_square square =
-        core_shown_square_at(image, corners, surface.tangent.normal, surface.direction, CORE_NO_FACE);
+    core_shown_square square = core_shown_square_at(image, corners, surface.tangent.normal, surface.direction, CORE_NO_FACE);
     square.is_whole = is_first && surface.is_smooth;
     square.is_oversized = is_first && !surface.is_smooth;
     square.is_seen = !square.is_oversized;

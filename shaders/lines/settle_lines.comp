@@ -13,15 +13,10 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
 #include "picture/cut_frame.glsl"
-#include "element/place.glsl"
-#include "picture/samples.glsl"
+#include "lines/line_marks.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
-// [0]: evaluations, [1]: listed pixels.
-layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
-layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
-layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 layout(set = 0, binding = 6, std430) buffer core_places_block { core_place core_places[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer core_list_block { uint core_list[]; };
 #if !CORE_ON_FACES
@@ -40,12 +35,9 @@ layout(push_constant) uniform core_parameters {
 };
 
 #include "picture/distrust_column.glsl"
-#include "lines/line_marks.glsl"
 #include "lines/own_face.glsl"
+#include "lines/isovalue_test.glsl"
 #include "picture/surroundings.glsl"
-#if CORE_WITH_CONTOURS
-#include "field/shown_model.glsl"
-#endif
 
 // The column's next pixel that shows an element of the class, from a row on.
 uint core_next_row(uint column, uint row, uint end_row) {
@@ -78,8 +70,7 @@ core_shown_square core_settled_square(core_element_image image, core_place place
     const core_tangent tangent = core_shown_tangent(pixel, ray);
     const core_surroundings around = core_look_around(at, pixel, true, tangent);
     core_cut_square corners = core_tangent_square(tangent, in_picture);
-    const core_departure bent = core_departure_in(tangent, corners, core_bending[pixel], around.turning,
-                                                  -dot(tangent.normal, ray.direction) / length(ray.direction));
+    const core_departure bent = core_departure_in(corners, tangent, ray, core_bending[pixel], around.turning);
     corners.error += bent.distance;
     core_shown_square square = core_shown_square_at(image, corners, tangent.normal, ray.direction, CORE_NO_FACE);
     fills = around.is_smooth;
@@ -101,16 +92,10 @@ void core_settle(uvec2 at, uint pixel) {
     core_line_marks lines = core_wanted_lines(CORE_WITH_CONTOURS != 0, core_with_mesh_lines != 0u);
     lines.has_mesh_line = lines.wants_mesh && is_seen && square.subpixel.is_crossed;
     lines.is_mesh_open = lines.wants_mesh && !is_filled;
-#if CORE_WITH_CONTOURS
-    elvis_real value;
-    const core_model model = core_shown_model(image.element, image.xi, square.subpixel.region, value);
-    const core_isovalue_test test = core_test_isovalues(model, square.subpixel.region);
+    const core_isovalue_test test = core_isovalues_in(image, square.subpixel.region);
     lines.has_contour = is_inside && test.is_met;
-    lines.is_contour_open = !(is_filled && test.is_excluded);
-    const bool is_model_estimated = core_is_model_estimated(image.element);
-    is_estimated = is_estimated || is_model_estimated;
-#endif
-    lines.is_estimated = is_estimated && !is_outside;
+    lines.is_contour_open = lines.wants_contour && !(is_filled && test.is_excluded);
+    lines.is_estimated = !is_outside && (is_estimated || test.is_estimated);
     core_mark_lines(pixel, lines, 0u);
     const uint open = core_undecided_lines(lines, false);
     if (open != 0u) {

@@ -17,7 +17,6 @@
 #include "element/element_frame.glsl"
 #include "lines/element_image.glsl"
 #include "element/inside.glsl"
-#include "isosurface/isovalues.glsl"
 #include "arithmetic/model.glsl"
 #include "element/prediction.glsl"
 #include "element/shape_region.glsl"
@@ -25,10 +24,8 @@
 struct core_subpixel {
     core_region region;
     bool is_inside, is_outside, is_crossed;
-#if ELVIS_HAS_INSIDE
     // Bits of the corners that lie inside, and outside.
     uint inside_corners, outside_corners;
-#endif
     // The surface lies in a face of the element, which is on the far side.
     bool is_behind;
     // The surface touches the element along an edge at most, within rounding, and does not show it.
@@ -54,84 +51,78 @@ struct core_subpixel {
 // not wider than this many times the rounding, at extreme magnification, it stays open.
 #define CORE_GRAZE_SPAN elvis_real(64)
 
+uint core_bits(bvec4 b) { return uint(b.x) | uint(b.y) << 1 | uint(b.z) << 2 | uint(b.w) << 3; }
+elvis_real core_least(elvis_vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
+elvis_real core_most(elvis_vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
+
+// By how much a linear function changes from xi to the corners.
+elvis_vec4 core_at_corners(core_region region, elvis_vec3 slope) {
+    return elvis_vec4(dot(slope, region.corner0), dot(slope, region.corner1), dot(slope, region.corner2), dot(slope, region.corner3));
+}
+
 // What the faces of the element say about the region of `subpixel` around xi. `xi_error`: rounding of the corners' coordinates.
 // `own_face`: the face in which the surface lies by definition; CORE_NO_FACE if it is any surface, which then has this normal.
 void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, elvis_vec3 xi_error, elvis_vec3 plane_normal, elvis_vec3 direction,
                       int own_face) {
     const core_region region = subpixel.region;
-    bool is_inside0 = true, is_inside1 = true, is_inside2 = true, is_inside3 = true;
-    bool is_outside0 = false, is_outside1 = false, is_outside2 = false, is_outside3 = false;
     subpixel.is_inside = true;
     subpixel.is_outside = subpixel.is_behind = false;
+    subpixel.inside_corners = 15u;
+    subpixel.outside_corners = 0u;
     subpixel.clearance = -CORE_UNKNOWN;
-    elvis_real beyond0 = elvis_real(0), beyond1 = elvis_real(0), beyond2 = elvis_real(0), beyond3 = elvis_real(0), blur = elvis_real(0);
+    elvis_vec4 beyond = elvis_vec4(0);
+    elvis_real blur = elvis_real(0);
     bool is_wide = own_face < 0;
     uint n_straddled = 0u;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
-        const elvis_real here = dot(constraint.xyz, xi) + constraint.w;
-        const elvis_real g0 = here + dot(constraint.xyz, region.corner0), g1 = here + dot(constraint.xyz, region.corner1);
-        const elvis_real g2 = here + dot(constraint.xyz, region.corner2), g3 = here + dot(constraint.xyz, region.corner3);
+        const elvis_vec4 g = dot(constraint.xyz, xi) + constraint.w + core_at_corners(region, constraint.xyz);
         const elvis_real slack = core_model_norm1(constraint.xyz) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF);
-        const elvis_real lowest = min(min(g0, g1), min(g2, g3)) - slack, highest = max(max(g0, g1), max(g2, g3)) + slack;
+        const elvis_real rounding = dot(abs(constraint.xyz), xi_error);
+        const elvis_real lowest = core_least(g) - slack, highest = core_most(g) + slack;
         // The face's normal in the world is J^-T times that in xi.
         const elvis_vec3 normal = constraint.x * subpixel.row0 + constraint.y * subpixel.row1 + constraint.z * subpixel.row2;
         const elvis_vec3 across = cross(normal, plane_normal);
         const bool is_parallel = dot(across, across) <= CORE_COPLANAR * CORE_COPLANAR * dot(normal, normal);
-        const bool coincides = is_parallel && lowest <= elvis_real(0) && highest >= elvis_real(0) &&
-                               highest - lowest <= elvis_real(2) * slack + elvis_real(4) * dot(abs(constraint.xyz), xi_error);
+        const bool is_reached = lowest <= elvis_real(0) && highest >= elvis_real(0);
+        const bool coincides =
+            is_parallel && is_reached && highest - lowest <= elvis_real(2) * slack + elvis_real(4) * rounding;
         const bool lies_in = own_face >= 0 ? face == own_face : coincides;
         subpixel.is_behind = subpixel.is_behind || (lies_in && own_face < 0 && dot(normal, direction) < elvis_real(0));
         subpixel.is_inside = subpixel.is_inside && (lies_in || highest <= elvis_real(0));
         subpixel.is_outside = subpixel.is_outside || (!lies_in && lowest > elvis_real(0));
-        const elvis_real rounding = dot(abs(constraint.xyz), xi_error);
+        subpixel.inside_corners &= lies_in ? 15u : core_bits(lessThan(g, elvis_vec4(-slack)));
+        subpixel.outside_corners |= lies_in ? 0u : core_bits(greaterThan(g, elvis_vec4(slack)));
         const elvis_real span = highest - lowest - elvis_real(2) * slack;
-        const bool is_straddled = !lies_in && lowest <= elvis_real(0) && highest >= elvis_real(0);
+        const bool is_straddled = !lies_in && is_reached;
         const elvis_real weight = is_straddled ? elvis_real(1) / span : elvis_real(0);
         is_wide = is_wide && (!is_straddled || span >= CORE_GRAZE_SPAN * rounding);
-        beyond0 += weight * g0;
-        beyond1 += weight * g1;
-        beyond2 += weight * g2;
-        beyond3 += weight * g3;
+        beyond += weight * g;
         blur += weight * rounding;
         n_straddled += is_straddled ? 1u : 0u;
-        const elvis_real above = min(min(g0, g1), min(g2, g3)) - rounding, below = -max(max(g0, g1), max(g2, g3)) - rounding;
+        const elvis_real above = core_least(g) - rounding, below = -core_most(g) - rounding;
         // A surface that is the element's own face runs neither beyond nor before it.
         const elvis_real clearance = lies_in ? (own_face >= 0 ? max(above, below) : -CORE_UNKNOWN) : above;
         subpixel.clearance = max(subpixel.clearance, clearance);
-        is_inside0 = is_inside0 && (lies_in || g0 < -slack);
-        is_inside1 = is_inside1 && (lies_in || g1 < -slack);
-        is_inside2 = is_inside2 && (lies_in || g2 < -slack);
-        is_inside3 = is_inside3 && (lies_in || g3 < -slack);
-        is_outside0 = is_outside0 || (!lies_in && g0 > slack);
-        is_outside1 = is_outside1 || (!lies_in && g1 > slack);
-        is_outside2 = is_outside2 || (!lies_in && g2 > slack);
-        is_outside3 = is_outside3 || (!lies_in && g3 > slack);
     }
     const bool is_exact = region.beyond <= elvis_real(4) * max(max(xi_error.x, xi_error.y), xi_error.z);
-    subpixel.is_grazed = is_wide && is_exact && n_straddled >= 2u && min(min(beyond0, beyond1), min(beyond2, beyond3)) >= -blur;
-    subpixel.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
-                      (is_outside0 || is_outside1 || is_outside2 || is_outside3);
-#if ELVIS_HAS_INSIDE
-    subpixel.inside_corners = uint(is_inside0) | uint(is_inside1) << 1 | uint(is_inside2) << 2 | uint(is_inside3) << 3;
-    subpixel.outside_corners = uint(is_outside0) | uint(is_outside1) << 1 | uint(is_outside2) << 2 | uint(is_outside3) << 3;
-#endif
+    subpixel.is_grazed = is_wide && is_exact && n_straddled >= 2u && core_least(beyond) >= -blur;
+    subpixel.is_crossed = subpixel.inside_corners != 0u && subpixel.outside_corners != 0u;
 }
 
 #if ELVIS_HAS_INSIDE
-// What the element's own boundary says, beside the faces (core_subpixel_at).
+// What the element's own boundary says, beside the faces.
 void core_judge_inside(inout core_subpixel subpixel, uint element, elvis_vec3 xi) {
     const core_region region = subpixel.region;
-    const core_inside g = core_inside_at(element, xi);
-    const elvis_real slack = core_model_norm1(g.slope) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF) + g.rounding +
-                             core_inside_bend(g, region.radius);
-    const elvis_real g0 = g.value + dot(g.slope, region.corner0), g1 = g.value + dot(g.slope, region.corner1);
-    const elvis_real g2 = g.value + dot(g.slope, region.corner2), g3 = g.value + dot(g.slope, region.corner3);
-    subpixel.inside_corners &= uint(g0 < -slack) | uint(g1 < -slack) << 1 | uint(g2 < -slack) << 2 | uint(g3 < -slack) << 3;
-    subpixel.outside_corners |= uint(g0 > slack) | uint(g1 > slack) << 1 | uint(g2 > slack) << 2 | uint(g3 > slack) << 3;
-    const bool is_sound = core_is_finite(g0 + g1 + g2 + g3 + slack);
-    subpixel.is_inside = subpixel.is_inside && is_sound && max(max(g0, g1), max(g2, g3)) + slack <= elvis_real(0);
-    subpixel.is_outside = subpixel.is_outside || (is_sound && min(min(g0, g1), min(g2, g3)) - slack > elvis_real(0));
+    const core_inside inside = core_inside_at(element, xi);
+    const elvis_real slack = core_model_norm1(inside.slope) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF) + inside.rounding +
+                             core_inside_bend(inside, region.radius);
+    const elvis_vec4 g = inside.value + core_at_corners(region, inside.slope);
+    subpixel.inside_corners &= core_bits(lessThan(g, elvis_vec4(-slack)));
+    subpixel.outside_corners |= core_bits(greaterThan(g, elvis_vec4(slack)));
+    const bool is_sound = core_is_finite(g.x + g.y + g.z + g.w + slack);
+    subpixel.is_inside = subpixel.is_inside && is_sound && core_most(g) + slack <= elvis_real(0);
+    subpixel.is_outside = subpixel.is_outside || (is_sound && core_least(g) - slack > elvis_real(0));
     subpixel.is_crossed = is_sound && subpixel.inside_corners != 0u && subpixel.outside_corners != 0u;
 }
 #endif
@@ -187,28 +178,6 @@ core_approach core_approach_to(core_subpixel subpixel, core_element_image image)
     approach.is_clear = !approach.is_far && image.curvature < elvis_real(1e6LF) &&
                         subpixel.clearance > elvis_real(0.5LF) * radius + elvis_real(8) * move;
     return approach;
-}
-
-struct core_isovalue_test {
-    // No isovalue in the subpixel; one for certain, if the subpixel is inside the element.
-    bool is_excluded, is_met;
-};
-
-core_isovalue_test core_test_isovalues(core_model f, core_region subpixel) {
-    const elvis_real c0 = dot(f.slope, subpixel.corner0), c1 = dot(f.slope, subpixel.corner1);
-    const elvis_real c2 = dot(f.slope, subpixel.corner2), c3 = dot(f.slope, subpixel.corner3);
-    // The corners themselves are within `beyond` of where they were predicted.
-    const elvis_real error = CORE_MODEL_UP * (f.remainder + core_model_norm1(f.slope) *
-                                                                (subpixel.beyond + elvis_real(4) * CORE_ROUNDOFF * subpixel.radius)) +
-                             elvis_real(4) * CORE_ROUNDOFF * abs(f.value) + CORE_MODEL_TINY;
-    const elvis_real least = f.value + min(min(c0, c1), min(c2, c3)), most = f.value + max(max(c0, c1), max(c2, c3));
-    const uint first = core_isovalue_from(least - error);
-    const uint first_sure = core_isovalue_from(least + error);
-    const bool is_known = core_model_is_known(f);
-    core_isovalue_test test;
-    test.is_excluded = is_known && (first == core_n_isovalues || core_isovalue_at(first) > most + error);
-    test.is_met = is_known && first_sure < core_n_isovalues && core_isovalue_at(first_sure) <= most - error;
-    return test;
 }
 
 #endif

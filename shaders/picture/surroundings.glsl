@@ -73,8 +73,9 @@ struct core_departure {
 
 // What the surface may depart from its tangent plane in the square. Triangles are flat but not together: what normals of neighbours
 // tell counts, too. Twice that stands for a bending that is not known, or known by a loose bound alone.
-core_departure core_departure_in(core_tangent tangent, core_cut_square square, elvis_real bending, elvis_real turning,
-                                 elvis_real cosine) {
+core_departure core_departure_in(core_cut_square square, core_tangent tangent, core_cut_ray ray, elvis_real bending,
+                                 elvis_real turning) {
+    const elvis_real cosine = -dot(tangent.normal, ray.direction) / length(ray.direction);
     const elvis_vec3 d0 = square.corner0 - tangent.point, d1 = square.corner1 - tangent.point;
     const elvis_vec3 d2 = square.corner2 - tangent.point, d3 = square.corner3 - tangent.point;
     const elvis_real farthest = max(max(dot(d0, d0), dot(d1, d1)), max(dot(d2, d2), dot(d3, d3)));
