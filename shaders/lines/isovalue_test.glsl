@@ -19,7 +19,7 @@ core_isovalue_test core_isovalues_in(core_element_image image, core_region squar
     core_isovalue_test test = core_isovalue_test(elvis_real(0), true, false, false);
 #if CORE_WITH_CONTOURS
     const core_model f = core_shown_model(image.element, image.xi, square, test.value);
-    const elvis_vec4 change = core_at_corners(square, f.slope);
+    const elvis_vec4 change = core_at_corners(square, elvis_real(0), f.slope);
     // The corners themselves are within `beyond` of where they were predicted.
     const elvis_real error = CORE_MODEL_UP * (f.remainder + core_model_norm1(f.slope) *
                                                                 (square.beyond + elvis_real(4) * CORE_ROUNDOFF * square.radius)) +

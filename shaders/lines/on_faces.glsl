@@ -49,8 +49,6 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return search;
 }
 
-bool core_reaches(core_surface surface, core_node node) { return core_overlaps_box(node, surface.box); }
-
 bool core_is_shown_face(core_surface surface, uint element, int face) {
     return surface.is_shown_class && element == surface.place.element && face == core_face_of(surface.place);
 }
@@ -88,17 +86,13 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     // A line is met on faces that face the viewer as the one that the pixel shows; both sides of an element of two dimensions do.
     const bool is_facing = CORE_HAS_TWO_DIMENSIONS || square.enters == surface.enters;
     square.is_seen = square.is_seen && is_facing;
-    return square;
-}
-
-bool core_is_left_out(core_surface surface, core_line_search search, core_shown_square square, core_approach approach) {
     // Another sheet of the surface, farther behind than a smooth one departs from its plane: hidden by this one.
     const core_cut_square corners = square.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
-    const bool is_behind = surface.is_smooth && !core_is_shown_face(surface, search.item, search.own_face) && !approach.is_far &&
-                           dot(surface.tangent.normal, middle - surface.tangent.point) <
-                               elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
-    return corners.all_hit && (square.subpixel.is_outside || approach.is_clear || is_behind);
+    square.is_hidden = surface.is_smooth && !core_is_shown_face(surface, search.item, search.own_face) && !square.approach.is_far &&
+                       dot(surface.tangent.normal, middle - surface.tangent.point) <
+                           elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
+    return square;
 }
 
 elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {

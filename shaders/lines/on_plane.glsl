@@ -36,8 +36,6 @@ core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind)
     return surface;
 }
 
-bool core_reaches(core_surface surface, core_node node) { return core_overlaps_box(node, surface.box); }
-
 void core_enter(core_surface surface, uint element, inout core_line_search search) {
     const core_cut_square corners = surface.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
@@ -49,13 +47,8 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     const elvis_vec3 direction = core_cut_ray_at(place.column, place.row).direction;
     core_shown_square square = core_shown_square_at(image, corners, core_plane_normal.xyz, direction, CORE_NO_FACE);
     square.is_absent = core_shows_nothing(corners, place, surface.volume_end);
+    square.is_hidden = square.subpixel.is_grazed || (square.subpixel.is_behind && surface.hides_behind);
     return square;
-}
-
-bool core_is_left_out(core_surface surface, core_line_search search, core_shown_square square, core_approach approach) {
-    const core_subpixel subpixel = square.subpixel;
-    return square.corners.all_hit && (subpixel.is_outside || subpixel.is_grazed || approach.is_clear ||
-                                      (subpixel.is_behind && surface.hides_behind));
 }
 
 elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {

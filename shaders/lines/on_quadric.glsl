@@ -32,8 +32,6 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return core_begin_listed(listed, core_subdivisions, surface.corners.all_hit, surface.corners.all_hit);
 }
 
-bool core_reaches(core_surface surface, core_node node) { return core_overlaps_box(node, surface.box); }
-
 void core_enter(core_surface surface, uint element, inout core_line_search search) {
     const elvis_vec3 middle = elvis_real(0.5LF) * (surface.corners.corner0 + surface.corners.corner1);
     core_enter_element(element, surface.corners, middle, elvis_real(0), search);
@@ -52,12 +50,9 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     core_shown_square square = core_shown_square_at(image, corners, surface.normal, surface.direction, CORE_N_FACES);
     square.is_absent = quadric_span.is_absent;
     square.is_seen = front.is_known;
+    square.approach.is_clear = square.approach.is_clear && front.is_known;
     square.is_whole = search.level == 0u;
     return square;
-}
-
-bool core_is_left_out(core_surface surface, core_line_search search, core_shown_square square, core_approach approach) {
-    return square.subpixel.is_outside || (square.is_seen && approach.is_clear);
 }
 
 elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {

@@ -58,8 +58,6 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return search;
 }
 
-bool core_reaches(core_surface surface, core_node node) { return core_overlaps_box(node, surface.box); }
-
 void core_enter(core_surface surface, uint element, inout core_line_search search) {
     // What the surface departs from its tangent plane is less than the pixel's size where it is smooth.
     const elvis_real room = surface.is_smooth ? elvis_real(2) : elvis_real(0);
@@ -79,10 +77,6 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     square.is_oversized = is_first && !surface.is_smooth;
     square.is_seen = !square.is_oversized;
     return square;
-}
-
-bool core_is_left_out(core_surface surface, core_line_search search, core_shown_square square, core_approach approach) {
-    return square.subpixel.is_outside || approach.is_clear;
 }
 
 elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {

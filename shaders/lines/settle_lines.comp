@@ -55,15 +55,13 @@ uint core_next_row(uint column, uint row, uint end_row) {
     return row;
 }
 
-// The pixel's square on the surface. `fills`: what of it lies in the element fills the pixel. `is_estimated`: that it lies there rests on
-// estimates.
-core_shown_square core_settled_square(core_element_image image, core_place place, uvec2 at, uint pixel, out bool fills,
-                                      out bool is_estimated) {
+// The pixel's square on the surface. `is_estimated`: where it lies rests on estimates.
+core_shown_square core_pixel_square(core_element_image image, core_place place, uvec2 at, uint pixel, out bool is_estimated) {
     const core_picture_square in_picture = core_picture_square(elvis_real(at.x), elvis_real(at.y), elvis_real(0.5LF));
 #if CORE_ON_FACES
     core_shown_square square = core_own_square_at(image, max(core_face_of(place), 0), in_picture);
     const core_surroundings around = core_look_around(at, pixel, true, square.tangent);
-    fills = true;
+    square.is_whole = true;
     is_estimated = false;
 #else
     const core_cut_ray ray = core_cut_ray_at(in_picture.column, in_picture.row);
@@ -73,7 +71,7 @@ core_shown_square core_settled_square(core_element_image image, core_place place
     const core_departure bent = core_departure_in(corners, tangent, ray, core_bending[pixel], around.turning);
     corners.error += bent.distance;
     core_shown_square square = core_shown_square_at(image, corners, tangent.normal, ray.direction, CORE_NO_FACE);
-    fills = around.is_smooth;
+    square.is_whole = around.is_smooth;
     is_estimated = !around.is_smooth || bent.is_estimated;
 #endif
     square.is_seen = square.corners.all_hit && !around.is_hidden;
@@ -85,10 +83,10 @@ void core_settle(uvec2 at, uint pixel) {
     const core_place place = core_places[pixel];
     const core_element_image image =
         core_element_image_at(is_outside ? 0u : place.element, elvis_vec3(place.x, place.y, place.z));
-    bool fills, is_estimated;
-    const core_shown_square square = core_settled_square(image, place, at, pixel, fills, is_estimated);
+    bool is_estimated;
+    const core_shown_square square = core_pixel_square(image, place, at, pixel, is_estimated);
     const bool is_seen = !is_outside && square.is_seen;
-    const bool is_inside = is_seen && square.subpixel.is_inside, is_filled = is_inside && fills;
+    const bool is_inside = is_seen && square.subpixel.is_inside, is_filled = is_inside && square.is_whole;
     core_line_marks lines = core_wanted_lines(CORE_WITH_CONTOURS != 0, core_with_mesh_lines != 0u);
     lines.has_mesh_line = lines.wants_mesh && is_seen && square.subpixel.is_crossed;
     lines.is_mesh_open = lines.wants_mesh && !is_filled;

@@ -11,10 +11,11 @@ struct core_shown_square {
     core_cut_square corners;
     core_frame frame;
     core_subpixel subpixel;
+    core_approach approach;
     // The plane through the corners; not on cut planes.
     core_tangent tangent;
-    // The surface is not there.
-    bool is_absent;
+    // The surface is not there. Its part there, if it lies in the element, does not show it.
+    bool is_absent, is_hidden;
     // What is met in the square is seen in the pixel.
     bool is_seen;
     // The square is the pixel, and what fills it hides everything else. It is larger than the pixel.
@@ -30,7 +31,8 @@ core_shown_square core_shown_square_at(core_element_image image, core_cut_square
     square.corners = corners;
     square.frame = core_frame_at(image.position, image.jacobian, corners.error + image.shift_error);
     square.subpixel = core_subpixel_at(image, square.frame, corners, normal, direction, own_face);
-    square.is_absent = square.is_whole = square.is_oversized = square.enters = false;
+    square.approach = core_approach_to(square.subpixel, image);
+    square.is_absent = square.is_hidden = square.is_whole = square.is_oversized = square.enters = false;
     square.is_seen = corners.all_hit;
     return square;
 }

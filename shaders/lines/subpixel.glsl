@@ -36,8 +36,6 @@ struct core_subpixel {
     // Length of the predicted step to the middle of the corners, and that point.
     elvis_real step;
     elvis_vec3 middle;
-    // Rows of J^-1.
-    elvis_vec3 row0, row1, row2;
 };
 
 // Sine of the angle between surface and face below which the face may lie in the surface, if it also lies there within rounding.
@@ -55,16 +53,19 @@ uint core_bits(bvec4 b) { return uint(b.x) | uint(b.y) << 1 | uint(b.z) << 2 | u
 elvis_real core_least(elvis_vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 elvis_real core_most(elvis_vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 
-// By how much a linear function changes from xi to the corners.
-elvis_vec4 core_at_corners(core_region region, elvis_vec3 slope) {
-    return elvis_vec4(dot(slope, region.corner0), dot(slope, region.corner1), dot(slope, region.corner2), dot(slope, region.corner3));
+// Of a linear function with this value at xi.
+elvis_vec4 core_at_corners(core_region region, elvis_real value, elvis_vec3 slope) {
+    return elvis_vec4(value + dot(slope, region.corner0), value + dot(slope, region.corner1), value + dot(slope, region.corner2),
+                      value + dot(slope, region.corner3));
 }
 
-// What the faces of the element say about the region of `subpixel` around xi. `xi_error`: rounding of the corners' coordinates.
-// `own_face`: the face in which the surface lies by definition; CORE_NO_FACE if it is any surface, which then has this normal.
-void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, elvis_vec3 xi_error, elvis_vec3 plane_normal, elvis_vec3 direction,
+// What the faces of the element say about the region of `subpixel` around xi. `own_face`: the face in which the surface lies by
+// definition; CORE_NO_FACE if it is any surface, which then has this normal.
+void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, core_frame frame, elvis_vec3 plane_normal, elvis_vec3 direction,
                       int own_face) {
     const core_region region = subpixel.region;
+    // Rounding of the corners' coordinates.
+    const elvis_vec3 xi_error = frame.xi_error;
     subpixel.is_inside = true;
     subpixel.is_outside = subpixel.is_behind = false;
     subpixel.inside_corners = 15u;
@@ -76,12 +77,12 @@ void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, elvis_vec3 xi
     uint n_straddled = 0u;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
-        const elvis_vec4 g = dot(constraint.xyz, xi) + constraint.w + core_at_corners(region, constraint.xyz);
+        const elvis_vec4 g = core_at_corners(region, dot(constraint.xyz, xi) + constraint.w, constraint.xyz);
         const elvis_real slack = core_model_norm1(constraint.xyz) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF);
         const elvis_real rounding = dot(abs(constraint.xyz), xi_error);
         const elvis_real lowest = core_least(g) - slack, highest = core_most(g) + slack;
         // The face's normal in the world is J^-T times that in xi.
-        const elvis_vec3 normal = constraint.x * subpixel.row0 + constraint.y * subpixel.row1 + constraint.z * subpixel.row2;
+        const elvis_vec3 normal = constraint.x * frame.row0 + constraint.y * frame.row1 + constraint.z * frame.row2;
         const elvis_vec3 across = cross(normal, plane_normal);
         const bool is_parallel = dot(across, across) <= CORE_COPLANAR * CORE_COPLANAR * dot(normal, normal);
         const bool is_reached = lowest <= elvis_real(0) && highest >= elvis_real(0);
@@ -117,7 +118,7 @@ void core_judge_inside(inout core_subpixel subpixel, uint element, elvis_vec3 xi
     const core_inside inside = core_inside_at(element, xi);
     const elvis_real slack = core_model_norm1(inside.slope) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF) + inside.rounding +
                              core_inside_bend(inside, region.radius);
-    const elvis_vec4 g = inside.value + core_at_corners(region, inside.slope);
+    const elvis_vec4 g = core_at_corners(region, inside.value, inside.slope);
     subpixel.inside_corners &= core_bits(lessThan(g, elvis_vec4(-slack)));
     subpixel.outside_corners |= core_bits(greaterThan(g, elvis_vec4(slack)));
     const bool is_sound = core_is_finite(g.x + g.y + g.z + g.w + slack);
@@ -143,10 +144,7 @@ core_subpixel core_subpixel_at(core_element_image image, core_frame frame, core_
     subpixel.middle = image.xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
     const elvis_vec3 to_middle = abs(subpixel.middle - image.xi);
     subpixel.step = max(max(to_middle.x, to_middle.y), to_middle.z);
-    subpixel.row0 = frame.row0;
-    subpixel.row1 = frame.row1;
-    subpixel.row2 = frame.row2;
-    core_judge_faces(subpixel, image.xi, frame.xi_error, normal, direction, own_face);
+    core_judge_faces(subpixel, image.xi, frame, normal, direction, own_face);
     const bool is_sound = frame.is_sound && core_is_finite(largest_step);
     subpixel.is_inside = subpixel.is_inside && is_sound;
     subpixel.is_outside = subpixel.is_outside && is_sound;

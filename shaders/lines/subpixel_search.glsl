@@ -8,7 +8,6 @@
 // lines/line_search.glsl wants,
 //
 //     core_square_on         what a square of the picture shows of the surface, and what an element has to do with it
-//     core_is_left_out       whether the element has no line to show there
 //     core_expected_point    where on the surface the middle of a square is
 //     CORE_MOVES_FIRST       1: a subpixel is judged from near it alone; 0: from far, too, where that is enough
 
@@ -60,17 +59,18 @@ void core_ask(core_surface surface, inout core_line_search search) {
         core_element_image_at(is_active ? search.item : 0u, elvis_vec3(search.x, search.y, search.z));
     const core_shown_square square = core_square_on(surface, search, image, core_searched_place(search));
     search.n_evaluations += is_active ? 1u : 0u;
-    const core_approach approach = core_approach_to(square.subpixel, image);
-    const bool is_in = is_active && !square.is_absent && !core_is_left_out(surface, search, square, approach);
-    const bool may_move = is_in && square.corners.all_hit && approach.is_far && search.moves < CORE_MAX_MOVES;
-    const bool is_judged = is_in && !(CORE_MOVES_FIRST != 0 && may_move);
+    const bool is_known = square.corners.all_hit;
+    const bool is_out = square.is_absent ||
+                        (is_known && (square.subpixel.is_outside || square.approach.is_clear || square.is_hidden));
+    const bool may_move = is_active && !is_out && is_known && square.approach.is_far && search.moves < CORE_MAX_MOVES;
+    const bool is_judged = is_active && !is_out && !(CORE_MOVES_FIRST != 0 && may_move);
 
     core_line_marks lines = search.lines;
-    const bool is_inside = square.corners.all_hit && square.subpixel.is_inside;
+    const bool is_inside = is_known && square.subpixel.is_inside;
     const core_isovalue_test test = core_isovalues_in(image, square.subpixel.region);
     core_find_lines(lines, is_judged && lines.wants_contour && square.is_seen && is_inside && test.is_met,
                     is_judged && lines.wants_mesh && square.is_seen && square.subpixel.is_crossed);
-    const bool leaves_contour = is_judged && lines.wants_contour && !(square.corners.all_hit && test.is_excluded);
+    const bool leaves_contour = is_judged && lines.wants_contour && !(is_known && test.is_excluded);
     const bool leaves_mesh = is_judged && lines.wants_mesh && !is_inside;
     const bool is_left_open = leaves_contour || leaves_mesh;
     const bool moves_on = may_move && (CORE_MOVES_FIRST != 0 || is_left_open);

@@ -16,9 +16,9 @@ core_box core_box_around(core_cut_square corners, elvis_real error, float share)
     const vec3 lowest = min(min(q0, q1), min(q2, q3)), highest = max(max(q0, q1), max(q2, q3));
     const vec3 size = max(abs(lowest), abs(highest)) + abs(in_hierarchy);
     const float diagonal = length(highest - lowest);
-    const float margin = 2.0 * float(error) + 8.0 * CORE_FLOAT_ROUNDOFF * max(max(size.x, size.y), size.z) +
-                         (share > 0.0 ? share * diagonal : 0.0);
+    const float margin = 2.0 * float(error) + 8.0 * CORE_FLOAT_ROUNDOFF * max(max(size.x, size.y), size.z) + share * diagonal;
     return core_box(lowest - margin, highest + margin, diagonal);
 }
 
-bool core_overlaps_box(core_node node, core_box box) { return core_overlaps(node, box.lower, box.upper); }
+// For lines/line_search.glsl.
+#define core_reaches(surface, node) core_overlaps(node, surface.box.lower, surface.box.upper)
