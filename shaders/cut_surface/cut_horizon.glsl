@@ -30,9 +30,10 @@ bool core_is_behind_volume(core_cut_point corner0, core_cut_point corner1, core_
            volume_end;
 }
 
-// The same for a square with its middle at (column, row), in pixels.
-bool core_is_square_behind_volume(elvis_real column, elvis_real row, elvis_real half_size, elvis_real volume_end) {
-    const core_cut_column left = core_cut_begin(column - half_size), right = core_cut_begin(column + half_size);
-    return core_is_behind_volume(core_cut_pixel(left, row - half_size), core_cut_pixel(right, row - half_size),
-                                 core_cut_pixel(left, row + half_size), core_cut_pixel(right, row + half_size), volume_end);
+bool core_is_square_behind_volume(core_picture_square place, elvis_real volume_end) {
+    const core_cut_column left = core_cut_begin(place.column - place.half_size);
+    const core_cut_column right = core_cut_begin(place.column + place.half_size);
+    const elvis_real upper = place.row - place.half_size, lower = place.row + place.half_size;
+    return core_is_behind_volume(core_cut_pixel(left, upper), core_cut_pixel(right, upper), core_cut_pixel(left, lower),
+                                 core_cut_pixel(right, lower), volume_end);
 }

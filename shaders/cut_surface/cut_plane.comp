@@ -47,8 +47,9 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 #if CORE_LINES
 layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 
-#include "lines/subpixel.glsl"
-#include "field/shown_model.glsl"
+#define CORE_WITH_CONTOURS 1
+#include "lines/isovalue_test.glsl"
+#include "lines/shown_square.glsl"
 
 struct core_pixel_lines {
     elvis_real value;
@@ -56,26 +57,17 @@ struct core_pixel_lines {
 };
 
 core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, elvis_vec3 direction) {
-    elvis_vec3 position;
-    elvis_mat3 jacobian;
-    elvis_mapping_jacobian(element, xi, position, jacobian);
-    const core_cut_square square = core_cut_corners(elvis_real(pixel.x), elvis_real(pixel.y), elvis_real(0.5LF));
-    const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
-    const elvis_vec3 origin = shift - position;
-    const elvis_real error = square.error + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
-    const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
-    core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0,
-                                              origin + square.corner1, origin + square.corner2, origin + square.corner3, curvature,
-                                              core_plane_normal.xyz, direction, CORE_NO_FACE);
-#if ELVIS_HAS_INSIDE
-    core_judge_inside(subpixel, element, xi);
-#endif
+    const core_element_image image = core_element_image_at(element, xi);
+    const core_cut_square square =
+        core_cut_corners(core_picture_square(elvis_real(pixel.x), elvis_real(pixel.y), elvis_real(0.5LF)));
+    const core_subpixel subpixel =
+        core_shown_square_at(image, square, core_plane_normal.xyz, direction, CORE_NO_FACE).subpixel;
+    const core_isovalue_test test = core_isovalues_in(image, subpixel.region);
     core_pixel_lines lines;
-    const core_model model = core_shown_model(element, xi, subpixel.region, lines.value);
-    const core_isovalue_test test = core_test_isovalues(model, subpixel.region);
+    lines.value = test.value;
     lines.is_settled = square.all_hit && subpixel.is_inside && (test.is_excluded || test.is_met);
     lines.has_contour = lines.is_settled && test.is_met;
-    lines.is_estimated = core_n_isovalues > 0u && core_is_model_estimated(element);
+    lines.is_estimated = test.is_estimated;
     return lines;
 }
 #endif

@@ -11,8 +11,8 @@
 // upper bound: where that is negative, nothing is met, either, and all rays have met the quadric before. The front is met where f
 // falls, at s <= B / (2 A).
 //
-// Where all rays of the square meet the quadric's front, they do near the tangent plane at a point p of the front.
-// At a point y of that plane, f(y) = f(p) + q(y - p); where f falls along the ray there by at least B, the front is at most
+// Where all rays of the square meet the quadric's front, the front is a square of its own near the tangent plane at one of its points
+// p. At a point y of that plane, f(y) = f(p) + q(y - p); where f falls along the ray there by at least B, the front is at most
 // 2 |f(y)| / B away along the ray, since a > 0.
 
 #include "cut_surface/surface_quadric.glsl"
@@ -30,9 +30,10 @@ struct core_quadric_span {
 };
 
 // `is_front`: only the front of the quadric counts, which hides its back.
-core_quadric_span core_quadric_span_at(elvis_real column, elvis_real row, elvis_real half_size, bool is_front) {
-    const core_cut_column along = core_cut_begin(column);
-    const elvis_real down = row - along.row0;
+core_quadric_span core_quadric_span_at(core_picture_square place, bool is_front) {
+    const elvis_real half_size = place.half_size;
+    const core_cut_column along = core_cut_begin(place.column);
+    const elvis_real down = place.row - along.row0;
     const elvis_vec3 base = (along.base + down * along.base_row).xyz;
     const elvis_vec3 direction = (along.direction + down * along.direction_row).xyz;
     const elvis_mat3 to_world = elvis_mat3(CORE_SHAPE(0).xyz, CORE_SHAPE(1).xyz, CORE_SHAPE(2).xyz);
@@ -86,9 +87,10 @@ struct core_front {
     bool is_known;
 };
 
-core_front core_quadric_front(elvis_real column, elvis_real row, elvis_real half_size, core_quadric_span quadric_span) {
-    const core_cut_column along = core_cut_begin(column);
-    const elvis_real down = row - along.row0;
+core_front core_quadric_front(core_picture_square place, core_quadric_span quadric_span) {
+    const elvis_real half_size = place.half_size;
+    const core_cut_column along = core_cut_begin(place.column);
+    const elvis_real down = place.row - along.row0;
     const elvis_vec3 base = (along.base + down * along.base_row).xyz;
     const elvis_vec3 direction = (along.direction + down * along.direction_row).xyz;
     const elvis_mat3 to_world = elvis_mat3(CORE_SHAPE(0).xyz, CORE_SHAPE(1).xyz, CORE_SHAPE(2).xyz);
@@ -100,7 +102,7 @@ core_front core_quadric_front(elvis_real column, elvis_real row, elvis_real half
                                                      elvis_real(0), noise);
     const elvis_real steepness = length(there.gradient), largest = elvis_real(0.5LF) * CORE_SHAPE(4).w;
     front.tangent.normal = to_world * (there.gradient / max(steepness, elvis_real(1e-30LF)));
-    front.square = core_tangent_square(front.tangent, column, row, half_size);
+    front.square = core_tangent_square(front.tangent, place);
     const elvis_vec3 d0 = front.square.corner0 - front.tangent.point, d1 = front.square.corner1 - front.tangent.point;
     const elvis_vec3 d2 = front.square.corner2 - front.tangent.point, d3 = front.square.corner3 - front.tangent.point;
     const elvis_real square_radius = max(max(dot(d0, d0), dot(d1, d1)), max(dot(d2, d2), dot(d3, d3)));
@@ -118,8 +120,7 @@ core_front core_quadric_front(elvis_real column, elvis_real row, elvis_real half
 
 // Whether a point that a ray meets is on the side where the ray comes in.
 bool core_is_quadric_front(elvis_real column, elvis_real row, elvis_vec3 point) {
-    const core_cut_column along = core_cut_begin(column);
-    const elvis_vec3 direction = (along.direction + (row - along.row0) * along.direction_row).xyz;
+    const elvis_vec3 direction = core_cut_ray_at(column, row).direction;
     const elvis_mat3 to_world = elvis_mat3(CORE_SHAPE(0).xyz, CORE_SHAPE(1).xyz, CORE_SHAPE(2).xyz);
     const elvis_vec3 local = direction * to_world;
     return core_quadric_at((point - CORE_SHAPE(3).xyz) * to_world, local, elvis_real(0), elvis_real(0)).slope < elvis_real(0);

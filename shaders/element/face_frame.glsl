@@ -1,5 +1,11 @@
 // Faces of the reference shapes as parallelograms or triangles corner + s a + r b, s and r from 0 to 1 (s + r <= 1).
 
+#ifndef CORE_FACE_FRAME
+#define CORE_FACE_FRAME
+
+// The element is a face itself.
+#define CORE_HAS_TWO_DIMENSIONS (ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL || ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE)
+
 struct core_face {
     elvis_vec3 corner, a, b;
     // 1 if a x b points out of the reference shape, else -1.
@@ -28,7 +34,7 @@ core_face core_face_frame(int face) {
     if (face == 2) f = core_face(c1, y, z - x, elvis_real(1), true);
     if (face == 3) f = core_face(c3, x, z - y, elvis_real(-1), true);
     if (face == 4) f = core_face(c0, y, z, elvis_real(-1), true);
-#elif ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL || ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+#elif CORE_HAS_TWO_DIMENSIONS
     // The element itself.
     f.corner.z = elvis_real(0);
     f.is_triangle = ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE;
@@ -43,9 +49,11 @@ core_face core_face_frame(int face) {
 
 // The Jacobian of the mapping, completed for elements of two dimensions by a normal of about the length of the other columns.
 elvis_mat3 core_full_jacobian(elvis_mat3 jacobian) {
-#if ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL || ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+#if CORE_HAS_TWO_DIMENSIONS
     const elvis_vec3 normal = cross(jacobian[0], jacobian[1]);
     jacobian[2] = normal / sqrt(length(normal));
 #endif
     return jacobian;
 }
+
+#endif

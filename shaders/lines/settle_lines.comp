@@ -13,16 +13,10 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
 #include "picture/cut_frame.glsl"
-#include "element/face_frame.glsl"
-#include "element/place.glsl"
-#include "picture/samples.glsl"
+#include "lines/line_marks.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
-// [0]: evaluations, [1]: listed pixels.
-layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
-layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
-layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 layout(set = 0, binding = 6, std430) buffer core_places_block { core_place core_places[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer core_list_block { uint core_list[]; };
 #if !CORE_ON_FACES
@@ -40,14 +34,10 @@ layout(push_constant) uniform core_parameters {
     uint core_with_mesh_lines;
 };
 
-
 #include "picture/distrust_column.glsl"
-#include "lines/subpixel.glsl"
 #include "lines/own_face.glsl"
+#include "lines/isovalue_test.glsl"
 #include "picture/surroundings.glsl"
-#if CORE_WITH_CONTOURS
-#include "field/shown_model.glsl"
-#endif
 
 // The column's next pixel that shows an element of the class, from a row on.
 uint core_next_row(uint column, uint row, uint end_row) {
@@ -65,6 +55,54 @@ uint core_next_row(uint column, uint row, uint end_row) {
     return row;
 }
 
+// The pixel's square on the surface. `is_estimated`: where it lies rests on estimates.
+core_shown_square core_pixel_square(core_element_image image, core_place place, uvec2 at, uint pixel, out bool is_estimated) {
+    const core_picture_square in_picture = core_picture_square(elvis_real(at.x), elvis_real(at.y), elvis_real(0.5LF));
+#if CORE_ON_FACES
+    core_shown_square square = core_own_square_at(image, max(core_face_of(place), 0), in_picture);
+    const core_surroundings around = core_look_around(at, pixel, true, square.tangent);
+    square.is_whole = true;
+    is_estimated = false;
+#else
+    const core_cut_ray ray = core_cut_ray_at(in_picture.column, in_picture.row);
+    const core_tangent tangent = core_shown_tangent(pixel, ray);
+    const core_surroundings around = core_look_around(at, pixel, true, tangent);
+    core_cut_square corners = core_tangent_square(tangent, in_picture);
+    const core_departure bent = core_departure_in(corners, tangent, ray, core_bending[pixel], around.turning);
+    corners.error += bent.distance;
+    core_shown_square square = core_shown_square_at(image, corners, tangent.normal, ray.direction, CORE_NO_FACE);
+    square.is_whole = around.is_smooth;
+    is_estimated = !around.is_smooth || bent.is_estimated;
+#endif
+    square.is_seen = square.corners.all_hit && !around.is_hidden;
+    return square;
+}
+
+void core_settle(uvec2 at, uint pixel) {
+    const bool is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
+    const core_place place = core_places[pixel];
+    const core_element_image image =
+        core_element_image_at(is_outside ? 0u : place.element, elvis_vec3(place.x, place.y, place.z));
+    bool is_estimated;
+    const core_shown_square square = core_pixel_square(image, place, at, pixel, is_estimated);
+    const bool is_seen = !is_outside && square.is_seen;
+    const bool is_inside = is_seen && square.subpixel.is_inside, is_filled = is_inside && square.is_whole;
+    core_line_marks lines = core_wanted_lines(CORE_WITH_CONTOURS != 0, core_with_mesh_lines != 0u);
+    lines.has_mesh_line = lines.wants_mesh && is_seen && square.subpixel.is_crossed;
+    lines.is_mesh_open = lines.wants_mesh && !is_filled;
+    const core_isovalue_test test = core_isovalues_in(image, square.subpixel.region);
+    lines.has_contour = is_inside && test.is_met;
+    lines.is_contour_open = lines.wants_contour && !(is_filled && test.is_excluded);
+    lines.is_estimated = !is_outside && (is_estimated || test.is_estimated);
+    core_mark_lines(pixel, lines, 0u);
+    const uint open = core_undecided_lines(lines, false);
+    if (open != 0u) {
+        core_places[pixel].class_and_face |=
+            (square.enters ? CORE_PLACE_ENTERS : 0u) | (is_filled ? CORE_PLACE_FILLED : 0u);
+        core_list[atomicAdd(core_counts[1], 1u)] = pixel | open;
+    }
+}
+
 void main() {
     const uint column = gl_WorkGroupID.x * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
     const uint first_row = (core_first_tile_row + gl_WorkGroupID.y) * CORE_TILE_HEIGHT;
@@ -72,76 +110,8 @@ void main() {
     uint n_evaluations = 0u;
     uint row = core_next_row(column, first_row, end_row);
     while (row < end_row) {
-        const uint pixel = row * core_size.x + column;
-        const bool is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
-        const core_place place = core_places[pixel];
-        const uint element = is_outside ? 0u : place.element;
-        const elvis_vec3 xi = elvis_vec3(place.x, place.y, place.z);
-        elvis_vec3 position;
-        elvis_mat3 jacobian;
-        elvis_mapping_jacobian(element, xi, position, jacobian);
-        jacobian = core_full_jacobian(jacobian);
-        const elvis_vec3 shift = core_reference.xyz - elvis_origin(element);
-        const elvis_real curvature = elvis_fetch_core_curvatures(element, 0u);
-#if CORE_ON_FACES
-        const core_own_subpixel own = core_own_subpixel_at(xi, position, jacobian, shift, max(core_face_of(place), 0), curvature,
-                                                   elvis_real(column), elvis_real(row), elvis_real(0.5LF));
-        core_subpixel subpixel = own.subpixel;
-        const core_tangent tangent = own.tangent;
-        const core_surroundings around = core_look_around(uvec2(column, row), pixel, true, tangent);
-        const bool is_usable = own.square.all_hit && !around.is_hidden;
-        const bool fills = true, is_estimated = false;
-        const uint entering = own.enters ? CORE_PLACE_ENTERS : 0u;
-#else
-        const core_cut_column along = core_cut_begin(elvis_real(column));
-        const elvis_real down = elvis_real(row) - along.row0;
-        const elvis_vec3 direction = (along.direction + down * along.direction_row).xyz;
-        const elvis_real stretch = length(direction);
-        core_tangent tangent;
-        tangent.point = (along.base + down * along.base_row).xyz +
-                        (core_samples[pixel].depth / stretch - along.reference_distance) * direction;
-        tangent.normal = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
-        const core_surroundings around = core_look_around(uvec2(column, row), pixel, true, tangent);
-        const core_cut_square square = core_tangent_square(tangent, elvis_real(column), elvis_real(row), elvis_real(0.5LF));
-        const core_departure bent =
-            core_departure_in(tangent, square, core_bending[pixel], around.turning, -dot(tangent.normal, direction) / stretch);
-        const elvis_real error = square.error + bent.distance + CORE_ROUNDOFF * max(max(abs(shift.x), abs(shift.y)), abs(shift.z));
-        const elvis_vec3 origin = shift - position;
-        core_subpixel subpixel = core_subpixel_at(xi, core_frame_at(position, jacobian, error), origin + square.corner0, origin + square.corner1,
-                                      origin + square.corner2, origin + square.corner3, curvature, tangent.normal, direction,
-                                      CORE_NO_FACE);
-        const bool is_usable = square.all_hit && !around.is_hidden;
-        const bool fills = around.is_smooth, is_estimated = !around.is_smooth || bent.is_estimated;
-        const uint entering = 0u;
-#endif
-#if ELVIS_HAS_INSIDE
-        core_judge_inside(subpixel, element, xi);
-#endif
-        const bool is_inside = !is_outside && is_usable && subpixel.is_inside;
-        const bool is_filled = is_inside && fills;
-        const bool has_mesh_line = !is_outside && core_with_mesh_lines != 0u && is_usable && subpixel.is_crossed;
-        const bool is_mesh_open = core_with_mesh_lines != 0u && !has_mesh_line && !is_filled;
-        bool is_contour_open = false, has_contour = false, rests_on_estimates = is_estimated;
-#if CORE_WITH_CONTOURS
-        elvis_real value;
-        const core_model model = core_shown_model(element, xi, subpixel.region, value);
-        const core_isovalue_test test = core_test_isovalues(model, subpixel.region);
-        has_contour = is_inside && test.is_met;
-        is_contour_open = !has_contour && !(is_filled && test.is_excluded);
-        const bool is_model_estimated = core_is_model_estimated(element);
-        rests_on_estimates = rests_on_estimates || is_model_estimated;
-#endif
+        core_settle(uvec2(column, row), row * core_size.x + column);
         n_evaluations += 1u;
-        const uint flags = (has_contour ? CORE_FLAG_CONTOUR : 0u) | (has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) |
-                           (rests_on_estimates && !is_outside ? CORE_FLAG_ESTIMATED : 0u);
-        if (flags != 0u) {
-            core_marks[pixel].flags |= flags;
-        }
-        const uint open = (is_contour_open ? CORE_LIST_CONTOUR : 0u) | (is_mesh_open ? CORE_LIST_MESH_LINE : 0u);
-        if (open != 0u) {
-            core_places[pixel].class_and_face |= entering | (is_filled ? CORE_PLACE_FILLED : 0u);
-            core_list[atomicAdd(core_counts[1], 1u)] = pixel | open;
-        }
         row = core_next_row(column, row + 1u, end_row);
         if (row >= end_row) {
             break;
@@ -152,9 +122,6 @@ void main() {
     const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_class >> 31));
     core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
     if (end_row > first_row) {
-        const uint all_evaluations = subgroupAdd(n_evaluations);
-        if (subgroupElect()) {
-            atomicAdd(core_counts[0], all_evaluations);
-        }
+        core_count_evaluations(n_evaluations);
     }
 }

@@ -15,8 +15,8 @@
 #define CORE_SUBPIXEL
 
 #include "element/element_frame.glsl"
+#include "lines/element_image.glsl"
 #include "element/inside.glsl"
-#include "isosurface/isovalues.glsl"
 #include "arithmetic/model.glsl"
 #include "element/prediction.glsl"
 #include "element/shape_region.glsl"
@@ -24,10 +24,8 @@
 struct core_subpixel {
     core_region region;
     bool is_inside, is_outside, is_crossed;
-#if ELVIS_HAS_INSIDE
     // Bits of the corners that lie inside, and outside.
     uint inside_corners, outside_corners;
-#endif
     // The surface lies in a face of the element, which is on the far side.
     bool is_behind;
     // The surface touches the element along an edge at most, within rounding, and does not show it.
@@ -38,8 +36,6 @@ struct core_subpixel {
     // Length of the predicted step to the middle of the corners, and that point.
     elvis_real step;
     elvis_vec3 middle;
-    // Rows of J^-1.
-    elvis_vec3 row0, row1, row2;
 };
 
 // Sine of the angle between surface and face below which the face may lie in the surface, if it also lies there within rounding.
@@ -53,153 +49,133 @@ struct core_subpixel {
 // not wider than this many times the rounding, at extreme magnification, it stays open.
 #define CORE_GRAZE_SPAN elvis_real(64)
 
-// What the faces of the element say about the region of `subpixel` around xi. `xi_error`: rounding of the corners' coordinates.
-// `own_face`: the face in which the surface lies by definition; CORE_NO_FACE if it is any surface, which then has this normal.
-void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, elvis_vec3 xi_error, elvis_vec3 plane_normal, elvis_vec3 direction,
+uint core_bits(bvec4 b) { return uint(b.x) | uint(b.y) << 1 | uint(b.z) << 2 | uint(b.w) << 3; }
+elvis_real core_least(elvis_vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
+elvis_real core_most(elvis_vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
+
+// Of a linear function with this value at xi.
+elvis_vec4 core_at_corners(core_region region, elvis_real value, elvis_vec3 slope) {
+    return elvis_vec4(value + dot(slope, region.corner0), value + dot(slope, region.corner1), value + dot(slope, region.corner2),
+                      value + dot(slope, region.corner3));
+}
+
+// What the faces of the element say about the region of `subpixel` around xi. `own_face`: the face in which the surface lies by
+// definition; CORE_NO_FACE if it is any surface, which then has this normal.
+void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, core_frame frame, elvis_vec3 plane_normal, elvis_vec3 direction,
                       int own_face) {
     const core_region region = subpixel.region;
-    bool is_inside0 = true, is_inside1 = true, is_inside2 = true, is_inside3 = true;
-    bool is_outside0 = false, is_outside1 = false, is_outside2 = false, is_outside3 = false;
+    // Rounding of the corners' coordinates.
+    const elvis_vec3 xi_error = frame.xi_error;
     subpixel.is_inside = true;
     subpixel.is_outside = subpixel.is_behind = false;
+    subpixel.inside_corners = 15u;
+    subpixel.outside_corners = 0u;
     subpixel.clearance = -CORE_UNKNOWN;
-    elvis_real beyond0 = elvis_real(0), beyond1 = elvis_real(0), beyond2 = elvis_real(0), beyond3 = elvis_real(0), blur = elvis_real(0);
+    elvis_vec4 beyond = elvis_vec4(0);
+    elvis_real blur = elvis_real(0);
     bool is_wide = own_face < 0;
     uint n_straddled = 0u;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
-        const elvis_real here = dot(constraint.xyz, xi) + constraint.w;
-        const elvis_real g0 = here + dot(constraint.xyz, region.corner0), g1 = here + dot(constraint.xyz, region.corner1);
-        const elvis_real g2 = here + dot(constraint.xyz, region.corner2), g3 = here + dot(constraint.xyz, region.corner3);
+        const elvis_vec4 g = core_at_corners(region, dot(constraint.xyz, xi) + constraint.w, constraint.xyz);
         const elvis_real slack = core_model_norm1(constraint.xyz) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF);
-        const elvis_real lowest = min(min(g0, g1), min(g2, g3)) - slack, highest = max(max(g0, g1), max(g2, g3)) + slack;
+        const elvis_real rounding = dot(abs(constraint.xyz), xi_error);
+        const elvis_real lowest = core_least(g) - slack, highest = core_most(g) + slack;
         // The face's normal in the world is J^-T times that in xi.
-        const elvis_vec3 normal = constraint.x * subpixel.row0 + constraint.y * subpixel.row1 + constraint.z * subpixel.row2;
+        const elvis_vec3 normal = constraint.x * frame.row0 + constraint.y * frame.row1 + constraint.z * frame.row2;
         const elvis_vec3 across = cross(normal, plane_normal);
         const bool is_parallel = dot(across, across) <= CORE_COPLANAR * CORE_COPLANAR * dot(normal, normal);
-        const bool coincides = is_parallel && lowest <= elvis_real(0) && highest >= elvis_real(0) &&
-                               highest - lowest <= elvis_real(2) * slack + elvis_real(4) * dot(abs(constraint.xyz), xi_error);
+        const bool is_reached = lowest <= elvis_real(0) && highest >= elvis_real(0);
+        const bool coincides =
+            is_parallel && is_reached && highest - lowest <= elvis_real(2) * slack + elvis_real(4) * rounding;
         const bool lies_in = own_face >= 0 ? face == own_face : coincides;
         subpixel.is_behind = subpixel.is_behind || (lies_in && own_face < 0 && dot(normal, direction) < elvis_real(0));
         subpixel.is_inside = subpixel.is_inside && (lies_in || highest <= elvis_real(0));
         subpixel.is_outside = subpixel.is_outside || (!lies_in && lowest > elvis_real(0));
-        const elvis_real rounding = dot(abs(constraint.xyz), xi_error);
+        subpixel.inside_corners &= lies_in ? 15u : core_bits(lessThan(g, elvis_vec4(-slack)));
+        subpixel.outside_corners |= lies_in ? 0u : core_bits(greaterThan(g, elvis_vec4(slack)));
         const elvis_real span = highest - lowest - elvis_real(2) * slack;
-        const bool is_straddled = !lies_in && lowest <= elvis_real(0) && highest >= elvis_real(0);
+        const bool is_straddled = !lies_in && is_reached;
         const elvis_real weight = is_straddled ? elvis_real(1) / span : elvis_real(0);
         is_wide = is_wide && (!is_straddled || span >= CORE_GRAZE_SPAN * rounding);
-        beyond0 += weight * g0;
-        beyond1 += weight * g1;
-        beyond2 += weight * g2;
-        beyond3 += weight * g3;
+        beyond += weight * g;
         blur += weight * rounding;
         n_straddled += is_straddled ? 1u : 0u;
-        const elvis_real above = min(min(g0, g1), min(g2, g3)) - rounding, below = -max(max(g0, g1), max(g2, g3)) - rounding;
+        const elvis_real above = core_least(g) - rounding, below = -core_most(g) - rounding;
         // A surface that is the element's own face runs neither beyond nor before it.
         const elvis_real clearance = lies_in ? (own_face >= 0 ? max(above, below) : -CORE_UNKNOWN) : above;
         subpixel.clearance = max(subpixel.clearance, clearance);
-        is_inside0 = is_inside0 && (lies_in || g0 < -slack);
-        is_inside1 = is_inside1 && (lies_in || g1 < -slack);
-        is_inside2 = is_inside2 && (lies_in || g2 < -slack);
-        is_inside3 = is_inside3 && (lies_in || g3 < -slack);
-        is_outside0 = is_outside0 || (!lies_in && g0 > slack);
-        is_outside1 = is_outside1 || (!lies_in && g1 > slack);
-        is_outside2 = is_outside2 || (!lies_in && g2 > slack);
-        is_outside3 = is_outside3 || (!lies_in && g3 > slack);
     }
     const bool is_exact = region.beyond <= elvis_real(4) * max(max(xi_error.x, xi_error.y), xi_error.z);
-    subpixel.is_grazed = is_wide && is_exact && n_straddled >= 2u && min(min(beyond0, beyond1), min(beyond2, beyond3)) >= -blur;
-    subpixel.is_crossed = (is_inside0 || is_inside1 || is_inside2 || is_inside3) &&
-                      (is_outside0 || is_outside1 || is_outside2 || is_outside3);
-#if ELVIS_HAS_INSIDE
-    subpixel.inside_corners = uint(is_inside0) | uint(is_inside1) << 1 | uint(is_inside2) << 2 | uint(is_inside3) << 3;
-    subpixel.outside_corners = uint(is_outside0) | uint(is_outside1) << 1 | uint(is_outside2) << 2 | uint(is_outside3) << 3;
-#endif
+    subpixel.is_grazed = is_wide && is_exact && n_straddled >= 2u && core_least(beyond) >= -blur;
+    subpixel.is_crossed = subpixel.inside_corners != 0u && subpixel.outside_corners != 0u;
 }
 
 #if ELVIS_HAS_INSIDE
-// What the element's own boundary says, beside the faces (core_subpixel_at).
+// What the element's own boundary says, beside the faces.
 void core_judge_inside(inout core_subpixel subpixel, uint element, elvis_vec3 xi) {
     const core_region region = subpixel.region;
-    const core_inside g = core_inside_at(element, xi);
-    const elvis_real slack = core_model_norm1(g.slope) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF) + g.rounding +
-                             core_inside_bend(g, region.radius);
-    const elvis_real g0 = g.value + dot(g.slope, region.corner0), g1 = g.value + dot(g.slope, region.corner1);
-    const elvis_real g2 = g.value + dot(g.slope, region.corner2), g3 = g.value + dot(g.slope, region.corner3);
-    subpixel.inside_corners &= uint(g0 < -slack) | uint(g1 < -slack) << 1 | uint(g2 < -slack) << 2 | uint(g3 < -slack) << 3;
-    subpixel.outside_corners |= uint(g0 > slack) | uint(g1 > slack) << 1 | uint(g2 > slack) << 2 | uint(g3 > slack) << 3;
-    const bool is_sound = core_is_finite(g0 + g1 + g2 + g3 + slack);
-    subpixel.is_inside = subpixel.is_inside && is_sound && max(max(g0, g1), max(g2, g3)) + slack <= elvis_real(0);
-    subpixel.is_outside = subpixel.is_outside || (is_sound && min(min(g0, g1), min(g2, g3)) - slack > elvis_real(0));
+    const core_inside inside = core_inside_at(element, xi);
+    const elvis_real slack = core_model_norm1(inside.slope) * (region.beyond + elvis_real(8) * CORE_ROUNDOFF) + inside.rounding +
+                             core_inside_bend(inside, region.radius);
+    const elvis_vec4 g = core_at_corners(region, inside.value, inside.slope);
+    subpixel.inside_corners &= core_bits(lessThan(g, elvis_vec4(-slack)));
+    subpixel.outside_corners |= core_bits(greaterThan(g, elvis_vec4(slack)));
+    const bool is_sound = core_is_finite(g.x + g.y + g.z + g.w + slack);
+    subpixel.is_inside = subpixel.is_inside && is_sound && core_most(g) + slack <= elvis_real(0);
+    subpixel.is_outside = subpixel.is_outside || (is_sound && core_least(g) - slack > elvis_real(0));
     subpixel.is_crossed = is_sound && subpixel.inside_corners != 0u && subpixel.outside_corners != 0u;
 }
 #endif
 
-// `corners`: relative to the image of xi. `own_face`: as in core_judge_faces.
-core_subpixel core_subpixel_at(elvis_vec3 xi, core_frame frame, elvis_vec3 corner0, elvis_vec3 corner1, elvis_vec3 corner2,
-                       elvis_vec3 corner3, elvis_real curvature, elvis_vec3 plane_normal, elvis_vec3 direction, int own_face) {
+// `corners`: of a part of the surface that is flat but for their error, around a point with this normal, seen in this direction.
+// `own_face`: as in core_judge_faces.
+core_subpixel core_subpixel_at(core_element_image image, core_frame frame, core_cut_square corners, elvis_vec3 normal,
+                               elvis_vec3 direction, int own_face) {
     core_subpixel subpixel;
-    const elvis_vec3 d0 = core_to_xi(frame, corner0), d1 = core_to_xi(frame, corner1);
-    const elvis_vec3 d2 = core_to_xi(frame, corner2), d3 = core_to_xi(frame, corner3);
+    const elvis_vec3 origin = image.shift - image.position;
+    const elvis_vec3 d0 = core_to_xi(frame, origin + corners.corner0), d1 = core_to_xi(frame, origin + corners.corner1);
+    const elvis_vec3 d2 = core_to_xi(frame, origin + corners.corner2), d3 = core_to_xi(frame, origin + corners.corner3);
     const elvis_vec3 most = max(max(abs(d0), abs(d1)), max(abs(d2), abs(d3)));
     const elvis_real largest_step = max(max(most.x, most.y), most.z);
     const elvis_real rounding = max(max(frame.xi_error.x, frame.xi_error.y), frame.xi_error.z);
-    const elvis_real beyond = core_prediction_error(curvature, largest_step) + rounding;
+    const elvis_real beyond = core_prediction_error(image.curvature, largest_step) + rounding;
     subpixel.region = core_region(d0, d1, d2, d3, beyond, largest_step + beyond);
-    subpixel.middle = xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
-    const elvis_vec3 to_middle = abs(subpixel.middle - xi);
+    subpixel.middle = image.xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
+    const elvis_vec3 to_middle = abs(subpixel.middle - image.xi);
     subpixel.step = max(max(to_middle.x, to_middle.y), to_middle.z);
-    subpixel.row0 = frame.row0;
-    subpixel.row1 = frame.row1;
-    subpixel.row2 = frame.row2;
-    core_judge_faces(subpixel, xi, frame.xi_error, plane_normal, direction, own_face);
+    core_judge_faces(subpixel, image.xi, frame, normal, direction, own_face);
     const bool is_sound = frame.is_sound && core_is_finite(largest_step);
     subpixel.is_inside = subpixel.is_inside && is_sound;
     subpixel.is_outside = subpixel.is_outside && is_sound;
     subpixel.is_crossed = subpixel.is_crossed && is_sound;
     subpixel.is_grazed = subpixel.is_grazed && is_sound;
+#if ELVIS_HAS_INSIDE
+    core_judge_inside(subpixel, image.element, image.xi);
+#endif
     return subpixel;
 }
 
-// Whether the subpixel lies outside for another reason than the bound, which says nothing far away from a curved element: the point of
-// the element nearest to the prediction is the one that it was made from but for `move`, and the subpixel lies beyond a face by far
-// more. That element and surface could meet elsewhere all the same takes an element that folds; of those the curvature is not
-// known.
-bool core_is_clear_of(core_subpixel subpixel, elvis_real subpixel_radius, elvis_real move, elvis_real curvature) {
-    return curvature < elvis_real(1e6LF) && subpixel.clearance > elvis_real(0.5LF) * subpixel_radius + elvis_real(8) * move;
-}
-
-// Whether the linearized mapping alone (element/linearization.glsl) says that the subpixel lies outside. `start`: what it predicts for
-// the middle of the subpixel; `extent`: the maximum norm of the corners' offsets from it.
-bool core_is_far_outside(elvis_vec3 start, elvis_real extent, elvis_real curvature) {
-    // It keeps this many digits of coordinates in the element.
-    const elvis_real start_error = elvis_real(1e-2LF);
-    const elvis_vec3 from_centroid = abs(start - CORE_CENTROID);
-    const elvis_real step = max(max(from_centroid.x, from_centroid.y), from_centroid.z) + extent;
-    return core_excess(start.x, start.y, start.z) >
-           CORE_CONSTRAINT_NORM * (core_prediction_error(curvature, step) + extent + start_error);
-}
-
-struct core_isovalue_test {
-    // No isovalue in the subpixel; one for certain, if the subpixel is inside the element.
-    bool is_excluded, is_met;
+// How the subpixel lies to the point at which the mapping is linearized.
+struct core_approach {
+    // Another point of the element is so much nearer to the subpixel that more would be known from there.
+    bool is_far;
+    // The subpixel lies outside for another reason than the bound, which says nothing far away from a curved element: the point of the
+    // element nearest to the prediction is about the one that it was made from, and the subpixel lies beyond a face by far more than
+    // the two are apart. Only an element that folds could meet the surface elsewhere all the same; of those no curvature is known.
+    bool is_clear;
 };
 
-core_isovalue_test core_test_isovalues(core_model f, core_region subpixel) {
-    const elvis_real c0 = dot(f.slope, subpixel.corner0), c1 = dot(f.slope, subpixel.corner1);
-    const elvis_real c2 = dot(f.slope, subpixel.corner2), c3 = dot(f.slope, subpixel.corner3);
-    // The corners themselves are within `beyond` of where they were predicted.
-    const elvis_real error = CORE_MODEL_UP * (f.remainder + core_model_norm1(f.slope) *
-                                                                (subpixel.beyond + elvis_real(4) * CORE_ROUNDOFF * subpixel.radius)) +
-                             elvis_real(4) * CORE_ROUNDOFF * abs(f.value) + CORE_MODEL_TINY;
-    const elvis_real least = f.value + min(min(c0, c1), min(c2, c3)), most = f.value + max(max(c0, c1), max(c2, c3));
-    const uint first = core_isovalue_from(least - error);
-    const uint first_sure = core_isovalue_from(least + error);
-    const bool is_known = core_model_is_known(f);
-    core_isovalue_test test;
-    test.is_excluded = is_known && (first == core_n_isovalues || core_isovalue_at(first) > most + error);
-    test.is_met = is_known && first_sure < core_n_isovalues && core_isovalue_at(first_sure) <= most - error;
-    return test;
+core_approach core_approach_to(core_subpixel subpixel, core_element_image image) {
+    const elvis_real radius = abs(subpixel.region.radius - subpixel.region.beyond - subpixel.step);
+    elvis_real x = subpixel.middle.x, y = subpixel.middle.y, z = subpixel.middle.z;
+    core_project(x, y, z);
+    const elvis_real move = max(max(abs(x - image.xi.x), abs(y - image.xi.y)), abs(z - image.xi.z));
+    core_approach approach;
+    approach.is_far = move > elvis_real(0.25LF) * radius && move > elvis_real(16) * CORE_ROUNDOFF;
+    approach.is_clear = !approach.is_far && image.curvature < elvis_real(1e6LF) &&
+                        subpixel.clearance > elvis_real(0.5LF) * radius + elvis_real(8) * move;
+    return approach;
 }
 
 #endif

@@ -1,5 +1,5 @@
-// The walk through the subpixels of a pixel: depth first, in the order (0,0) (1,0) (0,1) (1,1), which needs no stack. A subpixel is a
-// square of the picture; its place counts in its own size from the pixel's upper left corner.
+// The walk through the subpixels of a pixel: depth first, in the order (0,0) (1,0) (0,1) (1,1), which needs no stack. A subpixel's
+// place counts in its own size from the pixel's upper left corner.
 
 // To the subpixel after this one and all that end with it; false after the last.
 bool core_next_subpixel(inout uint level, inout uint across, inout uint down) {
@@ -14,9 +14,9 @@ bool core_next_subpixel(inout uint level, inout uint across, inout uint down) {
     return !is_last;
 }
 
-elvis_real core_subpixel_size(uint level) { return elvis_real(1) / elvis_real(1u << level); }
-
-// Middle of a subpixel along one direction of the picture; `pixel`: of the pixel's.
-elvis_real core_subpixel_middle(elvis_real pixel, uint place, elvis_real size) {
-    return pixel - elvis_real(0.5LF) + (elvis_real(place) + elvis_real(0.5LF)) * size;
+// The pixel's own square at level 0.
+core_picture_square core_subpixel_place(elvis_real column, elvis_real row, uint level, uint across, uint down) {
+    const elvis_real size = elvis_real(1) / elvis_real(1u << level), half_one = elvis_real(0.5LF);
+    return core_picture_square(column - half_one + (elvis_real(across) + half_one) * size,
+                               row - half_one + (elvis_real(down) + half_one) * size, half_one * size);
 }

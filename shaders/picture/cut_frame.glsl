@@ -55,6 +55,17 @@ core_cut_column core_cut_begin(elvis_real column) {
     return result;
 }
 
+// The ray through a place of the picture, in the middle of a pixel or not: base + t direction.
+struct core_cut_ray {
+    elvis_vec3 base, direction;
+};
+
+core_cut_ray core_cut_ray_at(elvis_real column, elvis_real row) {
+    const core_cut_column along = core_cut_begin(column);
+    const elvis_real down = row - along.row0;
+    return core_cut_ray((along.base + down * along.base_row).xyz, (along.direction + down * along.direction_row).xyz);
+}
+
 core_cut_point core_cut_pixel(core_cut_column column, elvis_real row) {
     const elvis_real down = row - column.row0;
     const elvis_vec4 base = column.base + down * column.base_row;
@@ -72,7 +83,12 @@ core_cut_point core_cut_pixel(core_cut_column column, elvis_real row) {
     return point;
 }
 
-// The corners of a square of the picture on the plane, with its middle at (column, row), in pixels.
+// A square of the picture; in pixels, the middles of which are at whole numbers.
+struct core_picture_square {
+    elvis_real column, row, half_size;
+};
+
+// The corners of a square of the picture on the plane.
 struct core_cut_square {
     elvis_vec3 corner0, corner1, corner2, corner3;
     // Whether the rays through all of them, or through any, meet the plane in front of the eye; where none does, none between does.
@@ -80,10 +96,12 @@ struct core_cut_square {
     elvis_real error;
 };
 
-core_cut_square core_cut_corners(elvis_real column, elvis_real row, elvis_real half_size) {
-    const core_cut_column left = core_cut_begin(column - half_size), right = core_cut_begin(column + half_size);
-    const core_cut_point p0 = core_cut_pixel(left, row - half_size), p1 = core_cut_pixel(right, row - half_size);
-    const core_cut_point p2 = core_cut_pixel(left, row + half_size), p3 = core_cut_pixel(right, row + half_size);
+core_cut_square core_cut_corners(core_picture_square place) {
+    const core_cut_column left = core_cut_begin(place.column - place.half_size);
+    const core_cut_column right = core_cut_begin(place.column + place.half_size);
+    const elvis_real upper = place.row - place.half_size, lower = place.row + place.half_size;
+    const core_cut_point p0 = core_cut_pixel(left, upper), p1 = core_cut_pixel(right, upper);
+    const core_cut_point p2 = core_cut_pixel(left, lower), p3 = core_cut_pixel(right, lower);
     core_cut_square square;
     square.corner0 = p0.position;
     square.corner1 = p1.position;

@@ -1,10 +1,21 @@
-// What the pixels around one tell of the surface that it shows. The kernel brings core_size, core_marks, core_samples and
-// core_normals.
+// What a pixel, and the pixels around it, tell of the surface that it shows. The kernel brings core_size, core_marks, core_samples
+// and core_normals.
 
 #include "cut_surface/tangent_square.glsl"
 
 // How far neighbours may lie from the tangent plane of a smooth surface, relative to their distance.
 #define CORE_SMOOTH elvis_real(0.1LF)
+
+elvis_vec3 core_shown_normal(uint pixel) {
+    return elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+}
+
+// Where the pixel's ray meets the surface: the parameter, and the tangent plane.
+elvis_real core_shown_t(uint pixel, core_cut_ray ray) { return core_samples[pixel].depth / length(ray.direction) - core_reference.w; }
+
+core_tangent core_shown_tangent(uint pixel, core_cut_ray ray) {
+    return core_tangent(ray.base + core_shown_t(pixel, ray) * ray.direction, core_shown_normal(pixel));
+}
 
 struct core_surroundings {
     // Every neighbour sees a point near the tangent plane. One of them sees a point in front of it.
@@ -20,10 +31,8 @@ core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_
     around.is_smooth = true;
     around.is_hidden = false;
     elvis_real turning = elvis_real(0);
-    const core_cut_column along = core_cut_begin(elvis_real(place.x));
-    const elvis_real down = elvis_real(place.y) - along.row0;
-    const elvis_vec3 base = (along.base + down * along.base_row).xyz - tangent.point;
-    const elvis_vec3 direction = (along.direction + down * along.direction_row).xyz;
+    const core_cut_ray own = core_cut_ray_at(elvis_real(place.x), elvis_real(place.y));
+    const elvis_vec3 base = own.base - tangent.point, direction = own.direction;
     const ivec2 last = ivec2(core_size) - 1;
     for (uint i = 0u; i < (is_pixel ? 8u : 0u); ++i) {
         const uint k = i < 4u ? i : i + 1u;
@@ -32,18 +41,17 @@ core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_
         const uint other = uint(there.y) * core_size.x + uint(there.x);
         const bool is_seen = core_marks[other].owner != 0u;
         const elvis_real right = elvis_real(there.x - int(place.x)), below = elvis_real(there.y - int(place.y));
-        const elvis_vec3 ray = direction + right * core_direction_column.xyz + below * along.direction_row.xyz;
-        const elvis_real t = core_samples[other].depth / length(ray) - along.reference_distance;
-        const elvis_vec3 to_other = base + right * core_base_column.xyz + below * along.base_row.xyz + t * ray;
+        const elvis_vec3 ray = direction + right * core_direction_column.xyz + below * core_direction_row.xyz;
+        const elvis_real t = core_samples[other].depth / length(ray) - core_reference.w;
+        const elvis_vec3 to_other = base + right * core_base_column.xyz + below * core_base_row.xyz + t * ray;
         const elvis_real height = dot(tangent.normal, to_other), square = dot(to_other, to_other);
         const bool is_far = height * height > CORE_SMOOTH * CORE_SMOOTH * square;
         const bool is_near = is_seen && !is_far;
         around.is_smooth = around.is_smooth && (other == pixel || is_near);
         around.is_hidden = around.is_hidden || (other != pixel && is_seen && is_far && height > elvis_real(0));
 #if !CORE_ON_FACES
-        const elvis_vec3 normal =
-            elvis_vec3(core_normals[3u * other], core_normals[3u * other + 1u], core_normals[3u * other + 2u]);
-        turning = other != pixel && is_near ? max(turning, length(normal - tangent.normal) / sqrt(square)) : turning;
+        const elvis_real turned = length(core_shown_normal(other) - tangent.normal) / sqrt(square);
+        turning = other != pixel && is_near ? max(turning, turned) : turning;
 #endif
     }
 #if !CORE_ON_FACES
@@ -65,8 +73,9 @@ struct core_departure {
 
 // What the surface may depart from its tangent plane in the square. Triangles are flat but not together: what normals of neighbours
 // tell counts, too. Twice that stands for a bending that is not known, or known by a loose bound alone.
-core_departure core_departure_in(core_tangent tangent, core_cut_square square, elvis_real bending, elvis_real turning,
-                                 elvis_real cosine) {
+core_departure core_departure_in(core_cut_square square, core_tangent tangent, core_cut_ray ray, elvis_real bending,
+                                 elvis_real turning) {
+    const elvis_real cosine = -dot(tangent.normal, ray.direction) / length(ray.direction);
     const elvis_vec3 d0 = square.corner0 - tangent.point, d1 = square.corner1 - tangent.point;
     const elvis_vec3 d2 = square.corner2 - tangent.point, d3 = square.corner3 - tangent.point;
     const elvis_real farthest = max(max(dot(d0, d0), dot(d1, d1)), max(dot(d2, d2), dot(d3, d3)));

@@ -109,7 +109,7 @@ void add_face_kernels(std::vector<KernelUse>& uses) {
 }
 
 void add_line_kernels(std::vector<KernelUse>& uses) {
-    for (const char* kernel : {"lines/settle_lines", "lines/face_lines", "lines/face_lines_careful"}) {
+    for (const char* kernel : {"lines/settle_lines", "lines/surface_lines", "lines/face_lines_careful"}) {
         uses.push_back({.kernel = kernel,
                         .element = Element::model,
                         .buffers = faces,

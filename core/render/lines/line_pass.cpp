@@ -141,7 +141,7 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
         kernels.element_class = index;
         kernels.settle = make("lines/settle_lines", m_faces ? 7 : 8, sizeof(SettleParameters));
         if (m_faces) {
-            kernels.search = make("lines/face_lines", 8, sizeof(ListedParameters));
+            kernels.search = make("lines/surface_lines", 8, sizeof(ListedParameters));
             kernels.exclude = make("lines/face_lines_careful", 8, sizeof(ListedParameters));
         } else {
             // The shape's rows, where they are read.

@@ -1,0 +1,67 @@
+// What is known of the lines in one pixel, and how it is marked.
+
+#ifndef CORE_LINE_MARKS
+#define CORE_LINE_MARKS
+
+#include "element/place.glsl"
+#include "picture/samples.glsl"
+
+// [0]: evaluations; others: entries of lists of pixels.
+layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
+
+struct core_line_marks {
+    // What is looked for, and not yet found.
+    bool wants_contour, wants_mesh;
+    bool has_contour, has_mesh_line;
+    // Something is left of which it cannot be told whether it shows such a line.
+    bool is_contour_open, is_mesh_open;
+    // The answer rests on bounds that are estimates.
+    bool is_estimated;
+};
+
+core_line_marks core_wanted_lines(bool wants_contour, bool wants_mesh) {
+    return core_line_marks(wants_contour, wants_mesh, false, false, false, false, false);
+}
+
+bool core_wants_lines(core_line_marks lines) { return lines.wants_contour || lines.wants_mesh; }
+
+void core_find_lines(inout core_line_marks lines, bool finds_contour, bool finds_mesh) {
+    lines.has_contour = lines.has_contour || finds_contour;
+    lines.has_mesh_line = lines.has_mesh_line || finds_mesh;
+    lines.wants_contour = lines.wants_contour && !finds_contour;
+    lines.wants_mesh = lines.wants_mesh && !finds_mesh;
+}
+
+void core_leave_open(inout core_line_marks lines, bool leaves_contour, bool leaves_mesh) {
+    lines.is_contour_open = lines.is_contour_open || leaves_contour;
+    lines.is_mesh_open = lines.is_mesh_open || leaves_mesh;
+}
+
+// What is not decided, as bits of a list's word. `is_cut_short`: more would have been looked at.
+uint core_undecided_lines(core_line_marks lines, bool is_cut_short) {
+    const bool is_contour_undecided = !lines.has_contour && (lines.is_contour_open || (lines.wants_contour && is_cut_short));
+    const bool is_mesh_undecided = !lines.has_mesh_line && (lines.is_mesh_open || (lines.wants_mesh && is_cut_short));
+    return (is_contour_undecided ? CORE_LIST_CONTOUR : 0u) | (is_mesh_undecided ? CORE_LIST_MESH_LINE : 0u);
+}
+
+// `undecided`: what stays so for good.
+void core_mark_lines(uint pixel, core_line_marks lines, uint undecided) {
+    const uint flags = (lines.has_contour ? CORE_FLAG_CONTOUR : 0u) | (lines.has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) |
+                       ((undecided & CORE_LIST_CONTOUR) != 0u ? CORE_FLAG_CONTOUR_UNDECIDED : 0u) |
+                       ((undecided & CORE_LIST_MESH_LINE) != 0u ? CORE_FLAG_MESH_UNDECIDED : 0u) |
+                       (lines.is_estimated ? CORE_FLAG_ESTIMATED : 0u);
+    if (flags != 0u) {
+        core_marks[pixel].flags |= flags;
+    }
+}
+
+void core_count_evaluations(uint n_evaluations) {
+    const uint all_evaluations = subgroupAdd(n_evaluations);
+    if (subgroupElect()) {
+        atomicAdd(core_counts[0], all_evaluations);
+    }
+}
+
+#endif

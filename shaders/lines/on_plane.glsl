@@ -1,0 +1,58 @@
+// A cut plane, for lines/subpixel_search.glsl.
+
+#include "lines/search_state.glsl"
+#include "lines/surface_box.glsl"
+#include "lines/element_start.glsl"
+#include "cut_surface/cut_horizon.glsl"
+
+#define CORE_MOVES_FIRST 1
+
+struct core_surface {
+    core_cut_square corners;
+    core_box box;
+    // The plane lies in faces, and elements on its far side are hidden by those on the near one.
+    bool hides_behind;
+    // Distance along the axis of view behind which there is no element.
+    elvis_real volume_end;
+    // None of it is seen in the pixel.
+    bool is_absent;
+};
+
+bool core_shows_nothing(core_cut_square corners, core_picture_square place, elvis_real volume_end) {
+    return !corners.all_hit && (!corners.any_hit || core_is_square_behind_volume(place, volume_end));
+}
+
+core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind) {
+    const core_picture_square place = core_picture_square(column, row, elvis_real(0.5LF));
+    core_surface surface;
+    surface.corners = core_cut_corners(place);
+    surface.box = core_box(vec3(-3e38), vec3(3e38), 3e38);
+    if (surface.corners.all_hit) {
+        surface.box = core_box_around(surface.corners, surface.corners.error, 0.0);
+    }
+    surface.hides_behind = hides_behind;
+    surface.volume_end = core_volume_end();
+    surface.is_absent = core_shows_nothing(surface.corners, place, surface.volume_end);
+    return surface;
+}
+
+void core_enter(core_surface surface, uint element, inout core_line_search search) {
+    const core_cut_square corners = surface.corners;
+    const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
+    core_enter_element(element, corners, middle, elvis_real(1), search);
+}
+
+core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
+    const core_cut_square corners = core_cut_corners(place);
+    const elvis_vec3 direction = core_cut_ray_at(place.column, place.row).direction;
+    core_shown_square square = core_shown_square_at(image, corners, core_plane_normal.xyz, direction, CORE_NO_FACE);
+    square.is_absent = core_shows_nothing(corners, place, surface.volume_end);
+    square.is_hidden = square.subpixel.is_grazed || (square.subpixel.is_behind && surface.hides_behind);
+    return square;
+}
+
+elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {
+    const core_cut_point point = core_cut_pixel(core_cut_begin(place.column), place.row);
+    is_met = point.is_hit;
+    return point.position;
+}

@@ -1,0 +1,86 @@
+// A curved surface that is no face, for lines/subpixel_search.glsl: its tangent plane at the pixel's own point. What the surface departs
+// from the plane is an error of the corners of squares: half the bending times the square of the distance, along the oblique ray.
+//
+// Where the neighbouring pixels see points near that plane, the surface is smooth. Where one of them sees a point in front of it,
+// something may hide a part of the pixel, and nothing is certain. Elsewhere, at edges and silhouettes, other parts of the surface
+// may show in the pixel: a line that is met there is met. That none is met rests on a square three times the pixel's size.
+
+#include "lines/surface_box.glsl"
+#include "lines/element_start.glsl"
+#if CORE_SHAPE_ROWS > 0
+#include "cut_surface/quadric_span.glsl"
+#endif
+
+#define CORE_MOVES_FIRST 0
+// Levels to which pixels are divided in which the surface is not smooth.
+#define CORE_ROUGH_LEVEL 2u
+// Cosine of the angle below which a pixel shows so much of the surface that nothing is learned.
+#define CORE_EDGE_ON elvis_real(0.06LF)
+
+struct core_surface {
+    core_tangent tangent;
+    elvis_vec3 direction;
+    // Of the square that is asked about first, and by how much the surface departs from the plane in it.
+    core_cut_square corners;
+    elvis_real departure;
+    core_box box;
+    bool is_smooth;
+};
+
+elvis_real core_first_half_size(bool is_smooth) { return is_smooth ? elvis_real(0.5LF) : elvis_real(1.5LF); }
+
+core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
+    const bool is_smooth = listed.around.is_smooth;
+    surface.is_smooth = is_smooth;
+    surface.tangent = listed.tangent;
+    surface.direction = listed.ray.direction;
+    surface.corners =
+        core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, core_first_half_size(is_smooth)));
+    const core_departure bent = core_departure_in(surface.corners, listed.tangent, listed.ray, core_bending[listed.pixel],
+                                                  listed.around.turning);
+    surface.departure = bent.distance;
+    surface.box = core_box_around(surface.corners, surface.corners.error + bent.distance, 0.0);
+
+    // Where corners miss the plane, or nearly so, the surface is seen edge on.
+    const bool is_edge_on = -dot(listed.tangent.normal, listed.ray.direction) < CORE_EDGE_ON * length(listed.ray.direction);
+    // Where the surface is not smooth, only lines that are met are looked for, and not twice.
+    const bool is_searched = is_smooth || core_subdivisions <= CORE_FEW_SUBDIVISIONS;
+#if CORE_SHAPE_ROWS > 0
+    // lines/on_quadric.glsl decides more.
+    const bool is_left = core_subdivisions > 0u && core_is_quadric_front(listed.column, listed.row, listed.tangent.point);
+#else
+    const bool is_left = false;
+#endif
+    const bool is_known = surface.corners.all_hit && !listed.around.is_hidden && !is_edge_on && is_searched && !is_left;
+    const uint most_level = is_smooth ? core_subdivisions : min(core_subdivisions, CORE_ROUGH_LEVEL);
+    core_line_search search = core_begin_listed(listed, most_level, is_known, is_known);
+    search.lines.is_estimated = !is_smooth || bent.is_estimated;
+    return search;
+}
+
+void core_enter(core_surface surface, uint element, inout core_line_search search) {
+    // What the surface departs from its tangent plane is less than the pixel's size where it is smooth.
+    const elvis_real room = surface.is_smooth ? elvis_real(2) : elvis_real(0);
+    core_enter_element(element, surface.corners, surface.tangent.point, room, search);
+}
+
+core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
+    const bool is_first = search.level == 0u;
+    core_picture_square asked = place;
+    asked.half_size = is_first ? core_first_half_size(surface.is_smooth) : place.half_size;
+    core_cut_square corners = core_tangent_square(surface.tangent, asked);
+    // As those around them were.
+    corners.all_hit = true;
+    corners.error += surface.departure;
+    core_shown_square square = core_shown_square_at(image, corners, surface.tangent.normal, surface.direction, CORE_NO_FACE);
+    square.is_whole = is_first && surface.is_smooth;
+    square.is_oversized = is_first && !surface.is_smooth;
+    square.is_seen = !square.is_oversized;
+    return square;
+}
+
+elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {
+    elvis_real t;
+    is_met = true;
+    return core_tangent_point(surface.tangent, place.column, place.row, t);
+}

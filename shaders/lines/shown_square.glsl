@@ -1,0 +1,40 @@
+// A square of the picture as the surface fills it, and what an element has to do with it.
+
+#ifndef CORE_SHOWN_SQUARE
+#define CORE_SHOWN_SQUARE
+
+#include "lines/subpixel.glsl"
+#include "cut_surface/tangent_square.glsl"
+
+struct core_shown_square {
+    // All of the surface in the square lies between these points, but for their error. If not all of them are known, nothing is.
+    core_cut_square corners;
+    core_frame frame;
+    core_subpixel subpixel;
+    core_approach approach;
+    // The plane through the corners; not on cut planes.
+    core_tangent tangent;
+    // The surface is not there. Its part there, if it lies in the element, does not show it.
+    bool is_absent, is_hidden;
+    // What is met in the square is seen in the pixel.
+    bool is_seen;
+    // The square is the pixel, and what fills it hides everything else. It is larger than the pixel.
+    bool is_whole, is_oversized;
+    // On an element's own face: rays enter the element there.
+    bool enters;
+};
+
+// `own_face`: as in core_judge_faces.
+core_shown_square core_shown_square_at(core_element_image image, core_cut_square corners, elvis_vec3 normal, elvis_vec3 direction,
+                                       int own_face) {
+    core_shown_square square;
+    square.corners = corners;
+    square.frame = core_frame_at(image.position, image.jacobian, corners.error + image.shift_error);
+    square.subpixel = core_subpixel_at(image, square.frame, corners, normal, direction, own_face);
+    square.approach = core_approach_to(square.subpixel, image);
+    square.is_absent = square.is_hidden = square.is_whole = square.is_oversized = square.enters = false;
+    square.is_seen = corners.all_hit;
+    return square;
+}
+
+#endif
