@@ -1,5 +1,5 @@
 // Book-keeping of written rows.
-#include <coverage.hpp>
+#include <file/coverage.hpp>
 
 #include <catch2/catch.hpp>
 
