@@ -3,7 +3,7 @@
  */
 #include "volume_fixture.hpp"
 
-#include <derivative_weights.hpp>
+#include <bounds/derivative_weights.hpp>
 
 #include <core/base/error.hpp>
 
