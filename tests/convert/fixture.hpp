@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+using elvis::test::names_in;
 using elvis::test::TemporaryFolder;
 
 /** The data set that a description stands for; the generator reads it when it is opened. */

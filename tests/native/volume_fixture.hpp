@@ -38,6 +38,7 @@ VolumeData read_all(const std::string& path);
 /** Whether both are the same, bit by bit. */
 bool identical(const VolumeData& a, const VolumeData& b);
 
+using test::names_in;
 using test::TemporaryFolder;
 
 std::vector<char> read_bytes(const std::string& path);

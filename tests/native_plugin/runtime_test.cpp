@@ -295,7 +295,7 @@ TEST_CASE("a NaN in the geometry is an error that names the element, one in a fi
     writer.write_numbers(0, 0, 2, numbers);
     writer.commit();
 
-    const RuntimeVolume volume(test::native_plugin(), path);
+    const RuntimeVolume volume(test::native_plugin(), file.path());
     std::array<double, 12> boxes{};
     CHECK_THROWS_WITH(volume.bounds(0, 2, boxes), Catch::Contains(file.path()) && Catch::Contains("element 0"));
     std::array<FieldRange, 2> ranges;
