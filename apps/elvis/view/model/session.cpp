@@ -1,7 +1,5 @@
 #include "session.hpp"
 
-#include "camera_motion.hpp"
-
 #include <core/base/error.hpp>
 #include <core/expression/expression.hpp>
 #include <core/scene/default_surfaces.hpp>
