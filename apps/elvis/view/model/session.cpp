@@ -1,7 +1,5 @@
 #include "session.hpp"
 
-#include "camera_motion.hpp"
-
 #include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>

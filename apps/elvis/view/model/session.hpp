@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "camera_motion.hpp"
 #include "pick.hpp"
 #include "picture.hpp"
 #include "volume_facts.hpp"
