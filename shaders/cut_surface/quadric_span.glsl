@@ -29,13 +29,18 @@ struct core_quadric_span {
     elvis_real front;
 };
 
+// Rounding of the point with this parameter, on the ray through a square's middle.
+elvis_real core_quadric_noise(core_picture_square place, core_cut_ray ray, elvis_real t) {
+    const core_cut_column along = core_cut_begin(place.column);
+    const elvis_vec3 terms = (along.size + abs((place.row - along.row0) * along.base_row)).xyz + abs(t * ray.direction);
+    return elvis_real(8) * CORE_ROUNDOFF * max(max(terms.x, terms.y), terms.z);
+}
+
 // `is_front`: only the front of the quadric counts, which hides its back.
 core_quadric_span core_quadric_span_at(core_picture_square place, bool is_front) {
     const elvis_real half_size = place.half_size;
-    const core_cut_column along = core_cut_begin(place.column);
-    const elvis_real down = place.row - along.row0;
-    const elvis_vec3 base = (along.base + down * along.base_row).xyz;
-    const elvis_vec3 direction = (along.direction + down * along.direction_row).xyz;
+    const core_cut_ray ray = core_cut_ray_at(place.column, place.row);
+    const elvis_vec3 base = ray.base, direction = ray.direction;
     const elvis_mat3 to_world = elvis_mat3(CORE_SHAPE(0).xyz, CORE_SHAPE(1).xyz, CORE_SHAPE(2).xyz);
     const elvis_vec3 shifted = base - CORE_SHAPE(3).xyz;
     // Nearest to the anchor first, so that little is lost.
@@ -45,13 +50,12 @@ core_quadric_span core_quadric_span_at(core_picture_square place, bool is_front)
     const elvis_real a = dot(q * local, local), largest = elvis_real(0.5LF) * CORE_SHAPE(4).w;
     const elvis_real slope = dot(elvis_real(2) * q * start + CORE_SHAPE(4).xyz, local);
     const elvis_real t0 = nearest + (a > elvis_real(0) ? -slope / (elvis_real(2) * a) : elvis_real(0));
-    const elvis_vec3 terms = (along.size + abs(down * along.base_row)).xyz + abs(t0 * direction);
-    const elvis_real noise = elvis_real(8) * CORE_ROUNDOFF * max(max(terms.x, terms.y), terms.z);
+    const elvis_real noise = core_quadric_noise(place, ray, t0);
     const core_quadric_point middle = core_quadric_at(start + (t0 - nearest) * local, local, elvis_real(0), noise);
 
-    const elvis_real h1 = half_size * (length(core_direction_column.xyz) + length(along.direction_row.xyz));
+    const elvis_real h1 = half_size * (length(core_direction_column.xyz) + length(core_direction_row.xyz));
     const elvis_real h0 = half_size * (length(core_base_column.xyz + t0 * core_direction_column.xyz) +
-                                       length(along.base_row.xyz + t0 * along.direction_row.xyz)) + noise;
+                                       length(core_base_row.xyz + t0 * core_direction_row.xyz)) + noise;
     const elvis_real g0 = length(middle.gradient), g1 = elvis_real(2) * largest * length(local);
     const elvis_real up = elvis_real(1) + elvis_real(64) * CORE_ROUNDOFF;
     const elvis_real c = middle.value - up * (g0 * h0 + largest * h0 * h0 + elvis_real(2) * middle.error);
@@ -89,15 +93,12 @@ struct core_front {
 
 core_front core_quadric_front(core_picture_square place, core_quadric_span quadric_span) {
     const elvis_real half_size = place.half_size;
-    const core_cut_column along = core_cut_begin(place.column);
-    const elvis_real down = place.row - along.row0;
-    const elvis_vec3 base = (along.base + down * along.base_row).xyz;
-    const elvis_vec3 direction = (along.direction + down * along.direction_row).xyz;
+    const core_cut_ray ray = core_cut_ray_at(place.column, place.row);
+    const elvis_vec3 direction = ray.direction;
     const elvis_mat3 to_world = elvis_mat3(CORE_SHAPE(0).xyz, CORE_SHAPE(1).xyz, CORE_SHAPE(2).xyz);
-    const elvis_vec3 terms = (along.size + abs(down * along.base_row)).xyz + abs(quadric_span.front * direction);
-    const elvis_real noise = elvis_real(8) * CORE_ROUNDOFF * max(max(terms.x, terms.y), terms.z);
+    const elvis_real noise = core_quadric_noise(place, ray, quadric_span.front);
     core_front front;
-    front.tangent.point = base + quadric_span.front * direction;
+    front.tangent.point = ray.base + quadric_span.front * direction;
     const core_quadric_point there = core_quadric_at((front.tangent.point - CORE_SHAPE(3).xyz) * to_world, direction * to_world,
                                                      elvis_real(0), noise);
     const elvis_real steepness = length(there.gradient), largest = elvis_real(0.5LF) * CORE_SHAPE(4).w;

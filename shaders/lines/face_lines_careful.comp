@@ -26,10 +26,9 @@ layout(local_size_x = 32) in;
 uint core_squares[3u * CORE_MAX_LEVEL + 4u];
 
 struct core_surface {
+    core_listed_pixel listed;
     core_pyramid pyramid;
-    core_cut_ray ray;
-    // What the pixel's own ray meets: where, and at which parameter. Size of coordinates there, and of the smallest squares.
-    elvis_vec3 point;
+    // Parameter of the point that the pixel's own ray meets. Size of coordinates there, and of the smallest squares.
     elvis_real t, far, least_size;
     core_place place;
     // The place is of this class, and nothing hides a part of the pixel.
@@ -43,8 +42,8 @@ core_surface core_surface_in(core_listed_pixel listed) {
     const elvis_real pixel_size = min(length(core_base_column.xyz + t * core_direction_column.xyz),
                                       length(core_base_row.xyz + t * core_direction_row.xyz));
     const core_place place = core_places[listed.pixel];
-    return core_surface(core_pixel_pyramid(listed.column, listed.row, t), listed.ray, listed.tangent.point, t,
-                        max(max(terms.x, terms.y), terms.z), pixel_size / elvis_real(1u << core_subdivisions), place,
+    return core_surface(listed, core_pixel_pyramid(listed.column, listed.row, t), t, max(max(terms.x, terms.y), terms.z),
+                        pixel_size / elvis_real(1u << core_subdivisions), place,
                         core_class_of(place) == core_class && !listed.around.is_hidden);
 }
 
@@ -137,13 +136,13 @@ core_sight core_sight_of(core_surface surface, core_patch_square square, core_el
     const elvis_real change =
         elvis_real(2) * image.curvature * radius + max(max(inverse.xi_error.x, inverse.xi_error.y), inverse.xi_error.z);
     const elvis_real away = (surface.place.class_and_face & CORE_PLACE_ENTERS) != 0u ? elvis_real(1) : elvis_real(-1);
-    const elvis_vec3 direction = surface.ray.direction;
+    const elvis_vec3 direction = surface.listed.ray.direction;
     sight.is_absent = square.is_beyond ||
                       core_least_depth(surface.pyramid, elvis_real(1), middle, image_a, image_b, error) < elvis_real(0) ||
                       (core_is_closed != 0u && core_is_crossed_towards(away, inverse, square.face, change, direction));
-    const bool is_in_front =
-        dot(direction, middle - surface.point) + (surface.t + core_reference.w) * dot(direction, direction) >
-        length(direction) * (length(image_a) + length(image_b) + both_errors);
+    const bool is_in_front = dot(direction, middle - surface.listed.tangent.point) +
+                                 (surface.t + core_reference.w) * dot(direction, direction) >
+                             length(direction) * (length(image_a) + length(image_b) + both_errors);
     sight.is_seen = is_shown && is_in_front &&
                     core_least_depth(surface.pyramid, elvis_real(-1), middle, image_a, image_b, both_errors) > elvis_real(0) &&
                     core_is_crossed_towards(-away, inverse, square.face, change, direction);

@@ -39,7 +39,6 @@ struct core_listed_pixel {
     // False beyond the end of the list.
     bool is_pixel;
     uint pixel;
-    uvec2 place;
     elvis_real column, row;
     core_cut_ray ray;
     // Where the ray meets the surface.
@@ -55,12 +54,12 @@ core_listed_pixel core_listed_pixel_here() {
     listed.is_pixel = i < core_first + core_n_listed;
     const uint word = core_list[listed.is_pixel ? i : core_first];
     listed.pixel = word & CORE_LIST_PIXEL;
-    listed.place = uvec2(listed.pixel % core_size.x, listed.pixel / core_size.x);
-    listed.column = elvis_real(listed.place.x);
-    listed.row = elvis_real(listed.place.y);
+    const uvec2 place = uvec2(listed.pixel % core_size.x, listed.pixel / core_size.x);
+    listed.column = elvis_real(place.x);
+    listed.row = elvis_real(place.y);
     listed.ray = core_cut_ray_at(listed.column, listed.row);
     listed.tangent = core_shown_tangent(listed.pixel, listed.ray);
-    listed.around = core_look_around(listed.place, listed.pixel, listed.is_pixel, listed.tangent);
+    listed.around = core_look_around(place, listed.pixel, listed.is_pixel, listed.tangent);
     // Elements of another class may have found it.
     const uint known = core_marks[listed.pixel].flags;
     listed.lines = core_wanted_lines(

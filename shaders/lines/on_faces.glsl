@@ -13,9 +13,8 @@
 #define CORE_MOVES_FIRST 0
 
 struct core_surface {
-    core_tangent tangent;
+    core_listed_pixel listed;
     core_box box;
-    bool is_smooth;
     // Where the pixel's own point lies, and whether that is an element of this class; rays enter the volume there.
     core_place place;
     bool is_shown_class, enters;
@@ -23,8 +22,7 @@ struct core_surface {
 
 core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
     const core_place place = core_places[listed.pixel];
-    surface.tangent = listed.tangent;
-    surface.is_smooth = listed.around.is_smooth;
+    surface.listed = listed;
     surface.place = place;
     surface.is_shown_class = core_class_of(place) == core_class;
     surface.enters = (place.class_and_face & CORE_PLACE_ENTERS) != 0u;
@@ -89,9 +87,9 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     // Another sheet of the surface, farther behind than a smooth one departs from its plane: hidden by this one.
     const core_cut_square corners = square.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
-    square.is_hidden = surface.is_smooth && !core_is_shown_face(surface, search.item, search.own_face) && !square.approach.is_far &&
-                       dot(surface.tangent.normal, middle - surface.tangent.point) <
-                           elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
+    const elvis_real height = dot(surface.listed.tangent.normal, middle - surface.listed.tangent.point);
+    square.is_hidden = surface.listed.around.is_smooth && !core_is_shown_face(surface, search.item, search.own_face) &&
+                       !square.approach.is_far && height < elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
     return square;
 }
 

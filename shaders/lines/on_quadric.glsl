@@ -9,7 +9,7 @@
 #define CORE_MOVES_FIRST 0
 
 struct core_surface {
-    elvis_vec3 normal, direction;
+    core_listed_pixel listed;
     // The pixel's span.
     core_cut_square corners;
     core_box box;
@@ -23,8 +23,7 @@ core_cut_square core_span_corners(core_quadric_span quadric_span) {
 }
 
 core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
-    surface.normal = listed.tangent.normal;
-    surface.direction = listed.ray.direction;
+    surface.listed = listed;
     surface.is_front = core_is_quadric_front(listed.column, listed.row, listed.tangent.point);
     surface.corners = core_span_corners(
         core_quadric_span_at(core_picture_square(listed.column, listed.row, elvis_real(0.5LF)), surface.is_front));
@@ -47,7 +46,8 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     }
     corners.all_hit = true;
     // In no face: a span that looks as if it lay in one may cross it.
-    core_shown_square square = core_shown_square_at(image, corners, surface.normal, surface.direction, CORE_N_FACES);
+    core_shown_square square = core_shown_square_at(image, corners, surface.listed.tangent.normal,
+                                                    surface.listed.ray.direction, CORE_N_FACES);
     square.is_absent = quadric_span.is_absent;
     square.is_seen = front.is_known;
     square.approach.is_clear = square.approach.is_clear && front.is_known;

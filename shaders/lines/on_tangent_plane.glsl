@@ -18,22 +18,18 @@
 #define CORE_EDGE_ON elvis_real(0.06LF)
 
 struct core_surface {
-    core_tangent tangent;
-    elvis_vec3 direction;
+    core_listed_pixel listed;
     // Of the square that is asked about first, and by how much the surface departs from the plane in it.
     core_cut_square corners;
     elvis_real departure;
     core_box box;
-    bool is_smooth;
 };
 
 elvis_real core_first_half_size(bool is_smooth) { return is_smooth ? elvis_real(0.5LF) : elvis_real(1.5LF); }
 
 core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
     const bool is_smooth = listed.around.is_smooth;
-    surface.is_smooth = is_smooth;
-    surface.tangent = listed.tangent;
-    surface.direction = listed.ray.direction;
+    surface.listed = listed;
     surface.corners =
         core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, core_first_half_size(is_smooth)));
     const core_departure bent = core_departure_in(surface.corners, listed.tangent, listed.ray, core_bending[listed.pixel],
@@ -60,21 +56,23 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
 
 void core_enter(core_surface surface, uint element, inout core_line_search search) {
     // What the surface departs from its tangent plane is less than the pixel's size where it is smooth.
-    const elvis_real room = surface.is_smooth ? elvis_real(2) : elvis_real(0);
-    core_enter_element(element, surface.corners, surface.tangent.point, room, search);
+    const elvis_real room = surface.listed.around.is_smooth ? elvis_real(2) : elvis_real(0);
+    core_enter_element(element, surface.corners, surface.listed.tangent.point, room, search);
 }
 
 core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
-    const bool is_first = search.level == 0u;
+    const bool is_first = search.level == 0u, is_smooth = surface.listed.around.is_smooth;
+    const core_tangent tangent = surface.listed.tangent;
     core_picture_square asked = place;
-    asked.half_size = is_first ? core_first_half_size(surface.is_smooth) : place.half_size;
-    core_cut_square corners = core_tangent_square(surface.tangent, asked);
+    asked.half_size = is_first ? core_first_half_size(is_smooth) : place.half_size;
+    core_cut_square corners = core_tangent_square(tangent, asked);
     // As those around them were.
     corners.all_hit = true;
     corners.error += surface.departure;
-    core_shown_square square = core_shown_square_at(image, corners, surface.tangent.normal, surface.direction, CORE_NO_FACE);
-    square.is_whole = is_first && surface.is_smooth;
-    square.is_oversized = is_first && !surface.is_smooth;
+    core_shown_square square =
+        core_shown_square_at(image, corners, tangent.normal, surface.listed.ray.direction, CORE_NO_FACE);
+    square.is_whole = is_first && is_smooth;
+    square.is_oversized = is_first && !is_smooth;
     square.is_seen = !square.is_oversized;
     return square;
 }
@@ -82,5 +80,5 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
 elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {
     elvis_real t;
     is_met = true;
-    return core_tangent_point(surface.tangent, place.column, place.row, t);
+    return core_tangent_point(surface.listed.tangent, place.column, place.row, t);
 }

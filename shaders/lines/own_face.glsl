@@ -14,16 +14,12 @@
 
 #include "lines/shown_square.glsl"
 
-elvis_vec4 core_own_constraint(int own_face) {
-    return CORE_HAS_TWO_DIMENSIONS ? elvis_vec4(0, 0, 1, 0) : core_face_constraint(own_face);
-}
-
 core_shown_square core_own_square_at(core_element_image image, int own_face, core_picture_square place) {
     const elvis_real shift_error = elvis_real(2) * image.shift_error;
     const elvis_vec3 direction = core_cut_ray_at(place.column, place.row).direction, origin = image.shift - image.position;
     core_shown_square square;
     square.frame = core_frame_at(image.position, image.jacobian, shift_error);
-    const elvis_vec4 constraint = core_own_constraint(own_face);
+    const elvis_vec4 constraint = CORE_HAS_TWO_DIMENSIONS ? elvis_vec4(0, 0, 1, 0) : core_face_constraint(own_face);
     const elvis_vec3 covector =
         constraint.x * square.frame.row0 + constraint.y * square.frame.row1 + constraint.z * square.frame.row2;
     const elvis_real here = dot(constraint.xyz, image.xi) + constraint.w;

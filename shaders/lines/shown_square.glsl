@@ -14,7 +14,7 @@ struct core_shown_square {
     core_approach approach;
     // The plane through the corners; not on cut planes.
     core_tangent tangent;
-    // The surface is not there. Its part there, if it lies in the element, does not show it.
+    // Nothing of the surface is there. What is there of it hides the element, or is hidden with it.
     bool is_absent, is_hidden;
     // What is met in the square is seen in the pixel.
     bool is_seen;

@@ -1,9 +1,9 @@
-// What one element has to do with a pixel's subpixel: the part of a surface that a square of the picture shows.
+// What one element has to do with a subpixel: with what a square of the picture shows of a surface.
 //
-// The subpixel's corners are points of the surface; between them it is flat, so that every point of the subpixel lies in their hull. The
-// mapping is linearized at a point xi of the element. A point of subpixel and element has the offset J^-1 (x - x(xi)) from xi but for
-// the error of a Newton step (element/prediction.glsl) and rounding, which is the patch of arithmetic/model.glsl. Faces are linear in
-// reference coordinates, so where the corners lie tells what the boundary of the element does in the subpixel:
+// The surface is flat between the subpixel's corners, so that every point of the subpixel lies in their hull. The mapping is linearized at
+// a point xi of the element. A point x of subpixel and element has the offset J^-1 (x - x(xi)) from xi but for the error of a Newton step
+// (element/prediction.glsl) and rounding: the region of arithmetic/model.glsl. Faces are linear in reference coordinates, so where the
+// corners lie tells what the boundary of the element does in the subpixel:
 //
 //   inside    all of the subpixel lies in the element
 //   outside   none of it does
@@ -43,10 +43,10 @@ struct core_subpixel {
 
 #define CORE_NO_FACE -1
 
-// What a surface that touches an element along an edge only is known by: of the two or more faces that it crosses in the subpixel, the mean of
-// how far the subpixel's corners are beyond them, each over its change in the subpixel, is nowhere negative but for rounding. In the element it is
-// negative. One face is no edge: along the border of the volume there may be no other element to tell its line. Where the subpixel is
-// not wider than this many times the rounding, at extreme magnification, it stays open.
+// Where a surface touches an element along an edge only, it crosses two faces or more in the subpixel. How far a corner is beyond each of
+// them, over the change of that in the subpixel, has a mean. That is negative in the element. If it is negative at no corner, but for
+// rounding, the surface is grazed. One face is no edge: along the border of the volume there may be no other element to tell its line.
+// A subpixel that is not this many times as wide as the rounding, at extreme magnification, stays open.
 #define CORE_GRAZE_SPAN elvis_real(64)
 
 uint core_bits(bvec4 b) { return uint(b.x) | uint(b.y) << 1 | uint(b.z) << 2 | uint(b.w) << 3; }

@@ -145,12 +145,12 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
             kernels.exclude = make("lines/face_lines_careful", 8, sizeof(ListedParameters));
         } else {
             // The shape's rows, where they are read.
-            const auto make_search = [&](bool by_segments) {
+            const auto make_search = [&](bool by_spans) {
                 KernelRequest own = request;
                 own.name = std::string("surface_lines of element class ").append(std::to_string(index));
                 own.kernel = "lines/surface_lines.comp";
                 own.defines.insert(own.defines.end(), {{"CORE_FEW_SUBDIVISIONS", std::to_string(few_subdivisions) + "u"},
-                                                       {"CORE_BY_QUADRIC_SPANS", by_segments ? "1" : "0"},
+                                                       {"CORE_BY_QUADRIC_SPANS", by_spans ? "1" : "0"},
                                                        {"CORE_HAS_ENDS", "0"},
                                                        {"CORE_SHAPE_ROWS", std::to_string(m_quadric_rows)}});
                 own.bindings = bindings_up_to(9);
