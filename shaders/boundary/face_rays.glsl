@@ -95,19 +95,15 @@ core_face_crossing core_no_crossing() {
 // Behind this nothing need be looked at.
 float core_end_t(core_face_crossing nearest) { return float(nearest.t + nearest.slack); }
 
-elvis_real core_face_excess(elvis_real u, elvis_real v, uint square_word) {
-    return (square_word & CORE_FACE_IS_TRIANGLE) != 0u ? max(max(-u, -v) - elvis_real(1), u + v)
-                                                       : max(abs(u), abs(v)) - elvis_real(1);
-}
-
 // After the step s to (u, v). `motion`: of the ray's point from this pixel to the next one of the column.
 core_face_crossing core_face_crossing_at(uint face, uint patch_index, uint square_word, elvis_real u, elvis_real v, core_face_step s,
                                          elvis_vec3 motion) {
     const bool leaves = (s.across > elvis_real(0)) == ((square_word & CORE_FACE_IS_OUTWARD) != 0u);
     const uint key = (square_word & CORE_FACE_HAS_PARTNER) != 0u && !leaves ? 1u : 0u;
-    const bool is_on_edge = core_face_excess(u, v, square_word) >= elvis_real(-2) * s.error;
+    const elvis_real excess = (square_word & CORE_FACE_IS_TRIANGLE) != 0u ? max(max(-u, -v) - elvis_real(1), u + v)
+                                                                          : max(abs(u), abs(v)) - elvis_real(1);
     return core_face_crossing(face, s.number, patch_index, key, u, v, s.t, s.width, u + dot(s.row_u, motion), v + dot(s.row_v, motion),
-                              is_on_edge, 1u);
+                              excess >= elvis_real(-2) * s.error, 1u);
 }
 
 // Takes a crossing (`is_hit`) if it is before the nearest, or the same within rounding and goes before it: of two faces that coincide,

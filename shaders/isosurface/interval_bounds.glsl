@@ -30,14 +30,8 @@ struct core_interval_search {
 };
 
 core_interval_search core_no_search() {
-    core_interval_search search;
-    search.element = CORE_NO_ELEMENT;
-    search.from = search.to = search.next = search.last = search.wide = elvis_real(0);
-    search.x = search.y = search.z = elvis_real(0);
-    search.curvature = elvis_real(0);
-    search.bend = CORE_FAR;
-    search.used = search.moves = 0u;
-    return search;
+    const elvis_real zero = elvis_real(0);
+    return core_interval_search(CORE_NO_ELEMENT, zero, zero, zero, zero, zero, zero, zero, zero, zero, CORE_FAR, 0u, 0u);
 }
 
 struct core_evaluation {

@@ -13,36 +13,17 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
 };
 
-#include "element/shape_region.glsl"
-#include "field/shown_model.glsl"
-
-// From the centroid to a point of the shape near this one, or itself: all vertices are among those of the cube.
-elvis_vec3 core_way_to(int x, int y, int z) {
-    elvis_real px = elvis_real(x), py = elvis_real(y), pz = elvis_real(z);
-    core_project(px, py, pz);
-    return elvis_vec3(px, py, pz) - CORE_CENTROID;
-}
+#include "isosurface/cube_model.glsl"
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= core_n_elements) {
         return;
     }
-    // Patches have four corners: vertices below and above, and the middles of four faces, which estimates look at, too.
-    core_model model;
-    elvis_real reach = elvis_real(0), remainder = elvis_real(0);
-    for (int level = -1; level <= 1; ++level) {
-        const int side = level == 0 ? 0 : 1;
-        const core_region region =
-            core_region(core_way_to(-1, -side, level), core_way_to(1, side, level), core_way_to(-side, 1, level),
-                       core_way_to(side, -1, level), elvis_real(0), CORE_EXTENT);
-        elvis_real value;
-        model = core_shown_model(core_first + i, CORE_CENTROID, region, value);
-        remainder = max(remainder, model.remainder);
-        reach = max(reach, core_model_reach(model, region));
-    }
-    model.remainder = remainder;
-    reach += remainder;
+    elvis_real reach;
+    const core_model model =
+        core_model_in_cube(core_first + i, CORE_CENTROID, elvis_vec3(0), elvis_real(1), elvis_real(0), CORE_EXTENT, reach);
+    reach += model.remainder;
     const vec3 slope = vec3(model.slope);
     const float size = abs(float(model.value)) + abs(slope.x) + abs(slope.y) + abs(slope.z);
     // Single precision, whatever the kernel's.

@@ -20,20 +20,13 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
 };
 
-#include "element/shape_region.glsl"
-#include "field/shown_model.glsl"
+#include "isosurface/cube_model.glsl"
 
 #define CORE_WORDS 32u
 // Of elements that are nearly linear it is not measured for each octant.
 #define CORE_SMALL_CURVATURE elvis_real(0.05LF)
 // A linearization that leaves out more than this much of the reference shape is of no use.
 #define CORE_MOST_BENDING elvis_real(2)
-
-elvis_vec3 core_projected(elvis_vec3 point) {
-    elvis_real x = point.x, y = point.y, z = point.z;
-    core_project(x, y, z);
-    return elvis_vec3(x, y, z);
-}
 
 struct core_octant_place {
     // In reference coordinates; where the mapping and the field are linearized, in the shape; and the way from there to the middle.
@@ -93,31 +86,6 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
     return mapping;
 }
 
-// Patches have four corners: of the octant below and above, and the middles of four faces, which estimates look at, too. Where the octant
-// is cut by the shape, all of it lies within its radius.
-core_model core_field_in(uint element, core_octant_place place) {
-    core_model model;
-    elvis_real remainder = elvis_real(0), value;
-    for (int level = -1; level <= 1; ++level) {
-        const elvis_real side = level == 0 ? elvis_real(0) : place.half_side, up = elvis_real(level) * place.half_side;
-        core_region region;
-        region.corner0 = core_projected(place.middle + elvis_vec3(-place.half_side, -side, up)) - place.xi;
-        region.corner1 = core_projected(place.middle + elvis_vec3(place.half_side, side, up)) - place.xi;
-        region.corner2 = core_projected(place.middle + elvis_vec3(-side, place.half_side, up)) - place.xi;
-        region.corner3 = core_projected(place.middle + elvis_vec3(side, -place.half_side, up)) - place.xi;
-#if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
-        region.beyond = elvis_real(0);
-#else
-        region.beyond = place.radius;
-#endif
-        region.radius = place.radius;
-        model = core_shown_model(element, place.xi, region, value);
-        remainder = max(remainder, model.remainder);
-    }
-    model.remainder = remainder;
-    return model;
-}
-
 void core_write_vector(uint at, vec3 v) {
     for (int k = 0; k < 3; ++k) {
         core_words[at + uint(k)] = floatBitsToUint(v[k]);
@@ -165,7 +133,10 @@ void main() {
     const uint element = core_wanted[2u * i], code = core_wanted[2u * i + 1u];
     const core_octant_place place = core_place_of(code);
     const core_octant_mapping mapping = core_mapping_in(element, code, place);
-    const core_model model = core_field_in(element, place);
+    // Where the shape cuts the octant, all of it lies within the radius.
+    const elvis_real beyond = ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON ? elvis_real(0) : place.radius;
+    elvis_real reach;
+    const core_model model = core_model_in_cube(element, place.xi, place.middle, place.half_side, beyond, place.radius, reach);
     const uint at = CORE_WORDS * i;
     core_write_mapping(at, mapping);
     core_write_field(at, model, place, mapping);

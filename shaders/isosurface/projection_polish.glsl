@@ -5,16 +5,33 @@
 #define CORE_POLISH_ITERATIONS 40u
 #define CORE_CANDIDATE_ITERATIONS 16u
 
+// By the sample at t, at which the field is `off` the isovalue, within `error`.
+void core_narrow_bracket(elvis_real t, elvis_real off, elvis_real error, inout core_projection_search search) {
+    const bool is_above = off > error, is_below = off < -error;
+    search.is_seen_above = search.is_seen_above || is_above;
+    search.is_seen_below = search.is_seen_below || is_below;
+    search.bracket_from = (search.rises ? is_below : is_above) ? max(search.bracket_from, t) : search.bracket_from;
+    search.bracket_to = (search.rises ? is_above : is_below) ? min(search.bracket_to, t) : search.bracket_to;
+}
+
+// The root near the sample, as a crossing of the ray.
+core_nearest_crossing core_polished(core_ray_sample found, core_projection_search search, elvis_real root_t, elvis_real half_width,
+                                    elvis_real bend, bool is_surely_inside) {
+    const core_frame frame = found.frame;
+    const elvis_vec3 gradient = found.gradient.x * frame.row0 + found.gradient.y * frame.row1 + found.gradient.z * frame.row2;
+    const elvis_vec3 point = found.xi + found.q + (root_t - search.follower.at) * found.w;
+    const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
+    return core_nearest_crossing(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y, gradient.z,
+                                 inverse_square * bend / length(gradient), search.element,
+                                 elvis_fetch_core_elements(search.element, 0u), is_surely_inside);
+}
+
 // After a sample at the follower's parameter. `size`: of the volume, in the ray's parameter.
 void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found,
                             inout core_projection_search search, inout core_nearest_crossing nearest) {
     search.polish_iterations += 1u;
     const elvis_real t = search.follower.at, off = found.value - search.isovalue;
-    const bool is_above = off > found.error, is_below = off < -found.error;
-    search.is_seen_above = search.is_seen_above || is_above;
-    search.is_seen_below = search.is_seen_below || is_below;
-    search.bracket_from = (search.rises ? is_below : is_above) ? max(search.bracket_from, t) : search.bracket_from;
-    search.bracket_to = (search.rises ? is_above : is_below) ? min(search.bracket_to, t) : search.bracket_to;
+    core_narrow_bracket(t, off, found.error, search);
     const elvis_real step = -off / found.slope, half_width = found.error / abs(found.slope);
     const elvis_real speed = core_max_norm(found.w);
     const bool is_regular = core_is_finite(step);
@@ -53,16 +70,7 @@ void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real
     const elvis_real candidate_t = search.from + search.candidate.t * (search.to - search.from);
     search.undecided_t = is_undecided || is_blurred ? min(search.undecided_t, is_undecided ? candidate_t : root_t) : search.undecided_t;
 
-    const core_frame frame = found.frame;
-    const uint number = elvis_fetch_core_elements(search.element, 0u);
-    const elvis_vec3 gradient = found.gradient.x * frame.row0 + found.gradient.y * frame.row1 + found.gradient.z * frame.row2;
-    const elvis_vec3 point = found.xi + found.q + (root_t - t) * found.w;
-    const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
-    core_nearest_take(is_hit,
-                      core_nearest_crossing(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y,
-                                            gradient.z, inverse_square * bend_here / length(gradient), search.element, number,
-                                            is_surely_inside),
-                      nearest);
+    core_nearest_take(is_hit, core_polished(found, search, root_t, half_width, bend_here, is_surely_inside), nearest);
     const bool is_estimated = core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1;
     search.flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     search.phase = is_hit ? CORE_PHASE_SEEK : is_settled || is_last ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;

@@ -33,6 +33,15 @@ layout(push_constant) uniform core_parameters {
     uint core_width;
 };
 
+// The picture's flags with those of a pixel of the layer. Flags of a surface that found nothing, or something that is cut away, may hide
+// something that it should have found: they stay, in the upper half.
+uint core_merged_flags(core_mark layer, uint old_flags, bool is_drawn, bool is_seen, bool is_nearest) {
+    const uint own_flags = is_seen ? layer.flags : 0u;
+    const uint may_hide = CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED;
+    const uint lost_flags = !is_drawn ? layer.flags : is_seen ? 0u : layer.flags & may_hide;
+    return (is_nearest ? (old_flags & 0xffff0000u) | own_flags : old_flags) | (lost_flags << 16);
+}
+
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
@@ -56,17 +65,10 @@ void main() {
         old_depth = core_samples[pixel].depth;
     }
     const bool is_nearest = is_seen && depth < old_depth;
-    // Flags of a surface that found nothing, or something that is cut away, may hide something that it should have found: they stay,
-    // in the upper half.
-    const uint old_flags = is_first ? 0u : old.flags;
-    const uint own_flags = is_seen ? layer.flags : 0u;
-    const uint may_hide = CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED;
-    const uint lost_flags = !is_drawn ? layer.flags : is_seen ? 0u : layer.flags & may_hide;
-    const uint kept_flags = is_nearest ? (old_flags & 0xffff0000u) | own_flags : old_flags;
     if (is_inside) {
         const uint low_bits = layer.owner & ((1u << CORE_OWNER_BITS) - 1u);
         core_marks[pixel].owner = is_nearest ? (core_surface << CORE_OWNER_BITS) | low_bits : (is_empty ? 0u : old.owner);
-        core_marks[pixel].flags = kept_flags | (lost_flags << 16);
+        core_marks[pixel].flags = core_merged_flags(layer, is_first ? 0u : old.flags, is_drawn, is_seen, is_nearest);
     }
     if (is_nearest) {
         core_samples[pixel] = core_layer_samples[pixel];
