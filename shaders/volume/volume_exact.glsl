@@ -257,7 +257,8 @@ void core_add_breakpoint_error(inout core_light light, core_polynomial powers, c
         light.error += before * section.ray_length * core_jump_at(held, touches_last == section.rises);
     }
     if (crosses) {
-        light.error += before * length * core_uncertain_width(powers, section.until, section.next, error) * core_jump_at(held, section.rises);
+        const elvis_real width = core_uncertain_width(powers, section.until, section.next, error);
+        light.error += before * length * width * core_jump_at(held, section.rises);
     }
 #endif
 }

@@ -97,9 +97,9 @@ elvis_real core_integral_span(core_integral integral) {
 
 core_fitted core_fit_step(core_integral integral) {
     const bool with_inner = integral.has_inner;
-    const elvis_real width = integral.right - integral.left;
-    const elvis_real c0 = integral.left_sample.value, c3 = integral.right_sample.value;
-    const elvis_real c1 = c0 + CORE_ONE_THIRD * width * integral.left_sample.slope, c2 = c3 - CORE_ONE_THIRD * width * integral.right_sample.slope;
+    const core_step_sample left = integral.left_sample, right = integral.right_sample;
+    const elvis_real width = integral.right - integral.left, c0 = left.value, c3 = right.value;
+    const elvis_real c1 = c0 + CORE_ONE_THIRD * width * left.slope, c2 = c3 - CORE_ONE_THIRD * width * right.slope;
     const elvis_real cubic = c3 - c0 + elvis_real(3) * (c1 - c2), square = elvis_real(3) * (c0 - elvis_real(2) * c1 + c2);
     // What is added to it: t^2 (1 - t)^2 (shift + tilt (t - at)).
     const elvis_real at = CORE_INNER_AT, rest = elvis_real(1) - CORE_INNER_AT;
@@ -120,21 +120,23 @@ core_fitted core_fit_step(core_integral integral) {
     const elvis_real level = shift - at * tilt;
     const elvis_real a2 = square + level, a3 = cubic - elvis_real(2) * level + tilt, a4 = level - elvis_real(2) * tilt;
     fitted.powers.c[0] = c0;
-    fitted.powers.c[1] = width * integral.left_sample.slope;
+    fitted.powers.c[1] = width * left.slope;
     fitted.powers.c[2] = a2;
     fitted.powers.c[3] = a3;
     fitted.powers.c[4] = a4;
     fitted.powers.c[5] = tilt;
     // From them the Chebyshev coefficients from the second on.
-    const elvis_real second = abs(a2 * elvis_real(0.125LF) + a3 * elvis_real(0.1875LF) + a4 * elvis_real(0.21875LF) + tilt * elvis_real(0.234375LF));
+    const elvis_real second =
+        abs(a2 * elvis_real(0.125LF) + a3 * elvis_real(0.1875LF) + a4 * elvis_real(0.21875LF) + tilt * elvis_real(0.234375LF));
     const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
     const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
     const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
     const elvis_real of_quintic = max(CORE_MARGIN * last * decay / (elvis_real(1) - decay), CORE_QUINTIC_SHARE * integral.bend);
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_SHARE * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
-    const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_sample.slope), abs(integral.right_sample.slope));
-    fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(left.slope), abs(right.slope));
+    fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error +
+                   elvis_real(8) * CORE_ROUNDOFF * size;
     return fitted;
 }
 
