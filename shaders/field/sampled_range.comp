@@ -1,5 +1,5 @@
-// Smallest and largest of 7 x 7 x 7 samples of a field in boxes of collapsed coordinates, each in one element, and which samples they are. A few
-// samples in a dispatch, from the first on: drivers end loops that take many iterations, those of an evaluation among them.
+// Smallest and largest of 7 x 7 x 7 samples of a field in boxes of collapsed coordinates, each in one element, and which samples they
+// are. A few samples in a dispatch, from the first on: drivers end loops that take many iterations, those of an evaluation among them.
 
 #include "element/expand.glsl"
 #include "arithmetic/finite.glsl"

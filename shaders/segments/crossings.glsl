@@ -2,11 +2,11 @@
 //     elvis_real core_listed_value(uint i)     an ascending list.
 //
 // The segment is divided dyadically, depth first, without a stack: an interval is [index, index + 1] / 2^level, and its coefficients are
-// always those of the whole segment, restricted. An interval with no listed value within its range, widened by the error E, is done with: it
-// is verified that the field does not take them. An interval where the polynomial is monotone, or has one value in reach and one change
-// of sign about it, is settled: crossings there are known one by one (Descartes' rule in the Bernstein basis: Collins & Akritas 1976;
-// Rouillier & Zimmermann 2004). So is one whose range is no wider than 2 E: there the polynomial does not know better. All others are
-// halved.
+// always those of the whole segment, restricted. An interval with no listed value within its range, widened by the error E, is done with:
+// it is verified that the field does not take them. An interval where the polynomial is monotone, or has one value in reach and one
+// change of sign about it, is settled: crossings there are known one by one (Descartes' rule in the Bernstein basis: Collins & Akritas
+// 1976; Rouillier & Zimmermann 2004). So is one whose range is no wider than 2 E: there the polynomial does not know better. All others
+// are halved.
 
 #ifndef CORE_FIT_CROSSINGS
 #define CORE_FIT_CROSSINGS

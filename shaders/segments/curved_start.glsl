@@ -15,8 +15,8 @@ struct core_face_entry {
     uint n_evaluations;
 };
 
-// For `start` 0 the middle of the face, then a point near each of its vertices, and from CORE_EDGE_START near the middle of the edge it shares
-// with the face of that number. False if there is none.
+// For `start` 0 the middle of the face, then a point near each of its vertices, and from CORE_EDGE_START near the middle of the edge it
+// shares with the face of that number. False if there is none.
 bool core_point_of_face(int face, uint start, out elvis_vec3 point) {
     const elvis_vec4 constraint = core_face_constraint(face);
     const bool is_of_edge = start >= CORE_EDGE_START;

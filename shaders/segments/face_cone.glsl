@@ -1,6 +1,6 @@
-// The directions that a face of an element has: its outward unit normals lie within an angle of an axis. Measured (segments/face_cones.comp)
-// for the faces of elements that are too curved for the linearized mapping to tell how rays cross them. In one word: the axis and the
-// sine of the angle, each in eight bits; 1 where nothing is known.
+// The directions that a face of an element has: its outward unit normals lie within an angle of an axis. Measured
+// (segments/face_cones.comp) for the faces of elements that are too curved for the linearized mapping to tell how rays cross them. In one
+// word: the axis and the sine of the angle, each in eight bits; 1 where nothing is known.
 
 #ifndef CORE_FACE_CONE
 #define CORE_FACE_CONE

@@ -57,37 +57,35 @@ layout(push_constant) uniform core_parameters {
 // Nodes of the hierarchy that are still to be looked at.
 uint core_stack[CORE_STACK_SIZE];
 
-// The nearest start so far, behind that of the walk before.
+// For the nearest start behind that of the last walk.
 struct core_start_search {
-    // The first walk may start at the eye. Starts before `from` do not count.
+    // The last walk's start, and the nearest one so far.
+    core_walk_state walk;
+    elvis_real at_error;
+    // There is no last walk: this one may start at the eye. Starts before `from` do not count.
     bool is_first;
     elvis_real from;
-    // Where the walk before began; elements are among all of the volume.
-    elvis_real start;
-    uint start_element;
-    elvis_real best, best_error;
-    uint best_element;
     // Where the tile's list begins, its next entry, and how many it has.
     uint list, entry, n_entries;
     uint stack_size;
     uint work, n_evaluations;
-    // The ray is followed through an element; a segment there has been entered; one has not been found to its end.
-    bool is_following, has_entered, has_failed;
+    // The ray is followed through an element; it has entered its next segment there.
+    bool is_following, has_entered;
 };
 
 bool core_has_nodes(core_start_search search) { return search.stack_size > 0u || search.entry < search.n_entries; }
 
 // Of starts that are as near, that in the later element is behind.
 bool core_is_behind_last(core_traced_ray ray, elvis_real t, uint element, core_start_search search) {
-    const bool is_tied = abs(t - search.start) <= elvis_real(2) * ray.tolerance;
-    return is_tied ? element > search.start_element : t > search.start;
+    const bool is_tied = abs(t - search.walk.start) <= elvis_real(2) * ray.tolerance;
+    return is_tied ? element > search.walk.start_element : t > search.walk.start;
 }
 
 void core_take_start(bool is_start, elvis_real t, elvis_real error, uint element, inout core_start_search search) {
-    const bool is_better = is_start && (t < search.best || (t == search.best && element < search.best_element));
-    search.best = is_better ? t : search.best;
-    search.best_error = is_better ? error : search.best_error;
-    search.best_element = is_better ? element : search.best_element;
+    const bool is_better = is_start && (t < search.walk.at || (t == search.walk.at && element < search.walk.element));
+    search.walk.at = is_better ? t : search.walk.at;
+    search.at_error = is_better ? error : search.at_error;
+    search.walk.element = is_better ? element : search.walk.element;
 }
 
 // An element that the ray may meet between `from` and `to`.
@@ -106,14 +104,14 @@ core_candidate core_next_node(core_ray ray, inout core_start_search search) {
     const bool is_behind = false;
 #else
     const uint at = search.list + 1u + 2u * min(search.entry, search.n_entries - 1u), listed = core_tiles[at];
-    const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(search.best);
+    const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(search.walk.at);
 #endif
     const uint word = is_popped ? core_stack[search.stack_size - (is_popped ? 1u : 0u)] : listed;
     search.stack_size -= is_popped ? 1u : 0u;
     search.entry = is_popped ? search.entry : (is_behind ? search.n_entries : search.entry + 1u);
     const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
     const vec2 span = core_box_span(node, ray);
-    const bool is_touched = !is_behind && span.x <= span.y && span.y >= float(search.from) && span.x <= float(search.best);
+    const bool is_touched = !is_behind && span.x <= span.y && span.y >= float(search.from) && span.x <= float(search.walk.at);
     if (is_touched && !node.is_leaf) {
         core_stack[search.stack_size] = node.child + 1u;
         core_stack[search.stack_size + 1u] = node.child;
@@ -129,7 +127,7 @@ void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_candida
     const elvis_real end = min(candidate.to, begin + ray.reach);
     const bool is_around_eye = search.is_first && candidate.from <= search.from;
     const bool is_taken =
-        !search.is_first && core_first_element + candidate.element == search.start_element && search.from > pixel_ray.least_t;
+        !search.is_first && core_first_element + candidate.element == search.walk.start_element && search.from > pixel_ray.least_t;
     const bool may_start =
         is_around_eye || core_may_start(ray, candidate.element, begin, end, search.is_first ? begin : search.from, is_taken);
     search.is_following = core_segment_begin(ray, candidate.element, begin, end, false, segment) && may_start;
@@ -163,7 +161,7 @@ void core_start_in_curved(core_traced_ray ray, bool is_curved, inout core_segmen
     if (is_curved && search.is_first && segment.anchor.t <= search.from) {
         const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
         search.n_evaluations += segment.iterations;
-        core_take_start(is_in, search.from, search.best_error, element, search);
+        core_take_start(is_in, search.from, search.at_error, element, search);
     }
     // Bits of the faces.
     uint open = 0u, start = 0u;
@@ -218,7 +216,7 @@ void core_follow(core_traced_ray ray, inout core_segment segment, inout core_sta
     const uint ending = is_following ? core_segment_iterate(ray, is_following, segment) : CORE_SEGMENT_NONE;
     search.n_evaluations += is_following ? 1u : 0u;
     // What is behind in the element is then not looked for.
-    search.has_failed = search.has_failed || (is_following && ending != CORE_SEGMENT_OPEN && segment.has_failed);
+    search.walk.flags |= is_following && ending != CORE_SEGMENT_OPEN && segment.has_failed ? CORE_FLAG_UNDECIDED : 0u;
     const uint element = core_first_element + segment.element;
     const bool is_entry = is_following && segment.is_inside && !search.has_entered;
     search.has_entered = search.has_entered || is_entry;
@@ -241,17 +239,14 @@ void core_follow(core_traced_ray ray, inout core_segment segment, inout core_sta
 
 core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 place, bool is_mine) {
     core_start_search search;
+    search.walk = state.walk;
+#if CORE_MAKES_SEGMENTS
+    search.at_error = state.at_error;
+#else
+    search.at_error = elvis_real(0);
+#endif
     search.is_first = state.walk.start_element == CORE_NO_ELEMENT;
     search.from = search.is_first ? least_t : state.walk.start;
-    search.start = state.walk.start;
-    search.start_element = state.walk.start_element;
-    search.best = state.walk.at;
-    search.best_element = state.walk.element;
-#if CORE_MAKES_SEGMENTS
-    search.best_error = state.at_error;
-#else
-    search.best_error = elvis_real(0);
-#endif
 #if CORE_RAYS_ARE_GIVEN
     search.list = 0u;
     search.n_entries = is_mine ? 1u : 0u;
@@ -260,7 +255,7 @@ core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 
     search.n_entries = is_mine ? core_tiles[search.list] & ~CORE_TILE_INNER : 0u;
 #endif
     search.entry = search.stack_size = search.work = search.n_evaluations = 0u;
-    search.is_following = search.has_entered = search.has_failed = false;
+    search.is_following = search.has_entered = false;
     return search;
 }
 
@@ -290,14 +285,13 @@ void main() {
         }
     }
     const bool is_cut_short = search.is_following || core_has_nodes(search) || core_has_driver_given_up(core_zero);
+    search.walk.status = CORE_RAY_HAS_SOUGHT;
+    search.walk.flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
     if (is_mine) {
-        core_states[pixel].walk.status = CORE_RAY_HAS_SOUGHT;
-        core_states[pixel].walk.at = search.best;
-        core_states[pixel].walk.element = search.best_element;
+        core_states[pixel].walk = search.walk;
 #if CORE_MAKES_SEGMENTS
-        core_states[pixel].at_error = search.best_error;
+        core_states[pixel].at_error = search.at_error;
 #endif
-        core_states[pixel].walk.flags |= (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) | (search.has_failed ? CORE_FLAG_UNDECIDED : 0u);
     }
     core_count(0u, is_mine ? 1u : 0u);
     core_count(1u, search.n_evaluations);

@@ -113,7 +113,7 @@ core_ray_segments core_pair_crossings(core_face_crossings list) {
         const bool is_there = i < list.count && !is_skipped;
         const bool enters = is_there && list.enters[i];
         const bool leaves = is_there && !list.enters[i];
-        // Not in turn: fine if it is undone within rounding, or if the ray touches an edge from outside and only one of the two
+        // Out of order: fine if it is undone within rounding, or if the ray touches an edge from outside and only one of the two
         // faces there is met, for the same reason.
         const bool is_wrong = (enters && is_inside) || (leaves && !is_inside);
         is_skipped = is_wrong && next < list.count && list.enters[next] != enters && list.t[next] - list.t[i] <= list.slack;

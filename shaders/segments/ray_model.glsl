@@ -58,7 +58,8 @@ elvis_real core_side_noise(core_ray_model model, int side) {
 
 // How far along the ray rounding may move it, to either side.
 elvis_real core_own_blur(core_ray_model model) {
-    return elvis_real(4) * core_side_noise(model, CORE_INSIDE_FACE) / max(abs(dot(model.own_tangent.xyz, model.slope)), elvis_real(1e-30LF));
+    const elvis_real slope = max(abs(dot(model.own_tangent.xyz, model.slope)), elvis_real(1e-30LF));
+    return elvis_real(4) * core_side_noise(model, CORE_INSIDE_FACE) / slope;
 }
 
 // As if there were none.
@@ -110,9 +111,9 @@ elvis_real core_slope_change(core_ray_model model, elvis_real curvature, elvis_r
 }
 
 // Within [begin, end], where predictions are off by at most `error`, and slopes by `slope_change`. `is_inside`: the ray is inside at
-// `begin`, so that a face of the shape by which it surely enters does not bound what is sure. `is_settled`: nor does that face bound what is
-// possible, where rounding may say that the ray is not yet inside. A face that the ray runs along within rounding bounds nothing: rays in
-// a face that two elements share lie in both.
+// `begin`, so that a face of the shape by which it surely enters does not bound what is sure. `is_settled`: nor does that face bound what
+// is possible, where rounding may say that the ray is not yet inside. A face that the ray runs along within rounding bounds nothing: rays
+// in a face that two elements share lie in both.
 core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real slope_change, bool is_inside, bool is_settled,
                             elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;

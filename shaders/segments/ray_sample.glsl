@@ -77,9 +77,9 @@ void core_follow_to(inout core_follower follower, elvis_real goal) {
     core_predict(follower, goal);
 }
 
-// The field at a point of the ray that is off by result.beyond at most, and how far it may be from a line over the span. `step`: of Newton's
-// method that led there; `far_step`: that to the farthest point of the span. The change of the point with the parameter is that where the
-// step began.
+// The field at a point of the ray that is off by result.beyond at most, and how far it may be from a line over the span. `step`: of
+// Newton's method that led there; `far_step`: that to the farthest point of the span. The change of the point with the parameter is that
+// where the step began.
 void core_sample_field(uint element, elvis_vec3 point, elvis_real step, elvis_real far_step, elvis_real curvature, elvis_real span,
                        inout core_ray_sample result) {
     elvis_real x = point.x, y = point.y, z = point.z;
@@ -106,8 +106,9 @@ void core_sample_field(uint element, elvis_vec3 point, elvis_real step, elvis_re
     const elvis_real share = (outside + result.beyond) / region.radius;
     const elvis_real remainder = region.radius > elvis_real(0) ? model.remainder * share * share : model.remainder;
     // Without a model: what rounding alone does.
+    const elvis_real operations = CORE_MODEL_OPERATIONS * CORE_ROUNDOFF;
     result.error = (result.is_known ? CORE_MODEL_UP * (remainder + blur) +
-                                          (elvis_real(1) - share) * CORE_MODEL_OPERATIONS * CORE_ROUNDOFF * (abs(model.value) + size * outside)
+                                          (elvis_real(1) - share) * operations * (abs(model.value) + size * outside)
                                     : elvis_real(64) * CORE_ROUNDOFF * abs(value) + blur) +
                    elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
     result.bend = result.is_known ? model.remainder + size * core_prediction_error(curvature, max(step, far_step)) : CORE_UNKNOWN;
@@ -179,7 +180,8 @@ core_ray_sample core_sample_predicted(core_segment segment, elvis_real at, elvis
     result.rounding = segment.noise;
     result.beyond = off + segment.noise;
     core_sample_field(segment.element, core_predicted(segment.anchor, at), step, step + abs(span) * speed, segment.curvature, span, result);
-    const bool is_enough = core_sample_is_enough(result, span, enough), has_converged = result.is_known && off <= elvis_real(3) * segment.noise;
+    const bool is_enough = core_sample_is_enough(result, span, enough);
+    const bool has_converged = result.is_known && off <= elvis_real(3) * segment.noise;
     result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(span) * result.slope_error;
     result.status = (is_enough || has_converged) && result.is_finite && step < elvis_real(1) ? CORE_SAMPLE_FOUND : CORE_SAMPLE_RUNNING;
     return result;

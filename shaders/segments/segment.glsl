@@ -39,8 +39,8 @@
 // Newton's method for where a ray enters: starts, and steps from each.
 #define CORE_ENTRY_STARTS 10u
 #define CORE_ENTRY_STEPS 12u
-// Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's neighbourhood are
-// taken for each other.
+// Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's
+// neighbourhood are taken for each other.
 #define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
 // Of tolerances.
 #define CORE_MOST_BLUR elvis_real(64)
@@ -176,8 +176,8 @@ core_ray_evaluation core_evaluate_ray(core_traced_ray ray, uint element, elvis_v
     return here;
 }
 
-// How far a prediction may lead in reference coordinates before another point than the ray's may be nearer: half as far as there is surely no
-// other one (Kantorovich).
+// How far a prediction may lead in reference coordinates before another point than the ray's may be nearer: half as far as there is
+// surely no other one (Kantorovich).
 elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / curvature; }
 
 // In elements so curved that a point outside of them may be taken for the ray's, the ray is followed from where it enters: there its
@@ -245,8 +245,8 @@ core_ray_clip core_clip_interval(uint element, elvis_real curvature, elvis_vec3 
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
     const bool is_agreed = xi != predicted && !segment.is_inside && segment.iterations > 1u;
     core_ray_clip clip =
-        core_clip_ray(here.model, is_agreed ? min(bound, agreed) : bound, core_slope_change(here.model, curvature, distance), segment.is_inside,
-                      segment.is_followed || !segment.is_assumed, segment.begin, segment.end);
+        core_clip_ray(here.model, is_agreed ? min(bound, agreed) : bound, core_slope_change(here.model, curvature, distance),
+                      segment.is_inside, segment.is_followed || !segment.is_assumed, segment.begin, segment.end);
     // Where nothing is known, anything is possible.
     clip.possible_from = here.is_sound ? clip.possible_from : segment.begin;
     clip.possible_to = here.is_sound ? clip.possible_to : segment.end;

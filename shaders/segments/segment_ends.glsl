@@ -56,7 +56,11 @@ bool core_seek_exit(core_traced_ray ray, core_ray_clip clip, bool is_exact, elvi
     const bool is_passed = is_short && clip.from <= middle && clip.to >= middle && open_end < segment.last;
     const bool is_shrunk = open_end - open_begin <= elvis_real(0.5LF) * (end - begin);
     const bool is_over = is_contradicted || is_last || is_found || (is_short && !is_passed);
-    segment.leave = is_contradicted && !is_at_begin ? begin : is_at_begin ? clip.to : is_found ? clamp(clip.to, clip.sure_to, clip.possible_to) : is_last ? end : open_begin;
+    segment.leave = is_at_begin       ? clip.to
+                    : is_contradicted ? begin
+                    : is_found        ? clamp(clip.to, clip.sure_to, clip.possible_to)
+                    : is_last         ? end
+                                      : open_begin;
     segment.leave_error = is_found ? error : ray.tolerance;
     segment.leave_face = is_found || is_short ? clip.to_face : CORE_NO_FACE;
     segment.resume = is_contradicted ? begin + ray.tolerance : is_found ? clip.possible_to : is_last ? end : open_end;

@@ -103,7 +103,8 @@ elvis_real core_list_segment(core_traced_ray ray, core_segment segment, core_rea
                     is_end_estimated || (is_joined && list.is_done_estimated), list);
     }
     walk.done = is_segment ? until : walk.done;
-    list.is_done_estimated = is_segment ? is_end_estimated : list.is_done_estimated || is_uncertain || (reach.is_met && segment.is_estimated);
+    list.is_done_estimated =
+        is_segment ? is_end_estimated : list.is_done_estimated || is_uncertain || (reach.is_met && segment.is_estimated);
     list.done_error = is_segment ? leave_error : list.done_error;
     list.at_error = leave_error;
     list.is_first = list.is_first && walk.needs_roughly;
@@ -151,7 +152,8 @@ void main() {
     }
     const core_walk_state end = core_walk_end(walk);
     if (walk.is_mine) {
-        core_states[index] = core_segment_state(end, list.done_error, list.at_error, list.sum, list.n_segments, list.is_done_estimated ? 1u : 0u);
+        core_states[index] = core_segment_state(end, list.done_error, list.at_error, list.sum, list.n_segments,
+                                                list.is_done_estimated ? 1u : 0u);
     }
     core_count(0u, walk.is_mine ? 1u : 0u);
     core_count(1u, list.n_made);

@@ -18,7 +18,8 @@ layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     // Of the list.
     uint core_first, core_n_groups;
-    // Rays that look for a start, and those that can find none end; else those that go on in these elements, and rays that found no start end.
+    // Rays that look for a start, and those that can find none end; else those that go on in these elements, and rays that found no start
+    // end.
     uint core_seeks;
     uint core_first_element;
     uint core_n_elements;

@@ -2,8 +2,8 @@
 // and colour are linear in the field's value less the value that the piece starts from. Values lack the field's offset.
 //
 // The kernel brings core_n_breakpoints; core_breakpoints, ascending; and core_pieces, one more than those: (from, density, its slope,
-// steepness), (colour, breakpoint below), (the colour's slope, breakpoint above). Steepness: how much density and light per length change at most with the value, also at the
-// piece's ends, but for steps.
+// steepness), (colour, breakpoint below), (the colour's slope, breakpoint above). Steepness: how much density and light per length change
+// at most with the value, also at the piece's ends, but for jumps.
 
 struct core_transfer_piece {
     elvis_real from, density, density_slope, steepness;

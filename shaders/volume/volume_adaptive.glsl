@@ -65,8 +65,8 @@ elvis_vec4 core_trapezoid(core_optics left, core_optics right, elvis_real width)
 
 // How far density and light of a piece at a value are from those of the rule between two samples.
 elvis_real core_deviation(core_transfer_piece piece, elvis_real at, core_optics_sample first, core_optics_sample second) {
-    const elvis_real share =
-        first.value == second.value ? elvis_real(0) : clamp((at - first.value) / (second.value - first.value), elvis_real(0), elvis_real(1));
+    const elvis_real change = second.value - first.value, none = elvis_real(0);
+    const elvis_real share = first.value == second.value ? none : clamp((at - first.value) / change, none, elvis_real(1));
     const core_optics there = core_optics_of(piece, at);
     return abs(there.density - mix(first.optics.density, second.optics.density, share)) +
            core_max_norm(core_light_of(there) - mix(core_light_of(first.optics), core_light_of(second.optics), share));

@@ -221,8 +221,8 @@ void core_integral_add(inout core_integral integral, inout core_light light, cor
         core_add_point(integral, light, found.value, width);
     }
     // The end is known.
-    const bool is_all = integral.wants == CORE_WANTS_VALUE && integral.panel >= integral.n_steps;
-    const bool is_at_end = integral.wants == CORE_WANTS_VALUE && integral.panel + 1u == integral.n_steps && integral.point >= integral.n_points;
+    const bool wants_value = integral.wants == CORE_WANTS_VALUE, is_all = wants_value && integral.panel >= integral.n_steps;
+    const bool is_at_end = wants_value && integral.panel + 1u == integral.n_steps && integral.point >= integral.n_points;
     if (is_at_end) {
         core_add_point(integral, light, integral.end_value, width);
     }

@@ -133,7 +133,7 @@ elvis_real core_meet(core_polynomial powers, elvis_real value, elvis_real from, 
     return x;
 }
 
-#if CORE_HAS_STEPS
+#if CORE_HAS_JUMPS
 // Half the width of the interval around t, where the polynomial takes the value, outside of which it differs from it by more than `error`.
 elvis_real core_uncertain_width(core_polynomial powers, elvis_real t, elvis_real value, elvis_real error) {
     elvis_real width = elvis_real(4) * CORE_ROUNDOFF;
@@ -252,12 +252,13 @@ void core_add_breakpoint_error(inout core_light light, core_polynomial powers, c
     const elvis_real first_share = touches_first ? (interval.has_crossed ? across : elvis_real(1)) : elvis_real(0);
     const elvis_real last_share = crosses ? across : touches_last ? elvis_real(1) : elvis_real(0);
     light.error += before * section.ray_length * (reach + error) * elvis_real(core_steepest) * (first_share + last_share);
-#if CORE_HAS_STEPS
+#if CORE_HAS_JUMPS
     if ((touches_first && !interval.has_crossed) || touches_last) {
         light.error += before * section.ray_length * core_jump_at(held, touches_last == section.rises);
     }
     if (crosses) {
-        light.error += before * length * core_uncertain_width(powers, section.until, section.next, error) * core_jump_at(held, section.rises);
+        const elvis_real width = core_uncertain_width(powers, section.until, section.next, error);
+        light.error += before * length * width * core_jump_at(held, section.rises);
     }
 #endif
 }

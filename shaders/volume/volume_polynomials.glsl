@@ -22,9 +22,8 @@
 #define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
 // Share of how far the field may be from a line that a cubic is off at least.
 #define CORE_CUBIC_SHARE elvis_real(0.0625LF)
-// The same of a quintic where density or light have steps: a short interval beyond a step that is missed is much light, and no slope tells
-// of it.
-#define CORE_QUINTIC_SHARE elvis_real(CORE_HAS_STEPS == 1 ? 0.00390625LF : 0.0LF)
+// The same of a quintic where density or light jump: a short interval beyond a jump that is missed is much light, and no slope tells of it.
+#define CORE_QUINTIC_SHARE elvis_real(CORE_HAS_JUMPS == 1 ? 0.00390625LF : 0.0LF)
 #define CORE_MARGIN elvis_real(15)
 // Share of what a step may be off that a line may be.
 #define CORE_LINE_SHARE elvis_real(0.125LF)
@@ -34,14 +33,17 @@
 // Share of what remains of the tolerance that any step may use.
 #define CORE_LEAST_SHARE elvis_real(0.0625LF)
 
+// The field, and how it changes with the ray's parameter.
+struct core_step_sample {
+    elvis_real value, slope;
+};
+
 struct core_integral {
     elvis_real from, to;
-    // The step; slopes are those with the ray's parameter.
-    elvis_real left, left_value, left_slope;
-    elvis_real right, right_value, right_slope;
-    elvis_real end_value, end_slope;
+    // The step, and samples at its ends, inside, and at the end of the segment.
+    elvis_real left, right;
+    core_step_sample left_sample, right_sample, inner_sample, end_sample;
     bool has_end, has_left;
-    elvis_real inner_value, inner_slope;
     // What the next polynomial is: a quintic; a line from the right, which bounds tell how far the field may be from.
     bool has_inner, is_line;
     uint wants;
@@ -55,8 +57,8 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
     integral.from = integral.left = from;
     integral.to = to;
     integral.right = elvis_real(1.5LF) * step < to - from ? from + step : to;
-    integral.left_value = integral.left_slope = integral.right_value = integral.right_slope = elvis_real(0);
-    integral.end_value = integral.end_slope = integral.inner_value = integral.inner_slope = elvis_real(0);
+    integral.left_sample = integral.right_sample = integral.inner_sample = integral.end_sample =
+        core_step_sample(elvis_real(0), elvis_real(0));
     integral.has_end = false;
     integral.wants = from < to ? CORE_WANTS_RIGHT : CORE_WANTS_NOTHING;
     integral.has_left = integral.has_inner = integral.is_line = false;
@@ -95,9 +97,9 @@ elvis_real core_integral_span(core_integral integral) {
 
 core_fitted core_fit_step(core_integral integral) {
     const bool with_inner = integral.has_inner;
-    const elvis_real width = integral.right - integral.left;
-    const elvis_real c0 = integral.left_value, c3 = integral.right_value;
-    const elvis_real c1 = c0 + CORE_ONE_THIRD * width * integral.left_slope, c2 = c3 - CORE_ONE_THIRD * width * integral.right_slope;
+    const core_step_sample left = integral.left_sample, right = integral.right_sample;
+    const elvis_real width = integral.right - integral.left, c0 = left.value, c3 = right.value;
+    const elvis_real c1 = c0 + CORE_ONE_THIRD * width * left.slope, c2 = c3 - CORE_ONE_THIRD * width * right.slope;
     const elvis_real cubic = c3 - c0 + elvis_real(3) * (c1 - c2), square = elvis_real(3) * (c0 - elvis_real(2) * c1 + c2);
     // What is added to it: t^2 (1 - t)^2 (shift + tilt (t - at)).
     const elvis_real at = CORE_INNER_AT, rest = elvis_real(1) - CORE_INNER_AT;
@@ -105,9 +107,9 @@ core_fitted core_fit_step(core_integral integral) {
     const elvis_real slope_there =
         elvis_real(3) * (rest * rest * (c1 - c0) + elvis_real(2) * rest * at * (c2 - c1) + at * at * (c3 - c2));
     const elvis_real per_bubble = elvis_real(1) / (at * at * rest * rest), bubble_slope = elvis_real(2) * at * rest * (rest - at);
-    const elvis_real shift = with_inner ? (integral.inner_value - there) * per_bubble : elvis_real(0);
+    const elvis_real shift = with_inner ? (integral.inner_sample.value - there) * per_bubble : elvis_real(0);
     const elvis_real tilt =
-        with_inner ? (width * integral.inner_slope - slope_there - bubble_slope * shift) * per_bubble : elvis_real(0);
+        with_inner ? (width * integral.inner_sample.slope - slope_there - bubble_slope * shift) * per_bubble : elvis_real(0);
     core_fitted fitted;
     fitted.p.c[0] = c0;
     fitted.p.c[1] = CORE_ONE_FIFTH * (elvis_real(2) * c0 + elvis_real(3) * c1);
@@ -118,21 +120,23 @@ core_fitted core_fit_step(core_integral integral) {
     const elvis_real level = shift - at * tilt;
     const elvis_real a2 = square + level, a3 = cubic - elvis_real(2) * level + tilt, a4 = level - elvis_real(2) * tilt;
     fitted.powers.c[0] = c0;
-    fitted.powers.c[1] = width * integral.left_slope;
+    fitted.powers.c[1] = width * left.slope;
     fitted.powers.c[2] = a2;
     fitted.powers.c[3] = a3;
     fitted.powers.c[4] = a4;
     fitted.powers.c[5] = tilt;
     // From them the Chebyshev coefficients from the second on.
-    const elvis_real second = abs(a2 * elvis_real(0.125LF) + a3 * elvis_real(0.1875LF) + a4 * elvis_real(0.21875LF) + tilt * elvis_real(0.234375LF));
+    const elvis_real second =
+        abs(a2 * elvis_real(0.125LF) + a3 * elvis_real(0.1875LF) + a4 * elvis_real(0.21875LF) + tilt * elvis_real(0.234375LF));
     const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
     const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
     const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
     const elvis_real of_quintic = max(CORE_MARGIN * last * decay / (elvis_real(1) - decay), CORE_QUINTIC_SHARE * integral.bend);
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_SHARE * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
-    const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(integral.left_slope), abs(integral.right_slope));
-    fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(left.slope), abs(right.slope));
+    fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error +
+                   elvis_real(8) * CORE_ROUNDOFF * size;
     return fitted;
 }
 
@@ -169,23 +173,27 @@ void core_integral_add(inout core_integral integral, inout core_light light, cor
     const bool is_left = integral.wants == CORE_WANTS_LEFT, is_inner = integral.wants == CORE_WANTS_INNER;
     const bool is_right = integral.wants == CORE_WANTS_RIGHT, is_end = is_right && integral.right >= integral.to;
     integral.error = max(integral.error, found.error);
-    integral.end_value = is_end ? found.value : integral.end_value;
-    integral.end_slope = is_end ? found.slope : integral.end_slope;
+    const core_step_sample here = core_step_sample(found.value, found.slope);
+    if (is_left) {
+        integral.left_sample = here;
+    } else if (is_right) {
+        integral.right_sample = here;
+    } else {
+        integral.inner_sample = here;
+    }
+    if (is_end) {
+        integral.end_sample = here;
+    }
     integral.has_end = integral.has_end || is_end;
-    integral.left_value = is_left ? found.value : integral.left_value;
-    integral.left_slope = is_left ? found.slope : integral.left_slope;
     integral.has_left = integral.has_left || is_left;
-    integral.right_value = is_right ? found.value : integral.right_value;
-    integral.right_slope = is_right ? found.slope : integral.right_slope;
-    integral.inner_value = is_inner ? found.value : integral.inner_value;
-    integral.inner_slope = is_inner ? found.slope : integral.inner_slope;
     integral.bend = is_right ? found.bend : is_left ? max(integral.bend, found.bend) : integral.bend;
     // A line from the first end may do, mostly not.
     integral.is_line = !integral.has_left;
     integral.has_inner = is_inner;
-    const elvis_real width = integral.right - integral.left;
-    integral.left_value = integral.is_line ? integral.right_value - width * integral.right_slope : integral.left_value;
-    integral.left_slope = integral.is_line ? integral.right_slope : integral.left_slope;
+    if (integral.is_line) {
+        const core_step_sample right = integral.right_sample;
+        integral.left_sample = core_step_sample(right.value - (integral.right - integral.left) * right.slope, right.slope);
+    }
     const core_judgement judgement = core_judge_step(integral, core_fit_step(integral), light, wanted, held);
     integral.wants = judgement.is_tried || is_inner ? CORE_WANTS_TO_SETTLE : integral.is_line ? CORE_WANTS_LEFT : CORE_WANTS_INNER;
 }
@@ -198,13 +206,17 @@ void core_choose_step(inout core_integral integral, bool is_good) {
     const bool is_last = reach >= integral.to, is_known = is_last && integral.has_end;
     // Of half a step, or of one about as long.
     integral.bend *= is_shorter ? CORE_INNER_AT * CORE_INNER_AT : elvis_real(1);
-    const elvis_real next_right = is_good ? (is_last ? integral.to : reach) : is_shorter ? inner : integral.right;
-    integral.left_value = is_good ? integral.right_value : integral.left_value;
-    integral.left_slope = is_good ? integral.right_slope : integral.left_slope;
-    integral.left = is_good ? integral.right : integral.left;
-    integral.right_value = is_good && is_known ? integral.end_value : is_shorter ? integral.inner_value : integral.right_value;
-    integral.right_slope = is_good && is_known ? integral.end_slope : is_shorter ? integral.inner_slope : integral.right_slope;
-    integral.right = next_right;
+    if (is_good) {
+        integral.left = integral.right;
+        integral.left_sample = integral.right_sample;
+        integral.right = is_last ? integral.to : reach;
+    }
+    if (is_shorter) {
+        integral.right = inner;
+        integral.right_sample = integral.inner_sample;
+    } else if (is_good && is_known) {
+        integral.right_sample = integral.end_sample;
+    }
     integral.wants = is_good ? (integral.left >= integral.to ? CORE_WANTS_NOTHING : is_known ? CORE_WANTS_TO_SETTLE : CORE_WANTS_RIGHT)
                      : integral.is_line ? CORE_WANTS_LEFT
                      : is_shorter       ? CORE_WANTS_TO_SETTLE

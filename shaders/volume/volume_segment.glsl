@@ -133,7 +133,8 @@ void core_integrate(core_traced_ray ray, core_segment segment, core_accuracy wan
 bool core_add_segment(core_traced_ray ray, core_segment segment, elvis_real from, elvis_real until, bool has_segment,
                       inout core_march march) {
     const elvis_real length = (until - from) * ray.speed;
-    const bool is_bounded = core_is_constant(core_range_along(segment, from, until), march.held) && has_segment && core_skips_by_range != 0u;
+    const elvis_vec2 range = core_range_along(segment, from, until);
+    const bool is_bounded = core_is_constant(range, march.held) && has_segment && core_skips_by_range != 0u;
     if (is_bounded) {
         core_add_constant(march.light, core_piece_of(march.held), length);
     }

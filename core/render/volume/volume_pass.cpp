@@ -57,7 +57,7 @@ double steepness(const TransferPiece& piece, double width) {
 }
 
 /** Whether the second does not begin as the first ends, in density or light, but for rounding. */
-bool is_step(const TransferPiece& first, const TransferPiece& second) {
+bool is_jump(const TransferPiece& first, const TransferPiece& second) {
     const double width = second.from - first.from;
     const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-9 * (std::abs(a) + std::abs(b)) + 1e-12; };
     const double density = first.density + first.density_slope * width;
@@ -106,13 +106,13 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
     // Buffers are never empty.
     values.resize(std::max<std::size_t>(values.size(), 1));
     m_steepest = 1e-30;
-    m_has_steps = false;
+    m_has_jumps = false;
     for (std::size_t i = 0; i < table.pieces.size(); ++i) {
         const TransferPiece& piece = table.pieces[i];
         const bool is_bounded = i > 0 && i < table.breakpoints.size();
         const double steep = is_bounded ? steepness(piece, table.breakpoints[i] - piece.from) : 0;
         m_steepest = std::max(m_steepest, steep);
-        m_has_steps = m_has_steps || (i > 0 && is_step(table.pieces[i - 1], piece));
+        m_has_jumps = m_has_jumps || (i > 0 && is_jump(table.pieces[i - 1], piece));
         const double below = i > 0 ? table.breakpoints[i - 1] - offset : -unbounded;
         const double above = i < table.breakpoints.size() ? table.breakpoints[i] - offset : unbounded;
         const std::array<double, 12> rows = {piece.from - offset, piece.density,      piece.density_slope, steep,
@@ -132,7 +132,7 @@ void VolumePass::choose(const VolumeRendering& wanted, double offset, const Show
 }
 
 const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
-    const std::pair key{m_wanted.integrator, m_has_steps};
+    const std::pair key{m_wanted.integrator, m_has_jumps};
     const auto compiled = m_march[index].find(key);
     if (compiled != m_march[index].end()) {
         return compiled->second;
@@ -143,7 +143,7 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
     m_data.add_field(request, range.element_class, true);
     request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
     request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
-    request.defines.emplace_back("CORE_HAS_STEPS", m_has_steps ? "1" : "0");
+    request.defines.emplace_back("CORE_HAS_JUMPS", m_has_jumps ? "1" : "0");
     for (std::uint32_t binding = 1; binding <= 7; ++binding) {
         request.bindings.push_back({binding, BindingType::storage_buffer});
     }

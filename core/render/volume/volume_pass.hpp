@@ -55,13 +55,13 @@ private:
     ComposedKernel m_begin, m_transparent_layer, m_finish;
     LiveRays m_live;
     Buffer m_frame, m_counts;
-    /** By the search's ranges; by integrator, and whether the transfer function has steps. */
+    /** By the search's ranges; by integrator, and whether the transfer function has jumps. */
     std::vector<std::map<std::pair<Integrator, bool>, ComposedKernel>> m_march;
     VolumeRendering m_wanted;
     ShownComponent m_component;
     std::uint32_t m_n_breakpoints = 0;
     double m_steepest = 0;
-    bool m_has_steps = false;
+    bool m_has_jumps = false;
     std::optional<Buffer> m_breakpoints, m_pieces;
     /** Kept from frame to frame. */
     std::optional<Buffer> m_states;
