@@ -192,6 +192,10 @@ bool edit(Ui& ui, ElementSelection& selection) {
     return is_changed;
 }
 
+bool edit(Ui& ui, ElementFaces& elements) { return edit(ui, elements.selection); }
+
+bool edit(Ui&, const FlatElements&) { return false; }
+
 bool edit(Ui& ui, WireFrame& frame) {
     bool is_changed = slider(ui, "wires/width", "Width", frame.width, 1, 16, "In pixels");
     bool has_condition = std::holds_alternative<ElementFaces>(frame.faces);
@@ -206,81 +210,90 @@ bool edit(Ui& ui, WireFrame& frame) {
         }
         is_changed = true;
     }
-    if (auto* elements = std::get_if<ElementFaces>(&frame.faces)) {
-        is_changed = edit(ui, elements->selection) || is_changed;
-    } else if (auto* boundary = std::get_if<BoundaryFaces>(&frame.faces)) {
-        is_changed = edit(ui, *boundary) || is_changed;
+    return std::visit([&](auto& faces) { return edit(ui, faces); }, frame.faces) || is_changed;
+}
+
+double extent_of(Ui& ui) { return ui.model().volume()->diagonal(); }
+
+bool edit(Ui& ui, Sphere& sphere) {
+    const double extent = extent_of(ui);
+    bool is_changed = vector(ui, "shape/center", "Centre", sphere.center, extent, "Of the sphere");
+    return positive_number(ui, "shape/radius", "Radius", sphere.radius, extent, "Of the sphere") || is_changed;
+}
+
+bool edit(Ui& ui, Cylinder& cylinder) {
+    const double extent = extent_of(ui);
+    const Cylinder before = cylinder;
+    bool is_changed = vector(ui, "shape/from", "From", cylinder.from, extent, "Middle of one end");
+    is_changed = vector(ui, "shape/to", "To", cylinder.to, extent, "Middle of the other end") || is_changed;
+    is_changed = positive_number(ui, "shape/radius", "Radius", cylinder.radius, extent, "Of the cylinder") || is_changed;
+    is_changed = check(ui, "shape/capped", "Closed", cylinder.is_capped, "Whether discs close its ends") || is_changed;
+    if (cylinder.from == cylinder.to) {
+        cylinder = before;
     }
     return is_changed;
 }
 
-bool edit(Ui& ui, CutShape& shape) {
-    const double extent = ui.model().volume()->diagonal();
-    if (auto* sphere = std::get_if<Sphere>(&shape)) {
-        bool is_changed = vector(ui, "shape/center", "Centre", sphere->center, extent, "Of the sphere");
-        return positive_number(ui, "shape/radius", "Radius", sphere->radius, extent, "Of the sphere") || is_changed;
+bool edit(Ui& ui, Cone& cone) {
+    const double extent = extent_of(ui);
+    const Cone before = cone;
+    bool is_changed = vector(ui, "shape/from", "From", cone.from, extent, "Middle of one end");
+    is_changed = vector(ui, "shape/to", "To", cone.to, extent, "Middle of the other end") || is_changed;
+    is_changed = number(ui, "shape/from radius", "Radius there", cone.from_radius, extent, "At the first end") || is_changed;
+    is_changed = number(ui, "shape/to radius", "and there", cone.to_radius, extent, "At the other end") || is_changed;
+    is_changed = check(ui, "shape/capped", "Closed", cone.is_capped, "Whether discs close its ends") || is_changed;
+    if (cone.from == cone.to || cone.from_radius < 0 || cone.to_radius < 0 || (cone.from_radius == 0 && cone.to_radius == 0)) {
+        cone = before;
     }
-    if (auto* cylinder = std::get_if<Cylinder>(&shape)) {
-        const Cylinder before = *cylinder;
-        bool is_changed = vector(ui, "shape/from", "From", cylinder->from, extent, "Middle of one end");
-        is_changed = vector(ui, "shape/to", "To", cylinder->to, extent, "Middle of the other end") || is_changed;
-        is_changed = positive_number(ui, "shape/radius", "Radius", cylinder->radius, extent, "Of the cylinder") || is_changed;
-        is_changed = check(ui, "shape/capped", "Closed", cylinder->is_capped, "Whether discs close its ends") || is_changed;
-        if (cylinder->from == cylinder->to) {
-            *cylinder = before;
-        }
-        return is_changed;
+    return is_changed;
+}
+
+bool edit(Ui& ui, Torus& torus) {
+    const double extent = extent_of(ui);
+    const Torus before = torus;
+    bool is_changed = vector(ui, "shape/center", "Centre", torus.center, extent, "Of the torus");
+    is_changed = vector(ui, "shape/axis", "Axis", torus.axis, 1, "Of any length but zero") || is_changed;
+    is_changed =
+        positive_number(ui, "shape/radius", "Ring", torus.major_radius, extent, "From the centre to the middle of the tube") ||
+        is_changed;
+    is_changed = positive_number(ui, "shape/tube", "Tube", torus.minor_radius, extent, "Radius of the tube") || is_changed;
+    if (length(torus.axis) == 0) {
+        torus = before;
     }
-    if (auto* cone = std::get_if<Cone>(&shape)) {
-        const Cone before = *cone;
-        bool is_changed = vector(ui, "shape/from", "From", cone->from, extent, "Middle of one end");
-        is_changed = vector(ui, "shape/to", "To", cone->to, extent, "Middle of the other end") || is_changed;
-        is_changed =
-            number(ui, "shape/from radius", "Radius there", cone->from_radius, extent, "At the first end") || is_changed;
-        is_changed = number(ui, "shape/to radius", "and there", cone->to_radius, extent, "At the other end") || is_changed;
-        is_changed = check(ui, "shape/capped", "Closed", cone->is_capped, "Whether discs close its ends") || is_changed;
-        if (cone->from == cone->to || cone->from_radius < 0 || cone->to_radius < 0 ||
-            (cone->from_radius == 0 && cone->to_radius == 0)) {
-            *cone = before;
-        }
-        return is_changed;
-    }
-    if (auto* torus = std::get_if<Torus>(&shape)) {
-        const Torus before = *torus;
-        bool is_changed = vector(ui, "shape/center", "Centre", torus->center, extent, "Of the torus");
-        is_changed = vector(ui, "shape/axis", "Axis", torus->axis, 1, "Of any length but zero") || is_changed;
-        is_changed = positive_number(ui, "shape/radius", "Ring", torus->major_radius, extent,
-                                     "From the centre to the middle of the tube") ||
+    return is_changed;
+}
+
+bool edit(Ui& ui, Quadric& quadric) {
+    static const char* names[] = {"xx", "yy", "zz", "xy", "yz", "zx", "x", "y", "z", "1"};
+    bool is_changed = false;
+    const Quadric before = quadric;
+    for (std::size_t i = 0; i < 10; ++i) {
+        is_changed = number(ui, std::string("shape/") + names[i], names[i], quadric.coefficients[i], 1,
+                            "Coefficient of this in the sum that is zero on the surface") ||
                      is_changed;
-        is_changed = positive_number(ui, "shape/tube", "Tube", torus->minor_radius, extent, "Radius of the tube") || is_changed;
-        if (length(torus->axis) == 0) {
-            *torus = before;
-        }
-        return is_changed;
     }
-    if (auto* quadric = std::get_if<Quadric>(&shape)) {
-        static const char* names[] = {"xx", "yy", "zz", "xy", "yz", "zx", "x", "y", "z", "1"};
-        bool is_changed = false;
-        const Quadric before = *quadric;
-        for (std::size_t i = 0; i < 10; ++i) {
-            is_changed = number(ui, std::string("shape/") + names[i], names[i], quadric->coefficients[i], 1,
-                                "Coefficient of this in the sum that is zero on the surface") ||
-                         is_changed;
-        }
-        if (std::all_of(quadric->coefficients.begin(), quadric->coefficients.begin() + 9, [](double a) { return a == 0; })) {
-            *quadric = before;
-        }
-        return is_changed;
+    if (std::all_of(quadric.coefficients.begin(), quadric.coefficients.begin() + 9, [](double a) { return a == 0; })) {
+        quadric = before;
     }
-    if (auto* implicit = std::get_if<ImplicitSurface>(&shape)) {
-        return text(ui, "shape/expression", "Zero of", implicit->expression, "An expression of x, y and z");
-    }
-    if (const auto* mesh = std::get_if<MeshSurface>(&shape)) {
-        ImGui::TextWrapped("%s", mesh->mesh->path.c_str());
-    } else if (const auto* bezier = std::get_if<BezierSurface>(&shape)) {
-        ImGui::TextWrapped("%s", bezier->mesh->path.c_str());
-    }
+    return is_changed;
+}
+
+bool edit(Ui& ui, ImplicitSurface& implicit) {
+    return text(ui, "shape/expression", "Zero of", implicit.expression, "An expression of x, y and z");
+}
+
+/** Of a file that is not edited. */
+bool show_file(const std::string& path) {
+    ImGui::TextWrapped("%s", path.c_str());
     return false;
+}
+
+bool edit(Ui&, const MeshSurface& surface) { return show_file(surface.mesh->path); }
+
+bool edit(Ui&, const BezierSurface& surface) { return show_file(surface.mesh->path); }
+
+bool edit(Ui& ui, CutShape& shape) {
+    return std::visit([&](auto& kind) { return edit(ui, kind); }, shape);
 }
 
 bool edit(Ui& ui, Isosurfaces& isosurfaces) {
@@ -315,25 +328,7 @@ bool edit(Ui& ui, Isosurfaces& isosurfaces) {
 } // namespace
 
 bool edit_geometry(Ui& ui, SceneSurface& surface) {
-    if (auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
-        return edit(ui, *plane);
-    }
-    if (auto* boundary = std::get_if<BoundaryFaces>(&surface.geometry)) {
-        return edit(ui, *boundary);
-    }
-    if (auto* elements = std::get_if<ElementFaces>(&surface.geometry)) {
-        return edit(ui, elements->selection);
-    }
-    if (auto* frame = std::get_if<WireFrame>(&surface.geometry)) {
-        return edit(ui, *frame);
-    }
-    if (auto* shape = std::get_if<CutShape>(&surface.geometry)) {
-        return edit(ui, *shape);
-    }
-    if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
-        return edit(ui, *isosurfaces);
-    }
-    return false;
+    return std::visit([&](auto& kind) { return edit(ui, kind); }, surface.geometry);
 }
 
 bool edit_light(Ui& ui, Light& light) {
