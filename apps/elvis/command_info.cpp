@@ -5,7 +5,7 @@
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
 #include <core/render/field/field_range.hpp>
-#include <core/render/renderer.hpp>
+#include <core/render/field/volume_ranges.hpp>
 #include <core/volume/element/jacobian_check.hpp>
 #include <core/volume/field/field_extrema.hpp>
 
@@ -121,20 +121,23 @@ public:
         if (const auto found = find_extrema(m_volume, field, component, time_step)) {
             return *found;
         }
-        if (!m_renderer) {
+        if (!m_ranges) {
             m_device.emplace();
-            m_renderer.emplace(*m_device, m_volume, m_device->summary().has_float64 ? Precision::float64 : Precision::float32);
+            const Precision precision = m_device->summary().has_float64 ? Precision::float64 : Precision::float32;
+            m_data.emplace(*m_device, m_volume, precision, nullptr);
+            m_ranges.emplace(*m_device, m_volume, *m_data);
         }
         FieldChoice choice;
         choice.field = field;
         choice.component = component;
-        return m_renderer->field_extrema(choice, time_step);
+        return m_ranges->extrema(choice, time_step);
     }
 
 private:
     const RuntimeVolume& m_volume;
     std::optional<Device> m_device;
-    std::optional<Renderer> m_renderer;
+    std::optional<DeviceVolume> m_data;
+    std::optional<VolumeRanges> m_ranges;
 };
 
 /** What the field's values are: what colours go by. */

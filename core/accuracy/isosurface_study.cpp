@@ -9,8 +9,6 @@
 namespace elvis::oracle {
 namespace {
 
-const char* name_of(Precision precision) { return precision == Precision::float64 ? "float64" : "float32"; }
-
 FinderComparison compare_finders_on(const RandomVolume& random, const IsosurfaceStudyOptions& options) {
     const Model model(random.data);
     const Isosurface isosurface{scalar_of_field(model.volume, 0), random.values, random.clip};

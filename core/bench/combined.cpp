@@ -78,7 +78,7 @@ void bench_combined(const Device& device, const PluginRegistry& registry, const 
     request.width = request.height = size;
     request.background = {1, 1, 1, 1};
     request.with_buffers = false;
-    const std::vector<Part> parts = parts_of(renderer.bounds(), renderer.field_range({}, 0), isovalue, request);
+    const std::vector<Part> parts = parts_of(renderer.ranges().bounds(), renderer.ranges().range({}, 0), isovalue, request);
     CombinedRow sum;
     sum.name = "sum of the parts";
     FrameRequest all = request;

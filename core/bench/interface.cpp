@@ -124,7 +124,7 @@ struct Contestant {
         layer.samples.fill(0);
         counts = {};
         const DeviceTimer timer(device);
-        pass.draw(geometry, 1, {}, {}, false, {layer}, counts);
+        pass.draw(geometry, 1, {}, {}, {layer}, counts);
         if (is_measured) {
             milliseconds.push_back(timer.milliseconds());
         }

@@ -74,9 +74,9 @@ std::vector<ProjectionRow> bench_projection(const Device& device, const PluginRe
     const RuntimeVolume volume = options.volume.empty() ? waves_volume(registry, folder, options.elements_a_side, options.order)
                                                         : RuntimeVolume(registry.runtime_for(options.volume), options.volume);
     Renderer renderer(device, volume, Precision::float64);
-    const std::array<double, 6> bounds = renderer.bounds();
+    const std::array<double, 6> bounds = renderer.ranges().bounds();
     const double diagonal = diagonal_of(bounds);
-    const FieldRange range = renderer.field_range({}, 0);
+    const FieldRange range = renderer.ranges().range({}, 0);
     FrameRequest request =
         request_of(bounds, diagonal, options.isovalue.value_or(0.5 * (range.lower + range.upper)), options.size);
     Isosurfaces& isosurfaces = std::get<Isosurfaces>(request.surfaces[0].geometry);
@@ -96,10 +96,10 @@ std::vector<ProjectionRow> bench_projection(const Device& device, const PluginRe
         ProjectionRow row;
         row.method = method;
         row.degree = degree;
-        row.mean_degree = share(counts.segment_degrees, counts.segments);
-        row.evaluations_a_segment = share(counts.field_evaluations, counts.segments);
-        row.n_segments = counts.segments;
-        row.n_verified = counts.verified_segments;
+        row.mean_degree = share(counts.fit_degrees, counts.fits);
+        row.evaluations_a_segment = share(counts.field_evaluations, counts.fits);
+        row.n_segments = counts.fits;
+        row.n_verified = counts.verified_fits;
         row.n_certified = counts.certified_segments;
         row.n_projected_pixels = counts.projected_pixels;
         row.n_hits = counts.isosurface_pixels;

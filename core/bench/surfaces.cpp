@@ -161,10 +161,10 @@ void write_csv(const std::filesystem::path& path, const std::vector<SurfacesRow>
             "undecided_contour_pixels,field_bytes,geometry_bytes,hierarchy_bytes,device_bytes\n";
     for (const SurfacesRow& row : rows) {
         file << row.series << ",\"" << row.surface << "\"," << row.n_elements << ',' << row.order << ',' << row.size << ','
-             << row.subdivisions << ',' << (row.precision == Precision::float64 ? "float64" : "float32") << ','
-             << row.milliseconds << ',' << row.wall_milliseconds << ',' << row.units << ',' << row.hit_pixels << ','
-             << row.contour_pixels << ',' << row.undecided_pixels << ',' << row.memory.field_bytes << ','
-             << row.memory.geometry_bytes << ',' << row.memory.hierarchy_bytes << ',' << row.device_bytes << '\n';
+             << row.subdivisions << ',' << name_of(row.precision) << ',' << row.milliseconds << ',' << row.wall_milliseconds
+             << ',' << row.units << ',' << row.hit_pixels << ',' << row.contour_pixels << ',' << row.undecided_pixels << ','
+             << row.memory.field_bytes << ',' << row.memory.geometry_bytes << ',' << row.memory.hierarchy_bytes << ','
+             << row.device_bytes << '\n';
     }
     file.close();
     if (!file) {

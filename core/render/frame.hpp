@@ -42,15 +42,15 @@ struct Sharing {
      */
     bool depths = false;
     /**
-     * What is drawn in several rounds is drawn only in the parts of the picture that still want more, and surfaces are merged
-     * only in rows in which the volume can be seen. To the bit the same picture.
+     * What is drawn in several rounds is drawn only in the rows of the picture, or of its tiles, that still want more, and
+     * surfaces are merged only in rows in which the volume can be seen. To the bit the same picture.
      */
-    bool parts = true;
+    bool rows = true;
 
     static Sharing none() { return {false, false}; }
     static Sharing all() { return {true, true}; }
     /** Each alone, by the names of `elvis render --share`. */
-    static std::vector<std::pair<std::string, Sharing>> each() { return {{"depths", {true, false}}, {"parts", {false, true}}}; }
+    static std::vector<std::pair<std::string, Sharing>> each() { return {{"depths", {true, false}}, {"rows", {false, true}}}; }
 };
 
 struct FrameRequest {
@@ -113,25 +113,24 @@ struct FrameCounts {
     std::uint64_t undecided_mesh_line_pixels = 0;
     std::uint64_t isosurface_pixels = 0;
     std::uint64_t undecided_isosurface_pixels = 0;
-    /** Pieces of rays in elements that surely hold no isovalue; that stayed open; and crossings, hidden ones included. */
-    std::uint64_t excluded_pieces = 0;
-    std::uint64_t undecided_pieces = 0;
+    /** Ray intervals that surely hold no isovalue; that stayed open; and crossings, hidden ones included. */
+    std::uint64_t excluded_intervals = 0;
+    std::uint64_t undecided_intervals = 0;
     std::uint64_t isosurface_crossings = 0;
     /** Pixels of isosurfaces that were drawn by projection. */
     std::uint64_t projected_pixels = 0;
     /**
-     * Of projection: parts of rays in elements that surely hold no isovalue; polynomials along rays, the sum of their degrees,
-     * and those of them that hold none as far as their error estimate is right; places that stayed open.
+     * Of projection: segments that surely hold no isovalue; fits along rays, the sum of their degrees, and those of them that
+     * hold none as far as their error estimate is right; places that stayed open.
      */
     std::uint64_t certified_segments = 0;
-    std::uint64_t segments = 0, segment_degrees = 0;
-    std::uint64_t verified_segments = 0;
-    std::uint64_t undecided_segments = 0;
+    std::uint64_t fits = 0, fit_degrees = 0;
+    std::uint64_t verified_fits = 0;
+    std::uint64_t undecided_fits = 0;
     /** Pixels that the volume itself colours; those where its tolerance was not reached. */
     std::uint64_t volume_pixels = 0;
     std::uint64_t inexact_volume_pixels = 0;
-    /** Parts of rays in elements that were integrated, that were passed over as empty; of the first, steps and breakpoints met.
-     */
+    /** Segments that were integrated, that were passed over as empty; of the first, steps and breakpoints met. */
     std::uint64_t volume_segments = 0, empty_segments = 0;
     std::uint64_t volume_steps = 0, volume_breakpoints = 0;
     /** Pixels that had to be looked at more closely for lines. */

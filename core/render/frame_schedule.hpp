@@ -19,7 +19,7 @@ enum class FrameStage {
     none,
     /** Fewer pixels, and as coarse as `full`, without lines where these take too long: while things move. */
     moving,
-    /** Every pixel, but volume rendering to a hundredth of a channel, and lines that are looked for in few parts of a pixel. */
+    /** Every pixel, but volume rendering to a hundredth of a channel, and lines that are looked for in few subpixels. */
     full,
     /** The request itself: to the byte what `elvis render` draws of it. */
     exact

@@ -6,6 +6,7 @@
 
 #include <core/base/cancel.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
+#include <core/render/field/volume_ranges.hpp>
 #include <core/render/frame.hpp>
 #include <core/vulkan/device.hpp>
 
@@ -38,22 +39,8 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /** Bounds of the whole volume: min x y z, max x y z. */
-    std::array<double, 6> bounds() const;
-    /** How far the volume reaches in every direction (core/volume/outline.hpp); found when it is first asked for. */
-    const std::vector<Vector3>& outline();
-    /**
-     * Extrema of a field (component, magnitude or expression) over the volume at a time step: to a thousandth of their distance
-     * where the plugin has bounds, else of samples.
-     */
-    FieldExtrema field_extrema(const FieldChoice& field, std::uint32_t time_step);
-    /** What encloses them, wider, and whether it is certified. */
-    FieldRange field_range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
-    /**
-     * About what rounding costs its values, to tell whether the range is more than that. 0 for components of fields, which lack
-     * the middle of their range on the device, and where the range is certainly more.
-     */
-    double value_rounding(const FieldChoice& field, std::uint32_t time_step);
+    /** Where the volume lies, and which values its fields take: what requests are made from. */
+    VolumeRanges& ranges();
 
     /**
      * Draws a picture. With a control it can be cancelled from another thread: then Cancelled is thrown within some 50 ms,

@@ -46,7 +46,7 @@ struct FieldChoice {
     std::shared_ptr<const Expression> expression{};
     /**
      * Of a component: about which value single precision is to keep most digits, which the device then subtracts; the middle of
-     * the range if absent. It is no part of what is drawn: equal choices may differ in it.
+     * the range if absent. It is nothing that is drawn: equal choices may differ in it.
      */
     std::optional<double> offset{};
     /** In place of the field: the function that cuts elements, whose isosurface 0 is their own boundary (elvis_inside). */
@@ -79,16 +79,19 @@ struct ElementFaces {
     auto operator<=>(const ElementFaces&) const = default;
 };
 
+/** The geometries that are sets of faces. */
+using FaceGeometry = std::variant<BoundaryFaces, FlatElements, ElementFaces>;
+
 /** Edges of faces, as lines on the picture. They have no field: their colour is the map's for the value 0. */
 struct WireFrame {
-    std::variant<BoundaryFaces, FlatElements, ElementFaces> faces{};
+    FaceGeometry faces{};
     /** In pixels. 1: the pixels whose closed square meets an edge; else those with their centre within half of it. */
     double width = 1;
 };
 
 /** How crossings of rays with isosurfaces are found. */
 enum class IsosurfaceMethod : std::uint8_t {
-    /** By bounds that hold over whole pieces of rays; by the Bernstein form where those do not decide. */
+    /** By bounds that hold over whole intervals of rays; by the Bernstein form where those do not decide. */
     interval,
     /** By projection along rays, and roots from the Bernstein form or from the eigenvalues of the companion matrix. */
     bernstein,
@@ -106,13 +109,34 @@ struct Isosurfaces {
     bool skips_by_range = true;
     IsosurfaceMethod method = IsosurfaceMethod::interval;
     /**
-     * Not with intervals: each ray's part in an element is one polynomial of this degree, 2 to 13, and its roots are taken as
-     * they are. 0: as many polynomials and of such degree as it takes, and roots of the field itself.
+     * Not with intervals: each segment is one polynomial of this degree, 2 to 13, and its roots are taken as they are. 0: as
+     * many polynomials and of such degree as it takes, and roots of the field itself.
      */
     std::uint32_t degree = 0;
 };
 
 using SurfaceGeometry = std::variant<CutPlane, BoundaryFaces, FlatElements, ElementFaces, WireFrame, CutShape, Isosurfaces>;
+
+/** What kinds of surfaces differ in, but for how they are drawn (surface_drawing.hpp). */
+struct SurfaceTraits {
+    /** Of which volumes it can be: flat ones, others. */
+    bool fits_flat = false, fits_solid = true;
+    /** All of it lies in this plane: each ray meets it once, and its normal is known. */
+    const CutPlane* plane = nullptr;
+    /** It lies where a field takes values, and another field may colour it. */
+    const Isosurfaces* isosurfaces = nullptr;
+    /** It is nothing but lines: without field, light, contours and mesh lines. */
+    const WireFrame* wires = nullptr;
+    /** Its form does not come from the elements: parts of it may lie in none. */
+    bool may_lie_outside = false;
+    /** All faces without neighbour. */
+    bool is_whole_boundary = false;
+    /** Of elements that are cut (elvis_inside) it shows faces alone, not where the cut ends them. */
+    bool lacks_own_boundary = false;
+};
+
+/** What it points to is in `geometry`. */
+SurfaceTraits traits_of(const SurfaceGeometry& geometry);
 
 /** How lines on a surface are drawn. */
 struct LineStyle {

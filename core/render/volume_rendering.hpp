@@ -13,13 +13,13 @@
 
 namespace elvis {
 
-/** How the integral along a ray's part in an element is found. */
+/** How the integral along a segment is found. */
 enum class Integrator : std::uint8_t {
     /** As many steps of equal length as it takes to be no longer than `step`, the field taken at the start of each. */
     riemann,
     /** The same steps, with the trapezoidal rule for both integrals. */
     trapezoid,
-    /** By the kind of transfer function that the field's range in the part allows: Nelson's algorithm 2. */
+    /** By the kind of transfer function that the field's range in the segment allows: Nelson's algorithm 2. */
     categories,
     /** Steps halved until the trapezoidal rule agrees with itself: Nelson, section 6.4.4. */
     adaptive_trapezoid,

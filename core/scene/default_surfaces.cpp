@@ -87,29 +87,29 @@ FieldRange values_on_boundary(const RuntimeVolume& volume, const FieldChoice& fi
     return {samples[n_left_out], samples[samples.size() - 1 - n_left_out]};
 }
 
-bool is_flat_on_boundary(const RuntimeVolume& volume, Renderer& renderer, const FieldChoice& field, std::uint32_t time_step) {
+bool is_flat_on_boundary(const RuntimeVolume& volume, VolumeRanges& ranges, const FieldChoice& field, std::uint32_t time_step) {
     if (field.expression || !volume.has_evaluation() || volume.is_cut()) {
         return false;
     }
-    const FieldRange all = renderer.field_extrema(field, time_step).range();
+    const FieldRange all = ranges.extrema(field, time_step).range();
     const FieldRange seen = values_on_boundary(volume, field, time_step);
     return seen.upper - seen.lower < flat_share * (all.upper - all.lower);
 }
 
 } // namespace
 
-std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, Renderer& renderer,
+std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, VolumeRanges& ranges,
                                            const FieldChoice& field, std::uint32_t time_step) {
     if (volume.dimension() == 2) {
         return {SceneSurface{FlatElements{}}};
     }
-    const std::array<double, 6> bounds = renderer.bounds();
+    const std::array<double, 6> bounds = ranges.bounds();
     const CutPlane plane = central_plane(bounds);
     if (volume.n_faces() == 0) {
         return {SceneSurface{plane}};
     }
     SceneSurface boundary{BoundaryFaces{}};
-    if (!is_flat_on_boundary(volume, renderer, field, time_step)) {
+    if (!is_flat_on_boundary(volume, ranges, field, time_step)) {
         return {boundary};
     }
     // The default camera looks from the plane's positive side.

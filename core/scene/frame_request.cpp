@@ -25,13 +25,13 @@ namespace {
 
 /** What the camera looks at from the front, if nothing else is said. */
 std::vector<CutPlane> planes_looked_at(const std::vector<SceneSurface>& surfaces, const RuntimeVolume& volume,
-                                       const Renderer& renderer) {
+                                       const VolumeRanges& ranges) {
     if (volume.dimension() == 2) {
-        return plane_of_flat(renderer.bounds());
+        return plane_of_flat(ranges.bounds());
     }
     std::vector<CutPlane> planes;
     for (const SceneSurface& surface : surfaces) {
-        if (const auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
+        if (const CutPlane* const plane = traits_of(surface.geometry).plane) {
             planes.push_back(*plane);
         }
     }
@@ -99,17 +99,6 @@ std::optional<MeshLines> mesh_lines_of(const std::optional<SceneLineStyle>& scen
     return lines;
 }
 
-/** Conditions on values and orders are about the field drawn. */
-void complete(ElementSelection& selection, const FieldChoice& field, const Scene& scene, const RuntimeVolume& volume) {
-    if (field.expression && (selection.value_range || selection.orders)) {
-        throw Error(scene.volume, "elements can be chosen by the values and order of a field, not of an expression");
-    }
-    selection.field = field.field;
-    selection.component = field.component;
-    selection.time_step = selection.value_range ? scene.time_step : 0;
-    selection.is_two_sided = field.expression || volume.fields()[field.field].continuity != ELVIS_CONTINUITY_CONTINUOUS;
-}
-
 /** The field of that text, in which distances are to surfaces of the scene; and what people know it by. */
 FieldChoice choose_field(const Scene& scene, const RuntimeVolume& volume, const std::optional<std::string>& text,
                          std::string& label) {
@@ -120,12 +109,48 @@ FieldChoice choose_field(const Scene& scene, const RuntimeVolume& volume, const 
     return choose_field(volume, with_distances(*text, scene.surfaces));
 }
 
+/** What a surface's geometry takes from its field and volume. */
+struct GeometryCompletion {
+    const Scene& scene;
+    const SceneSurface& own;
+    const RuntimeVolume& volume;
+    Surface& surface;
+
+    void operator()(CutPlane&) const {}
+    void operator()(CutShape&) const {}
+    void operator()(BoundaryFaces&) const {}
+    void operator()(FlatElements&) const {}
+    /** Conditions on values and orders are about the field drawn. */
+    void operator()(ElementFaces& elements) const {
+        ElementSelection& selection = elements.selection;
+        const FieldChoice& field = surface.field;
+        if (field.expression && (selection.value_range || selection.orders)) {
+            throw Error(scene.volume, "elements can be chosen by the values and order of a field, not of an expression");
+        }
+        selection.field = field.field;
+        selection.component = field.component;
+        selection.time_step = selection.value_range ? scene.time_step : 0;
+        selection.is_two_sided = field.expression || volume.fields()[field.field].continuity != ELVIS_CONTINUITY_CONTINUOUS;
+    }
+    void operator()(WireFrame& wires) const {
+        if (volume.dimension() == 2 && std::holds_alternative<BoundaryFaces>(wires.faces)) {
+            wires.faces = FlatElements{};
+        }
+        std::visit(*this, wires.faces);
+    }
+    void operator()(Isosurfaces& isosurfaces) const {
+        isosurfaces.field = surface.field;
+        if (own.color_field) {
+            surface.field = choose_field(scene, volume, own.color_field, surface.field_label);
+        }
+    }
+};
+
 /** Those that are drawn. */
-std::vector<SceneSurface> surfaces_of(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
+std::vector<SceneSurface> surfaces_of(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges) {
     if (scene.surfaces.empty() && (volume.dimension() == 2 || !scene.volume_rendering)) {
         std::string label;
-        return default_surfaces(scene.camera, volume, renderer, choose_field(scene, volume, scene.field, label),
-                                scene.time_step);
+        return default_surfaces(scene.camera, volume, ranges, choose_field(scene, volume, scene.field, label), scene.time_step);
     }
     std::vector<SceneSurface> shown = scene.surfaces;
     std::erase_if(shown, [](const SceneSurface& surface) { return !surface.is_shown; });
@@ -159,35 +184,35 @@ std::array<double, 2> beyond_rounding(const FieldRange& all, double rounding, co
 }
 
 std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& field, const std::string& label, const Scene& scene,
-                               Renderer& renderer, std::vector<std::string>& remarks) {
+                               VolumeRanges& ranges, std::vector<std::string>& remarks) {
     if (map.range) {
         return *map.range;
     }
     const std::vector<std::uint32_t> steps = scene.range_steps.empty() ? std::vector{scene.time_step} : scene.range_steps;
-    FieldRange all = renderer.field_extrema(field, steps.front()).range();
+    FieldRange all = ranges.extrema(field, steps.front()).range();
     for (const std::uint32_t step : steps) {
-        const FieldRange range = renderer.field_extrema(field, step).range();
+        const FieldRange range = ranges.extrema(field, step).range();
         all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
     }
     if (map.is_logarithmic || !(all.lower <= all.upper)) {
         return {all.lower, all.upper};
     }
-    return beyond_rounding(all, renderer.value_rounding(field, steps.front()), label, remarks);
+    return beyond_rounding(all, ranges.value_rounding(field, steps.front()), label, remarks);
 }
 
 VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Scene& scene, const RuntimeVolume& volume,
-                                      Renderer& renderer, std::vector<std::string>& remarks) {
+                                      VolumeRanges& ranges, std::vector<std::string>& remarks) {
     if (volume.dimension() == 2) {
         throw Error(scene.volume, "is two-dimensional: it has nothing inside for 'volume_rendering' to show");
     }
     VolumeRendering rendering;
     rendering.field = choose_field(scene, volume, own.field ? own.field : scene.field, rendering.field_label);
-    const std::array<double, 6> bounds = renderer.bounds();
+    const std::array<double, 6> bounds = ranges.bounds();
     const double diagonal = diagonal_of(bounds);
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
     std::array<double, 2> range{};
     if (own.is_colored_by_map()) {
-        range = range_of(map, rendering.field, rendering.field_label, scene, renderer, remarks);
+        range = range_of(map, rendering.field, rendering.field_label, scene, ranges, remarks);
     }
     rendering.transfer = make_transfer_function(own, map, range, diagonal);
     if (own.is_colored_by_map() && map.is_logarithmic) {
@@ -200,36 +225,20 @@ VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Sce
     return rendering;
 }
 
-Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, Renderer& renderer,
+Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges,
                      std::vector<std::string>& remarks) {
     Surface surface;
     surface.geometry = own.geometry;
     surface.field = choose_field(scene, volume, own.field ? own.field : scene.field, surface.field_label);
-    if (auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
-        isosurfaces->field = surface.field;
-        if (own.color_field) {
-            surface.field = choose_field(scene, volume, own.color_field, surface.field_label);
-        }
-    }
-    if (auto* elements = std::get_if<ElementFaces>(&surface.geometry)) {
-        complete(elements->selection, surface.field, scene, volume);
-    }
-    if (auto* wires = std::get_if<WireFrame>(&surface.geometry)) {
-        if (auto* elements = std::get_if<ElementFaces>(&wires->faces)) {
-            complete(elements->selection, surface.field, scene, volume);
-        }
-        if (volume.dimension() == 2 && std::holds_alternative<BoundaryFaces>(wires->faces)) {
-            wires->faces = FlatElements{};
-        }
-    }
+    std::visit(GeometryCompletion{scene, own, volume, surface}, surface.geometry);
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
-    const std::array<double, 2> range = range_of(map, surface.field, surface.field_label, scene, renderer, remarks);
+    const std::array<double, 2> range = range_of(map, surface.field, surface.field_label, scene, ranges, remarks);
     surface.colors = make_color_table(map, range);
     if (map.is_logarithmic && !surface.field.expression) {
         // Small values keep their digits: nothing is subtracted from them.
         surface.field.offset = 0;
     }
-    if (!std::holds_alternative<WireFrame>(surface.geometry)) {
+    if (traits_of(surface.geometry).wires == nullptr) {
         surface.contours = contours_of(own.contours ? own.contours : scene.contours, map, surface.colors, range, scene.size);
         surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
     }
@@ -268,7 +277,7 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
     return choice;
 }
 
-FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer) {
+FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges) {
     if (scene.time_step >= volume.times().size()) {
         throw Error(scene.volume, "has " + counted(volume.times().size(), "time step") + ", counted from 0; there is no step " +
                                       std::to_string(scene.time_step));
@@ -279,14 +288,14 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
     request.background = scene.background;
     request.lighting = scene.lighting;
     request.time_step = scene.time_step;
-    const std::vector<SceneSurface> surfaces = surfaces_of(scene, volume, renderer);
-    const VolumeExtent extent{renderer.bounds(), is_placed(scene.camera) ? std::vector<Vector3>() : renderer.outline()};
-    request.camera = resolve_camera(scene, extent, planes_looked_at(surfaces, volume, renderer));
+    const std::vector<SceneSurface> surfaces = surfaces_of(scene, volume, ranges);
+    const VolumeExtent extent{ranges.bounds(), is_placed(scene.camera) ? std::vector<Vector3>() : ranges.outline()};
+    request.camera = resolve_camera(scene, extent, planes_looked_at(surfaces, volume, ranges));
     for (const SceneSurface& surface : surfaces) {
-        request.surfaces.push_back(make_surface(surface, scene, volume, renderer, request.remarks));
+        request.surfaces.push_back(make_surface(surface, scene, volume, ranges, request.remarks));
     }
     if (scene.volume_rendering && scene.volume_rendering->is_shown) {
-        request.volume = make_volume_rendering(*scene.volume_rendering, scene, volume, renderer, request.remarks);
+        request.volume = make_volume_rendering(*scene.volume_rendering, scene, volume, ranges, request.remarks);
     }
     return request;
 }

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/plugin_host/runtime_volume.hpp>
-#include <core/render/renderer.hpp>
+#include <core/render/field/volume_ranges.hpp>
 #include <core/scene/scene.hpp>
 
 namespace elvis {
@@ -20,6 +20,6 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
  * The frame with everything decided. Without surfaces and volume rendering, the scene shows what default_surfaces.hpp says.
  * Throws Error where the scene does not suit the volume.
  */
-FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer);
+FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges);
 
 } // namespace elvis

@@ -98,7 +98,7 @@ Scene read_scene(const std::string& path) {
         scene.field = root.text("field");
     }
     if (root.has("precision")) {
-        scene.precision = root.word("precision");
+        scene.precision = precision_named(root.word("precision"));
     }
     if (root.has("camera")) {
         scene.camera = read_camera(root.object("camera"));

@@ -8,6 +8,7 @@
 #include <core/scene/animation.hpp>
 #include <core/scene/color/opacity.hpp>
 #include <core/scene/scene_annotation.hpp>
+#include <core/vulkan/precision.hpp>
 
 #include <array>
 #include <cstdint>
@@ -136,7 +137,7 @@ struct Scene {
     std::string plugin_options;
     std::uint32_t time_step = 0;
     std::optional<std::string> field;
-    std::optional<std::string> precision;
+    std::optional<Precision> precision;
     SceneCamera camera;
     std::array<std::uint32_t, 2> size{1024, 768};
     std::array<double, 4> background{1, 1, 1, 1};

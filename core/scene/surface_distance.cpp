@@ -73,27 +73,39 @@ std::string distance_to(const Cone& cone) {
                  to_upper, "))))))"});
 }
 
-std::string distance_to(const SceneSurface& surface) {
-    if (const auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
-        const auto& [a, b, c, d] = plane->plane;
+/** Nothing where the distance has no closed form. */
+struct DistanceTo {
+    using Text = std::optional<std::string>;
+    Text operator()(const CutPlane& plane) const {
+        const auto& [a, b, c, d] = plane.plane;
         const double length = std::hypot(a, b, c);
         return join({"(", along({a / length, b / length, c / length}, {}), "+", number(d / length), ")"});
     }
-    if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
-        if (const auto* sphere = std::get_if<Sphere>(shape)) {
-            return join({"(sqrt", square(sphere->center), "-", number(sphere->radius), ")"});
-        }
-        if (const auto* torus = std::get_if<Torus>(shape)) {
-            const std::string height = along(unit(torus->axis), torus->center);
-            return join({"(sqrt((", from_axis(torus->center, height), "-", number(torus->major_radius), ")^2+", height, "^2)-",
-                         number(torus->minor_radius), ")"});
-        }
-        if (const auto* cone = std::get_if<Cone>(shape)) {
-            return distance_to(*cone);
-        }
-        if (const auto* cylinder = std::get_if<Cylinder>(shape)) {
-            return distance_to(Cone{cylinder->from, cylinder->to, cylinder->radius, cylinder->radius, cylinder->is_capped});
-        }
+    Text operator()(const CutShape& shape) const { return std::visit(*this, shape); }
+    Text operator()(const Sphere& sphere) const {
+        return join({"(sqrt", square(sphere.center), "-", number(sphere.radius), ")"});
+    }
+    Text operator()(const Torus& torus) const {
+        const std::string height = along(unit(torus.axis), torus.center);
+        return join({"(sqrt((", from_axis(torus.center, height), "-", number(torus.major_radius), ")^2+", height, "^2)-",
+                     number(torus.minor_radius), ")"});
+    }
+    Text operator()(const Cone& cone) const { return distance_to(cone); }
+    Text operator()(const Cylinder& cylinder) const {
+        return distance_to(Cone{cylinder.from, cylinder.to, cylinder.radius, cylinder.radius, cylinder.is_capped});
+    }
+    Text operator()(const Quadric&) const { return {}; }
+    Text operator()(const ImplicitSurface&) const { return {}; }
+    Text operator()(const MeshSurface&) const { return {}; }
+    Text operator()(const BezierSurface&) const { return {}; }
+    Text operator()(const FaceGeometry&) const { return {}; }
+    Text operator()(const WireFrame&) const { return {}; }
+    Text operator()(const Isosurfaces&) const { return {}; }
+};
+
+std::string distance_to(const SceneSurface& surface) {
+    if (const std::optional<std::string> distance = std::visit(DistanceTo(), surface.geometry)) {
+        return *distance;
     }
     throw Error("expression",
                 join({"distance(", surface.name, "): distances are known of planes, spheres, tori, cylinders and cones"}));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/vulkan/precision.hpp>
 
 #include <vulkan/vulkan.h>
 
@@ -35,8 +36,6 @@ std::vector<DeviceSummary> list_devices();
  * (discrete, integrated, virtual, cpu). Error that lists the devices if the wanted one does not exist.
  */
 DeviceSummary choose_device(const std::string& wanted);
-
-enum class Precision { float32, float64 };
 
 /** What data buffers are for shaders. */
 enum class DataBuffers { automatic, texel, storage };

@@ -66,7 +66,7 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     const auto of_levels = nlohmann::json::parse(place.read("stats.json"))["counts"];
     CHECK(of_levels["isosurface_pixels"].get<int>() > 400);
     CHECK(of_levels["undecided_isosurface_pixels"].get<int>() < 10);
-    CHECK(of_levels["excluded_pieces"].get<int>() > 100);
+    CHECK(of_levels["excluded_intervals"].get<int>() > 100);
     std::vector<std::string> pictures;
     for (const std::string options :
          {"", "--lighting default", "--lighting none", "--boundary", "--boundary --lighting none"}) {
@@ -79,6 +79,13 @@ TEST_CASE("A volume is converted, described, probed and drawn") {
     place.write("unlit.json", R"({"version": 1, "volume": {"path": "ball.h5"}, "field": "sphere", "lighting": "none"})");
     REQUIRE(place.run("render unlit.json --isosurface 0.3 --size 32x32 -o light.png").status == 0);
     CHECK(place.read("light.png") == pictures[2]);
+
+    // A spelling of versions before 0.2.
+    for (const std::string share : {"rows", "parts"}) {
+        REQUIRE(place.run("render ball.h5 --boundary --isosurface 0.3 --size 32x32 -o shared.png --share " + share).status ==
+                0);
+    }
+    CHECK(place.run("render ball.h5 --boundary --size 32x32 -o shared.png --share halves").status == 2);
 
     for (const std::string precision : {"float32", "float64"}) {
         const Outcome render = place.run("render ball.h5 --field sphere --cut-plane 0,0,1,0 --size 64x64 --precision " +

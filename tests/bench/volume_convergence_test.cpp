@@ -31,7 +31,7 @@ class Scene {
 public:
     Scene(const BenchFolder& folder, const std::string& shape, const std::array<std::uint32_t, 3>& n, Precision precision)
         : m_volume(sphere_volume(registry(), folder, shape, n)), m_renderer(test::device(), m_volume, precision),
-          m_request(volume_picture(m_renderer.bounds(), size)) {
+          m_request(volume_picture(m_renderer.ranges().bounds(), size)) {
         m_request.volume.emplace();
     }
 

@@ -73,7 +73,7 @@ TEST_CASE("A file of buffers says what its datasets are, in which unit, and of w
         "camera": {"eye": [3, 2, 1], "look_at": [0, 0, 0.5], "up": [0, 0, 1], "field_of_view": 40})");
     const TemporaryFolder folder;
     const std::string path = folder.write("buffers.h5", "");
-    write_buffers(stage.renderer.render(request), request, stage.volume, path, false);
+    write_buffers(stage.renderer.render(request), request, stage.volume, path, Precision::float32);
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     REQUIRE(file >= 0);
     for (const char* dataset : {"color", "value", "depth", "normal", "element", "flags"}) {

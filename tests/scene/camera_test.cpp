@@ -174,10 +174,10 @@ TEST_CASE("The outline of a volume is that of its curved elements, not of their 
 TEST_CASE("Of a plugin that evaluates no mappings the outline is that of the elements' bounds") {
     Stage stage;
     REQUIRE_FALSE(stage.volume.has_evaluation());
-    const std::array<double, 6> bounds = stage.renderer.bounds();
+    const std::array<double, 6> bounds = stage.renderer.ranges().bounds();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double least = bounds[axis + 3], largest = bounds[axis];
-        for (const Vector3& point : stage.renderer.outline()) {
+        for (const Vector3& point : stage.renderer.ranges().outline()) {
             least = std::min(least, point[axis]);
             largest = std::max(largest, point[axis]);
         }

@@ -23,7 +23,7 @@ TEST_CASE("A scene's volume rendering is asked of the renderer with everything d
         CHECK(request.volume->step == Approx(stage.diagonal() / 256));
         CHECK(request.volume->tolerance == 0.001);
         CHECK(request.volume->skips_by_range);
-        const FieldRange range = stage.renderer.field_extrema(request.volume->field, 0).range();
+        const FieldRange range = stage.renderer.ranges().extrema(request.volume->field, 0).range();
         const TransferFunction& transfer = request.volume->transfer;
         REQUIRE(transfer.density.size() == 2);
         CHECK(transfer.density[0].value == range.lower);

@@ -4,12 +4,12 @@
  */
 #pragma once
 
+#include <core/base/bounds.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/frame_request.hpp>
 #include <tests/support/files.hpp>
 
-#include <cmath>
 #include <string>
 
 namespace elvis::test {
@@ -26,13 +26,10 @@ struct Stage {
         const TemporaryFolder folder;
         Scene scene = read_scene(folder.write("scene.json", R"({"version": 1)" + (keys.empty() ? "" : ", " + keys) + "}"));
         scene.volume = ELVIS_ANALYTIC_SAMPLE;
-        return make_frame_request(scene, volume, renderer);
+        return make_frame_request(scene, volume, renderer.ranges());
     }
 
-    double diagonal() const {
-        const std::array<double, 6> b = renderer.bounds();
-        return std::sqrt((b[3] - b[0]) * (b[3] - b[0]) + (b[4] - b[1]) * (b[4] - b[1]) + (b[5] - b[2]) * (b[5] - b[2]));
-    }
+    double diagonal() { return diagonal_of(renderer.ranges().bounds()); }
 };
 
 } // namespace elvis::test

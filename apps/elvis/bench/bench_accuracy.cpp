@@ -8,7 +8,7 @@ namespace elvis::commands {
 namespace {
 
 nlohmann::ordered_json to_json(const oracle::IsosurfaceComparison& comparison, Precision precision) {
-    return {{"precision", precision == Precision::float64 ? "float64" : "float32"},
+    return {{"precision", name_of(precision)},
             {"is_good", oracle::holds(comparison, precision)},
             {"pixels", comparison.n_pixels},
             {"with_a_crossing", comparison.n_hits},
@@ -40,12 +40,7 @@ nlohmann::ordered_json run_accuracy(const BenchArguments& arguments, bool& is_go
     options.method = wanted.method == "interval"    ? IsosurfaceMethod::interval
                      : wanted.method == "bernstein" ? IsosurfaceMethod::bernstein
                                                     : IsosurfaceMethod::companion;
-    options.precisions.clear();
-    for (const std::string& name : wanted.precisions) {
-        if (name != "none") {
-            options.precisions.push_back(name == "float64" ? Precision::float64 : Precision::float32);
-        }
-    }
+    options.precisions = wanted.precisions;
     nlohmann::ordered_json remarks = nlohmann::ordered_json::array(), list = remarks;
     const oracle::IsosurfaceStudy study = oracle::study_isosurfaces(PluginRegistry(), options, [&](const std::string& line) {
         remarks.push_back(line);
@@ -55,7 +50,7 @@ nlohmann::ordered_json run_accuracy(const BenchArguments& arguments, bool& is_go
     for (std::size_t i = 0; i < options.precisions.size(); ++i) {
         const oracle::IsosurfaceComparison& comparison = study.comparisons[i];
         list.push_back(to_json(comparison, options.precisions[i]));
-        say(arguments, "%s, %llu fields: %s\n%s\n", options.precisions[i] == Precision::float64 ? "float64" : "float32",
+        say(arguments, "%s, %llu fields: %s\n%s\n", name_of(options.precisions[i]),
             static_cast<unsigned long long>(study.n_fields),
             oracle::holds(comparison, options.precisions[i]) ? "good" : "WRONG", oracle::to_text(comparison).c_str());
     }

@@ -53,7 +53,7 @@ nlohmann::ordered_json run_roots(const BenchArguments& arguments) {
         "times in ns: of a core, for 8 polynomials on the device, for one on the CPU\n",
         static_cast<unsigned long long>(arguments.n_polynomials));
     bench_roots(&device, arguments.n_polynomials, [&](const RootsResult& result) {
-        const char* const precision = result.precision == Precision::float64 ? "float64" : "float32";
+        const char* const precision = name_of(result.precision);
         const char* const place = result.on_device ? "device" : "cpu";
         list.push_back({{"degree", result.degree},
                         {"place", place},
@@ -87,7 +87,7 @@ nlohmann::ordered_json run_segments(const Bench& bench) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     bench_segments(
         bench.device, bench.registry, bench.folder, arguments.elements, arguments.sizes, [&](const SegmentsResult& result) {
-            const char* precision = result.precision == Precision::float64 ? "float64" : "float32";
+            const char* precision = name_of(result.precision);
             list.push_back({{"elements_a_side", result.elements_a_side},
                             {"size", result.size},
                             {"precision", precision},
@@ -101,7 +101,7 @@ nlohmann::ordered_json run_segments(const Bench& bench) {
                             {"n_undecided", result.n_undecided}});
             say(arguments,
                 "%2u^3  %4u^2  %s  %8.1f ms %9.3g U   %llu segments, each %.2f evaluations, and %.2f a ray to begin; "
-                "%llu overlaps, %llu failures, %llu chains broken, %llu rays undecided\n",
+                "%llu overlaps, %llu failures, %llu walks broken, %llu rays undecided\n",
                 result.elements_a_side, result.size, precision, result.milliseconds, 1e6 * result.milliseconds / bench.unit,
                 static_cast<unsigned long long>(result.n_segments), result.evaluations_a_segment, result.seek_evaluations_a_ray,
                 static_cast<unsigned long long>(result.n_overlaps), static_cast<unsigned long long>(result.n_failures),

@@ -35,7 +35,7 @@ struct BenchArguments {
     struct Accuracy {
         std::uint64_t count = 1000, seed = 0;
         std::uint32_t size = 200, finder_stride = 50;
-        std::vector<std::string> precisions{"float32", "float64"};
+        std::vector<Precision> precisions{Precision::float32, Precision::float64};
         std::string method = "interval";
     } accuracy;
     bool json = false;

@@ -68,7 +68,7 @@ nlohmann::ordered_json run_surfaces(const Bench& bench) {
                         {"order", row.order},
                         {"size", row.size},
                         {"subdivisions", row.subdivisions},
-                        {"precision", row.precision == Precision::float64 ? "float64" : "float32"},
+                        {"precision", name_of(row.precision)},
                         {"milliseconds", row.milliseconds},
                         {"wall_milliseconds", row.wall_milliseconds},
                         {"units", row.units},
@@ -83,9 +83,8 @@ nlohmann::ordered_json run_surfaces(const Bench& bench) {
             "by %-12s %-18s %6llu elements p%-2u %4u^2 limit %u %s  %8.1f ms %9.3g U  %6.1f MB  %7llu contour pixels, "
             "%llu undecided\n",
             row.series.c_str(), row.surface.c_str(), static_cast<unsigned long long>(row.n_elements), row.order, row.size,
-            row.subdivisions, row.precision == Precision::float64 ? "float64" : "float32", row.milliseconds, row.units,
-            1e-6 * static_cast<double>(row.device_bytes), static_cast<unsigned long long>(row.contour_pixels),
-            static_cast<unsigned long long>(row.undecided_pixels));
+            row.subdivisions, name_of(row.precision), row.milliseconds, row.units, 1e-6 * static_cast<double>(row.device_bytes),
+            static_cast<unsigned long long>(row.contour_pixels), static_cast<unsigned long long>(row.undecided_pixels));
     };
     const std::vector<SurfacesRow> rows =
         bench_surfaces(bench.device, bench.registry, bench.folder, options, bench.unit, report);

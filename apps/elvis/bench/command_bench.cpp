@@ -97,10 +97,19 @@ void add_accuracy(CLI::App& command, BenchArguments::Accuracy& accuracy) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command
-        .add_option("--precision", accuracy.precisions,
-                    "Of its pictures: float32, float64 or both; none: the exact renderer alone")
+        .add_option_function<std::vector<std::string>>(
+            "--precision",
+            [&accuracy](const std::vector<std::string>& names) {
+                accuracy.precisions.clear();
+                for (const std::string& name : names) {
+                    if (const std::optional<Precision> precision = precision_named(name)) {
+                        accuracy.precisions.push_back(*precision);
+                    }
+                }
+            },
+            "Of its pictures: float32, float64 or both; none: the exact renderer alone")
         ->delimiter(',')
-        ->check(CLI::IsMember({"float32", "float64", "none"}));
+        ->check(CLI::IsMember({name_of(Precision::float32), name_of(Precision::float64), "none"}));
     command
         .add_option("--finder-stride", accuracy.finder_stride,
                     "The exact renderer's ways are compared on every so many rays; 0: not at all")

@@ -38,8 +38,8 @@ struct Times {
 
 void render_picture(const RenderArguments& arguments, const Scene& scene, const Device& device, const RuntimeVolume& volume,
                     Renderer& renderer, const Times& times) {
-    const bool is_double = scene.precision.value_or("float32") == "float64";
-    FrameRequest request = make_frame_request(scene, volume, renderer);
+    const Precision precision = scene.precision.value_or(Precision::float32);
+    FrameRequest request = make_frame_request(scene, volume, renderer.ranges());
     for (const std::string& remark : request.remarks) {
         spdlog::warn("{}", remark);
     }
@@ -65,16 +65,16 @@ void render_picture(const RenderArguments& arguments, const Scene& scene, const 
     }
     write_png(frame, arguments.output, arguments.bits);
     if (!arguments.buffers.empty()) {
-        write_buffers(frame, request, volume, arguments.buffers, is_double);
+        write_buffers(frame, request, volume, arguments.buffers, precision);
     }
     if (!arguments.stats.empty()) {
         const auto stats =
-            stats_json(device, is_double, frame, renderer, times.load, milliseconds_since(times.start), repeated);
+            stats_json(device, precision, frame, renderer, times.load, milliseconds_since(times.start), repeated);
         write_text_file(arguments.stats, stats.dump(2) + "\n");
     }
     MissedSurfaces missed;
     missed.add(request, frame);
-    for (const std::string& remark : missed.remarks(scene, request, renderer)) {
+    for (const std::string& remark : missed.remarks(scene, request, renderer.ranges())) {
         spdlog::warn("{}", remark);
     }
     warn_about(frame.counts);
@@ -118,7 +118,6 @@ void run(const RenderArguments& arguments) {
         // Before the work is done: is there a font?
         const Font font(scene.annotation->style.font);
     }
-    const bool is_double = scene.precision.value_or("float32") == "float64";
 
     const PluginRegistry registry;
     const RuntimeVolume volume = open_volume(registry, scene.volume, scene.plugin, scene.plugin_options);
@@ -126,10 +125,10 @@ void run(const RenderArguments& arguments) {
 
     const Device device(arguments.device, arguments.validation);
     spdlog::info("device: {}", device.summary().name);
-    Renderer renderer(device, volume, is_double ? Precision::float64 : Precision::float32);
+    Renderer renderer(device, volume, scene.precision.value_or(Precision::float32));
     if (const auto percentiles = percentiles_of(arguments)) {
         scene.range_steps = scene.animation ? drawn_steps(scene, volume) : std::vector<std::uint32_t>{};
-        scene.color_map.range = percentile_range(scene, volume, renderer.bounds(), *percentiles);
+        scene.color_map.range = percentile_range(scene, volume, renderer.ranges().bounds(), *percentiles);
         if (scene.color_map.is_logarithmic && !((*scene.color_map.range)[0] > 0)) {
             throw Error("--range", "the lower percentile is not above 0, as it must be on a logarithmic scale");
         }
@@ -214,7 +213,10 @@ void add_picture(CLI::App& command, RenderArguments& a) {
     command.add_option("--annotation", a.annotation, "none, or default: color bars, axes and a title")
         ->check(CLI::IsMember({"none", "default"}));
     command.add_option("--size", a.size, "WIDTHxHEIGHT");
-    command.add_option("--precision", a.precision, "float32 or float64")->check(CLI::IsMember({"float32", "float64"}));
+    command
+        .add_option_function<std::string>(
+            "--precision", [&a](const std::string& name) { a.precision = precision_named(name); }, "float32 or float64")
+        ->check(CLI::IsMember({name_of(Precision::float32), name_of(Precision::float64)}));
     command.add_option("--device", a.device, "Name (or part of it) or index of the Vulkan device");
 }
 
@@ -233,7 +235,7 @@ void add_output(CLI::App& command, RenderArguments& a) {
     command.add_option("--buffers", a.buffers, "HDF5 file with what the picture is made of, per pixel");
     command.add_option("--stats", a.stats, "JSON file with times and counts");
     command.add_option("--share", a.share,
-                       "What passes take from each other, to compare times: all, none, depths or parts (the default)");
+                       "What passes take from each other, to compare times: all, none, depths or rows (the default)");
     command.add_option("--repeat", a.repeat, "Draw the frame that many times more, and put the times into --stats")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--bits", a.bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));

@@ -45,7 +45,7 @@ void MissedSurfaces::add(const FrameRequest& request, const Frame& frame) {
     m_volume_is_missed = is_missed && (is_first || m_volume_is_missed);
     m_is_met.resize(frame.is_met.size());
     for (std::size_t i = 0; i < m_is_met.size(); ++i) {
-        const bool is_isosurface = std::holds_alternative<Isosurfaces>(request.surfaces[i].geometry);
+        const bool is_isosurface = traits_of(request.surfaces[i].geometry).isosurfaces != nullptr;
         const bool may_be_met = is_open || (is_isosurface && counts.undecided_isosurface_pixels > 0);
         m_is_met[i] = m_is_met[i] || frame.is_met[i] || may_be_met;
     }
@@ -54,21 +54,21 @@ void MissedSurfaces::add(const FrameRequest& request, const Frame& frame) {
     }
 }
 
-MissedSurfaces::Range MissedSurfaces::values_of(const FieldChoice& field, Renderer& renderer) const {
-    Range all{renderer.field_extrema(field, m_time_steps.front()).range(), true};
+MissedSurfaces::Range MissedSurfaces::values_of(const FieldChoice& field, VolumeRanges& ranges) const {
+    Range all{ranges.extrema(field, m_time_steps.front()).range(), true};
     for (const std::uint32_t step : m_time_steps) {
-        const FieldExtrema extrema = renderer.field_extrema(field, step);
+        const FieldExtrema extrema = ranges.extrema(field, step);
         all.range = {std::min(all.range.lower, extrema.range().lower), std::max(all.range.upper, extrema.range().upper)};
         all.is_certified = all.is_certified && extrema.certainty == ELVIS_CERTIFIED;
     }
     return all;
 }
 
-MissedSurfaces::Range MissedSurfaces::enclosure_of(const FieldChoice& field, Renderer& renderer) const {
-    Range all{renderer.field_range(field, m_time_steps.front()), true};
+MissedSurfaces::Range MissedSurfaces::enclosure_of(const FieldChoice& field, VolumeRanges& ranges) const {
+    Range all{ranges.range(field, m_time_steps.front()), true};
     for (const std::uint32_t step : m_time_steps) {
         elvis_certainty certainty{};
-        const FieldRange range = renderer.field_range(field, step, &certainty);
+        const FieldRange range = ranges.range(field, step, &certainty);
         all.range = {std::min(all.range.lower, range.lower), std::max(all.range.upper, range.upper)};
         all.is_certified = all.is_certified && certainty == ELVIS_CERTIFIED;
     }
@@ -77,12 +77,12 @@ MissedSurfaces::Range MissedSurfaces::enclosure_of(const FieldChoice& field, Ren
 
 /** Of several values one may hide another: where any is met, only those that the field surely does not take are missed. */
 std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn,
-                                              bool is_met, Renderer& renderer) const {
-    const auto& isosurfaces = std::get<Isosurfaces>(drawn.geometry);
+                                              bool is_met, VolumeRanges& ranges) const {
+    const Isosurfaces& isosurfaces = *traits_of(drawn.geometry).isosurfaces;
     if (is_met && (isosurfaces.values.size() == 1 || isosurfaces.field.expression)) {
         return {};
     }
-    const auto [enclosure, is_certified] = enclosure_of(isosurfaces.field, renderer);
+    const auto [enclosure, is_certified] = enclosure_of(isosurfaces.field, ranges);
     std::string list;
     std::size_t n_missed = 0;
     for (const double value : isosurfaces.values) {
@@ -91,7 +91,7 @@ std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const
             ++n_missed;
         }
     }
-    const Range values = values_of(isosurfaces.field, renderer);
+    const Range values = values_of(isosurfaces.field, ranges);
     const char* const hits = n_missed > 1 ? " hit no pixel" : " hits no pixel";
     return n_missed == 0 ? std::string()
                          : "the " + surface_name(surface) + (n_missed > 1 ? "s at " : " at ") + list +
@@ -100,16 +100,16 @@ std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const
                                text_of(values.range.upper) + "]";
 }
 
-std::vector<std::string> MissedSurfaces::remarks(const Scene& scene, const FrameRequest& request, Renderer& renderer) const {
+std::vector<std::string> MissedSurfaces::remarks(const Scene& scene, const FrameRequest& request, VolumeRanges& ranges) const {
     std::vector<std::string> remarks;
     const std::vector<const SceneSurface*> shown = shown_surfaces(scene);
     for (std::size_t i = 0; i < m_is_met.size(); ++i) {
         // What the scene does not have is shown by default.
         const SceneSurface fallback{request.surfaces[i].geometry};
         const SceneSurface& surface = i < shown.size() ? *shown[i] : fallback;
-        if (std::holds_alternative<Isosurfaces>(surface.geometry)) {
+        if (traits_of(surface.geometry).isosurfaces != nullptr) {
             const std::string field = surface.field.value_or(scene.field.value_or(""));
-            std::string remark = isosurface_remark(surface, field, request.surfaces[i], m_is_met[i], renderer);
+            std::string remark = isosurface_remark(surface, field, request.surfaces[i], m_is_met[i], ranges);
             if (!remark.empty()) {
                 remarks.push_back(std::move(remark));
             }

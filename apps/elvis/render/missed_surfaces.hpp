@@ -4,7 +4,8 @@
  */
 #pragma once
 
-#include <core/render/renderer.hpp>
+#include <core/render/field/volume_ranges.hpp>
+#include <core/render/frame.hpp>
 #include <core/scene/scene.hpp>
 
 #include <string>
@@ -21,7 +22,7 @@ public:
     void add(const FrameRequest& request, const Frame& frame);
 
     /** A sentence about each that all pictures so far miss. `scene` is theirs; `request` one of theirs. */
-    std::vector<std::string> remarks(const Scene& scene, const FrameRequest& request, Renderer& renderer) const;
+    std::vector<std::string> remarks(const Scene& scene, const FrameRequest& request, VolumeRanges& ranges) const;
 
 private:
     struct Range {
@@ -29,10 +30,10 @@ private:
         bool is_certified;
     };
     /** The field's values over all time steps, and what encloses them. */
-    Range values_of(const FieldChoice& field, Renderer& renderer) const;
-    Range enclosure_of(const FieldChoice& field, Renderer& renderer) const;
+    Range values_of(const FieldChoice& field, VolumeRanges& ranges) const;
+    Range enclosure_of(const FieldChoice& field, VolumeRanges& ranges) const;
     std::string isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn, bool is_met,
-                                  Renderer& renderer) const;
+                                  VolumeRanges& ranges) const;
 
     /** By surface as the requests have them. */
     std::vector<bool> m_is_met;

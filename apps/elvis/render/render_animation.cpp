@@ -36,8 +36,8 @@ fs::path name_of(std::size_t frame) {
 /** Of each time step; the colours stay the same over all of them. */
 class Requests {
 public:
-    Requests(const Scene& scene, const std::vector<std::uint32_t>& steps, const RuntimeVolume& volume, Renderer& renderer)
-        : m_scene(scene), m_volume(volume), m_renderer(renderer) {
+    Requests(const Scene& scene, const std::vector<std::uint32_t>& steps, const RuntimeVolume& volume, VolumeRanges& ranges)
+        : m_scene(scene), m_volume(volume), m_ranges(ranges) {
         m_scene.range_steps = steps;
         m_scene.time_step = steps.empty() ? scene.time_step : steps.front();
     }
@@ -46,7 +46,7 @@ public:
         auto found = m_requests.find(time_step);
         if (found == m_requests.end()) {
             m_scene.time_step = time_step;
-            found = m_requests.try_emplace(time_step, make_frame_request(m_scene, m_volume, m_renderer)).first;
+            found = m_requests.try_emplace(time_step, make_frame_request(m_scene, m_volume, m_ranges)).first;
             found->second.with_buffers = false;
             for (const std::string& remark : found->second.remarks) {
                 spdlog::warn("time step {}: {}", time_step, remark);
@@ -59,7 +59,7 @@ public:
 private:
     Scene m_scene;
     const RuntimeVolume& m_volume;
-    Renderer& m_renderer;
+    VolumeRanges& m_ranges;
     std::map<std::uint32_t, FrameRequest> m_requests;
 };
 
@@ -96,7 +96,7 @@ void render_animation(const RenderArguments& arguments, const Scene& scene, cons
                       Renderer& renderer) {
     const SceneAnimation& animation = *scene.animation;
     const std::vector<std::uint32_t> steps = drawn_steps(scene, volume);
-    Requests requests(scene, steps, volume, renderer);
+    Requests requests(scene, steps, volume, renderer.ranges());
     const std::vector<AnimationFrame> frames =
         animation_frames(animation, steps, scene.time_step, requests.of(requests.first_step()).camera);
     const fs::path folder = arguments.output;
@@ -136,7 +136,7 @@ void render_animation(const RenderArguments& arguments, const Scene& scene, cons
     }
     // Pictures that were kept may show anything.
     if (n_kept == 0) {
-        for (const std::string& remark : missed.remarks(scene, requests.of(requests.first_step()), renderer)) {
+        for (const std::string& remark : missed.remarks(scene, requests.of(requests.first_step()), renderer.ranges())) {
             spdlog::warn("in all pictures, {}", remark);
         }
     }

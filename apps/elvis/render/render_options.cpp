@@ -164,9 +164,11 @@ Sharing sharing_of(const RenderArguments& arguments) {
     if (arguments.share == "none") {
         return Sharing::none();
     }
+    // Versions before 0.2 called the rows parts.
+    const std::string wanted = arguments.share == "parts" ? "rows" : arguments.share;
     std::string names;
     for (const auto& [name, sharing] : Sharing::each()) {
-        if (name == arguments.share) {
+        if (name == wanted) {
             return sharing;
         }
         names += ", " + name;
@@ -279,7 +281,7 @@ void apply_options(const RenderArguments& arguments, Scene& scene) {
     apply_color_map(arguments, scene);
     apply_camera(arguments, scene);
     apply_image(arguments, scene);
-    if (!arguments.precision.empty()) {
+    if (arguments.precision) {
         scene.precision = arguments.precision;
     }
     if (arguments.time_step >= 0) {

@@ -45,7 +45,7 @@ struct RenderArguments {
     std::string annotation;
     std::string lighting;
     std::string size;
-    std::string precision;
+    std::optional<Precision> precision;
     std::string device;
     std::string buffers;
     std::string stats;

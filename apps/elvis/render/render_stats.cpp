@@ -27,11 +27,11 @@ nlohmann::ordered_json counts_json(const FrameCounts& counts) {
             {"isosurface_crossings", counts.isosurface_crossings},
             {"projected_pixels", counts.projected_pixels},
             {"certified_segments", counts.certified_segments},
-            {"segments", counts.segments},
-            {"verified_segments", counts.verified_segments},
-            {"undecided_segments", counts.undecided_segments},
-            {"excluded_pieces", counts.excluded_pieces},
-            {"undecided_pieces", counts.undecided_pieces},
+            {"fits", counts.fits},
+            {"verified_fits", counts.verified_fits},
+            {"undecided_fits", counts.undecided_fits},
+            {"excluded_intervals", counts.excluded_intervals},
+            {"undecided_intervals", counts.undecided_intervals},
             {"volume_pixels", counts.volume_pixels},
             {"inexact_volume_pixels", counts.inexact_volume_pixels},
             {"volume_segments", counts.volume_segments},
@@ -42,12 +42,12 @@ nlohmann::ordered_json counts_json(const FrameCounts& counts) {
             {"spared_pixels", counts.spared_pixels}};
 }
 
-nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,
+nlohmann::ordered_json stats_json(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer,
                                   double load, double total, const std::vector<double>& repeated) {
     nlohmann::ordered_json root;
     root["device"] = device.summary().name;
     root["driver"] = device.summary().driver;
-    root["precision"] = is_double ? "float64" : "float32";
+    root["precision"] = name_of(precision);
     const RendererTimes& times = renderer.times();
     root["milliseconds"] = {{"load", load},
                             {"upload", times.upload_milliseconds},

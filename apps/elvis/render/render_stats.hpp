@@ -16,7 +16,7 @@ namespace elvis::commands {
 nlohmann::ordered_json counts_json(const FrameCounts& counts);
 
 /** Of --stats; times of loading and of the whole in milliseconds, and those of repeated frames. */
-nlohmann::ordered_json stats_json(const Device& device, bool is_double, const Frame& frame, const Renderer& renderer,
+nlohmann::ordered_json stats_json(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer,
                                   double load, double total, const std::vector<double>& repeated);
 
 /** Says what is not as it should be. */

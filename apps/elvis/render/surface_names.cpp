@@ -1,15 +1,13 @@
 #include "surface_names.hpp"
 
+#include <core/base/overloaded.hpp>
+
 #include <cstdio>
-#include <type_traits>
 #include <variant>
 
 namespace elvis::commands {
 
 namespace {
-
-template <class... Functions> struct Overloaded : Functions... { using Functions::operator()...; };
-template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions...>;
 
 std::string shape_name(const CutShape& shape) {
     return std::visit(
@@ -21,6 +19,28 @@ std::string shape_name(const CutShape& shape) {
 }
 
 std::string quoted(const std::string& name) { return " '" + name + "'"; }
+
+/** Which of its kind it is. */
+struct Detail {
+    std::string operator()(const CutPlane& plane) const {
+        const auto& [a, b, c, d] = plane.plane;
+        char numbers[120];
+        std::snprintf(numbers, sizeof numbers, " %.6g,%.6g,%.6g,%.6g", a, b, c, d);
+        return numbers;
+    }
+    std::string operator()(const BoundaryFaces& boundary) const {
+        std::string names;
+        for (const std::string& group : boundary.groups) {
+            names += quoted(group);
+        }
+        return names;
+    }
+    std::string operator()(const FlatElements&) const { return {}; }
+    std::string operator()(const ElementFaces&) const { return {}; }
+    std::string operator()(const WireFrame&) const { return {}; }
+    std::string operator()(const CutShape&) const { return {}; }
+    std::string operator()(const Isosurfaces&) const { return {}; }
+};
 
 } // namespace
 
@@ -36,18 +56,8 @@ std::string kind_name(const SurfaceGeometry& geometry) {
 }
 
 std::string surface_name(const SceneSurface& surface) {
-    std::string text = kind_name(surface.geometry);
-    if (const auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
-        const auto& [a, b, c, d] = plane->plane;
-        char numbers[120];
-        std::snprintf(numbers, sizeof numbers, " %.6g,%.6g,%.6g,%.6g", a, b, c, d);
-        text += numbers;
-    } else if (const auto* boundary = std::get_if<BoundaryFaces>(&surface.geometry)) {
-        for (const std::string& group : boundary->groups) {
-            text += quoted(group);
-        }
-    }
-    return text + (surface.name.empty() ? std::string() : quoted(surface.name));
+    return kind_name(surface.geometry) + std::visit(Detail(), surface.geometry) +
+           (surface.name.empty() ? std::string() : quoted(surface.name));
 }
 
 } // namespace elvis::commands

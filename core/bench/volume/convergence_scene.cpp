@@ -14,7 +14,7 @@ namespace {
 constexpr double largest_reference_tolerance = 1e-5;
 
 FieldRange usual_range_of(Renderer& renderer) {
-    const std::array<double, 6> bounds = renderer.bounds();
+    const std::array<double, 6> bounds = renderer.ranges().bounds();
     FrameRequest request = volume_picture(bounds, 64);
     Surface surface;
     const Vector3 normal{0.2, 0.9, 0.1};
@@ -28,7 +28,7 @@ FieldRange usual_range_of(Renderer& renderer) {
     std::vector<double> values = renderer.render(request).value;
     std::erase_if(values, [](double value) { return std::isnan(value); });
     if (values.empty()) {
-        return renderer.field_range({}, 0);
+        return renderer.ranges().range({}, 0);
     }
     std::sort(values.begin(), values.end());
     return {values[values.size() / 50], values[values.size() - 1 - values.size() / 50]};
@@ -107,8 +107,8 @@ double a_pixel(std::uint64_t count, std::uint64_t n_pixels) {
 }
 
 ConvergenceScene::ConvergenceScene(const Device& device, const RuntimeVolume& volume, Precision precision, std::uint32_t size)
-    : m_renderer(device, volume, precision), m_request(volume_picture(m_renderer.bounds(), size)),
-      m_diagonal(diagonal_of(m_renderer.bounds())), m_range(m_renderer.field_range({}, 0)),
+    : m_renderer(device, volume, precision), m_request(volume_picture(m_renderer.ranges().bounds(), size)),
+      m_diagonal(diagonal_of(m_renderer.ranges().bounds())), m_range(m_renderer.ranges().range({}, 0)),
       m_usual_range(usual_range_of(m_renderer)) {
     m_request.volume.emplace();
     rendering().transfer = {{{0, 0.1 / m_diagonal}}, {{0, {1, 1, 1}}}};

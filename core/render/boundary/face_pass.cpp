@@ -1,5 +1,5 @@
 #include <core/render/boundary/face_pass.hpp>
-#include <core/render/device/in_parts.hpp>
+#include <core/render/device/in_batches.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/device/real_array.hpp>
 
@@ -132,17 +132,17 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                               target.beyond ? 1u : 0u,
                               target.wants_normals ? 1u : 0u,
                               target.places ? 1u : 0u};
-        const auto draw_tiles = [&](Draws what, const TileList::Part& part) {
-            in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-                parameters.first = part.first + first;
+        const auto draw_tiles = [&](Draws what, const TileList::Range& range) {
+            in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+                parameters.first = range.first + first;
                 kernels.provide(m_device, what).dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
             });
         };
-        const TileList::Parts parts = m_listed.read();
-        draw_tiles(Draws::pixels, parts.shallow);
-        draw_tiles(Draws::deep_pixels, parts.deep);
+        const TileList::Ranges ranges = m_listed.read();
+        draw_tiles(Draws::pixels, ranges.shallow);
+        draw_tiles(Draws::deep_pixels, ranges.deep);
         const std::uint32_t n_careful = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts];
-        in_parts(n_careful, careful_pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+        in_batches(n_careful, careful_pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
             parameters.first = first;
             kernels.provide(m_device, Draws::careful)
                 .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));

@@ -1,5 +1,5 @@
 #include <core/render/cut_surface/cut_plane_pass.hpp>
-#include <core/render/device/in_parts.hpp>
+#include <core/render/device/in_batches.hpp>
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/device/real_array.hpp>
@@ -121,7 +121,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
 }
 
 void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
-                        const LineRequest& lines, bool shows_outside, const LayerTarget& target, FrameCounts& counts) {
+                        const LineRequest& lines, const LayerTarget& target, FrameCounts& counts) {
     write_reals(m_frame, m_precision, std::span<const double>(geometry.rows.front().data(), 4 * geometry.rows.size()));
     m_counts.fill(0);
     const auto n_isovalues = static_cast<std::uint32_t>(lines.isovalues.size());
@@ -136,26 +136,32 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
     for (ClassKernels& kernels : m_kernels) {
         draw_pixels(kernels, surface, component, n_isovalues, target);
     }
-    if (target.after_samples) {
-        target.after_samples();
+    add_counts(counts);
+}
+
+void CutPlanePass::draw_lines(const ShownComponent& component, const LineRequest& lines, const LayerTarget& target,
+                              FrameCounts& counts) {
+    m_counts.fill(0);
+    for (const ClassKernels& kernels : m_kernels) {
+        draw_lines(kernels, component, lines, target, counts);
     }
-    if (m_with_lines) {
-        for (const ClassKernels& kernels : m_kernels) {
-            draw_lines(kernels, component, lines, target, counts);
-        }
+    add_counts(counts);
+}
+
+void CutPlanePass::draw_outside(const CutPlaneGeometry& geometry, std::uint32_t surface, const LayerTarget& target) {
+    if (!m_outside) {
+        m_outside = std::make_unique<OutsidePass>(m_device, m_precision, true);
     }
-    if (shows_outside) {
-        if (!m_outside) {
-            m_outside = std::make_unique<OutsidePass>(m_device, m_precision, true);
-        }
-        std::array<double, 6> box = box_around(m_data.bounds());
-        const std::array<double, 4>& reference = geometry.rows[6];
-        for (std::size_t i = 0; i < box.size(); ++i) {
-            box[i] -= reference[i % 3];
-        }
-        m_outside->set_box(box);
-        m_outside->draw(m_frame, nullptr, surface, target);
+    std::array<double, 6> box = box_around(m_data.bounds());
+    const std::array<double, 4>& reference = geometry.rows[6];
+    for (std::size_t i = 0; i < box.size(); ++i) {
+        box[i] -= reference[i % 3];
     }
+    m_outside->set_box(box);
+    m_outside->draw(m_frame, nullptr, surface, target);
+}
+
+void CutPlanePass::add_counts(FrameCounts& counts) const {
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
     counts.field_evaluations += found[0];
     counts.newton_iterations += found[1];
@@ -177,11 +183,11 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
     const std::array<const Buffer*, 7> bindings = {&m_frame,   &layer.samples, &*kernels.tile_nodes, &m_counts, &layer.marks,
                                                    &isovalues, &listed};
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
-    const TileList::Part part = m_listed.read().shallow;
-    in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+    const TileList::Range range = m_listed.read().shallow;
+    in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
         const PixelsParameters pixels{layer.width,
                                       layer.height,
-                                      part.first + first,
+                                      range.first + first,
                                       surface,
                                       component.first(),
                                       component.end(),

@@ -29,12 +29,13 @@ public:
     CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines,
                  const KernelEdit& edit = {});
 
-    /**
-     * Draws one plane as surface number `surface`, at least 1; adds to the counts. `lines`: only of a pass made with them.
-     * `shows_outside`: also where it lies in no element, near the volume.
-     */
+    /** Draws one plane as surface number `surface`, at least 1; adds to the counts. `lines`: only of a pass made with them. */
     void draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
-              const LineRequest& lines, bool shows_outside, const LayerTarget& target, FrameCounts& counts);
+              const LineRequest& lines, const LayerTarget& target, FrameCounts& counts);
+    /** Lines on what was drawn last. */
+    void draw_lines(const ShownComponent& component, const LineRequest& lines, const LayerTarget& target, FrameCounts& counts);
+    /** Where what was drawn last lies in no element, near the volume. */
+    void draw_outside(const CutPlaneGeometry& geometry, std::uint32_t surface, const LayerTarget& target);
 
 private:
     struct ClassKernels {
@@ -51,6 +52,7 @@ private:
                      const LayerTarget& target);
     void draw_lines(const ClassKernels& kernels, const ShownComponent& component, const LineRequest& lines,
                     const LayerTarget& target, FrameCounts& counts);
+    void add_counts(FrameCounts& counts) const;
 
     const Device& m_device;
     const DeviceVolume& m_data;

@@ -1,6 +1,6 @@
 #include <core/base/bounds.hpp>
 #include <core/render/cut_surface/surface_pass.hpp>
-#include <core/render/device/in_parts.hpp>
+#include <core/render/device/in_batches.hpp>
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/device/real_array.hpp>
@@ -27,7 +27,7 @@ constexpr std::uint32_t most_rounds = 256;
 constexpr double most_error_along_ray = 3e-5;
 
 struct TilesParameters {
-    std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile, n_parts;
+    std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile, boxes_a_tile;
 };
 
 struct PixelsParameters {
@@ -92,83 +92,96 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
     }
 }
 
-void SurfacePass::provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t n_parts) {
+void SurfacePass::provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t boxes_a_tile) {
     provide_buffer(m_hits, m_device, 2 * n_pixels * real_bytes(m_precision));
     provide_buffer(m_bending, m_device, n_pixels * real_bytes(m_precision));
-    provide_buffer(m_boxes, m_device, n_tiles * n_parts * 6 * sizeof(float));
+    provide_buffer(m_boxes, m_device, n_tiles * boxes_a_tile * 6 * sizeof(float));
     provide_buffer(m_tiles, m_device, n_tiles * tile_stride * sizeof(std::uint32_t));
+}
+
+struct SurfacePass::Picture {
+    const SurfaceSolver& solver;
+    std::uint32_t surface;
+    const ShownComponent& component;
+    const LayerTarget& target;
+    double most_error;
+    std::uint32_t tiles_a_row, tile_rows;
+    TileRows wanted;
+};
+
+/** The next crossing of each ray that is still open. Returns how many rays have one. */
+std::uint32_t SurfacePass::find_hits(const Picture& picture, std::uint32_t round) const {
+    const Layer& layer = picture.target.layer;
+    const Buffer* const beyond = picture.target.beyond;
+    const std::array<const Buffer*, 7> bindings = {
+        &*m_hits, &layer.normals, &*m_bending, &*m_boxes, &layer.marks, &m_hit_counts, beyond != nullptr ? beyond : &m_nothing};
+    const std::uint32_t tile_pixels = surface_tile_width(m_device) * surface_tile_height;
+    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (picture.tiles_a_row * tile_pixels));
+    m_hit_counts.fill(0);
+    for (std::uint32_t first_row = picture.wanted.first; first_row < picture.wanted.end; first_row += rows_a_dispatch) {
+        const HitsParameters hits{layer.width, layer.height, first_row, picture.surface, round, beyond != nullptr ? 1u : 0u};
+        picture.solver.find(m_frame, bindings, std::as_bytes(std::span(&hits, 1)), picture.tiles_a_row,
+                            std::min(rows_a_dispatch, picture.wanted.end - first_row));
+    }
+    return m_hit_counts.read_items<std::uint32_t>(1)[0];
+}
+
+/** The elements of one class that hold crossings, and the field there. */
+void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& picture) {
+    const Layer& layer = picture.target.layer;
+    const std::uint32_t tiles_a_row = picture.tiles_a_row;
+    const TilesParameters tiles{tiles_a_row, tiles_a_row * picture.tile_rows, picture.wanted.first * tiles_a_row,
+                                picture.wanted.end * tiles_a_row, picture.solver.boxes_a_tile()};
+    const Buffer& listed = m_listed.begin(tiles.n_tiles);
+    const std::array<const Buffer*, 3> tiles_bindings = {&*m_boxes, &*m_tiles, &listed};
+    kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
+                            divided_up(tiles.end_tile - tiles.first_tile, tiles_group_size));
+    // Places are not written if they are not wanted: anything of reals.
+    const Buffer& places = picture.target.places != nullptr ? *picture.target.places : layer.normals;
+    const std::array<const Buffer*, 9> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,
+                                                   &*m_hits, &layer.normals, &places,   &listed};
+    const TileList::Range range = m_listed.read().shallow;
+    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (surface_tile_width(m_device) * surface_tile_height);
+    in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+        const PixelsParameters pixels{layer.width,
+                                      layer.height,
+                                      range.first + first,
+                                      picture.surface,
+                                      picture.component.first(),
+                                      picture.component.end(),
+                                      picture.component.is_discontinuous ? 1u : 0u,
+                                      static_cast<float>(picture.most_error),
+                                      picture.target.places != nullptr ? 1u : 0u};
+        kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), count);
+    });
 }
 
 void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
                        const ShownComponent& component, bool shows_outside, const LayerTarget& target, FrameCounts& counts) {
-    const std::uint32_t width = target.layer.width, height = target.layer.height;
-    const std::uint32_t tile_width = surface_tile_width(m_device);
-    const std::uint32_t tiles_a_row = divided_up(width, tile_width);
-    const std::uint32_t tile_rows = divided_up(height, surface_tile_height);
-    const TileRows wanted = target.tile_rows(surface_tile_height);
-    provide_buffers(std::uint64_t{width} * height, std::uint64_t{tiles_a_row} * tile_rows, solver.n_parts());
+    const Layer& layer = target.layer;
+    const Picture picture{solver,
+                          surface,
+                          component,
+                          target,
+                          most_error_along_ray * diagonal_of(m_data.bounds()),
+                          divided_up(layer.width, surface_tile_width(m_device)),
+                          divided_up(layer.height, surface_tile_height),
+                          target.tile_rows(surface_tile_height)};
+    provide_buffers(layer.n_pixels(), std::uint64_t{picture.tiles_a_row} * picture.tile_rows, solver.boxes_a_tile());
     write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
-    const double most_error = most_error_along_ray * diagonal_of(m_data.bounds());
-    solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), most_error);
+    solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error);
     m_counts.fill(0);
-
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * tile_width * surface_tile_height));
-    const std::array<const Buffer*, 7> hits_bindings = {&*m_hits,
-                                                        &target.layer.normals,
-                                                        &*m_bending,
-                                                        &*m_boxes,
-                                                        &target.layer.marks,
-                                                        &m_hit_counts,
-                                                        target.beyond != nullptr ? target.beyond : &m_nothing};
-    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (tile_width * surface_tile_height);
     std::uint32_t n_found_before = 0;
     for (std::uint32_t round = 0; round < most_rounds; ++round) {
-        m_hit_counts.fill(0);
-        for (std::uint32_t first_row = wanted.first; first_row < wanted.end; first_row += rows_a_dispatch) {
-            const HitsParameters hits{width, height, first_row, surface, round, target.beyond != nullptr ? 1u : 0u};
-            solver.find(m_frame, hits_bindings, std::as_bytes(std::span(&hits, 1)), tiles_a_row,
-                        std::min(rows_a_dispatch, wanted.end - first_row));
-        }
-        const std::uint32_t n_hits = m_hit_counts.read_items<std::uint32_t>(1)[0];
+        const std::uint32_t n_hits = find_hits(picture, round);
         if (n_hits == 0) {
             break;
         }
         for (const ClassKernels& kernels : m_kernels) {
-            const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows, wanted.first * tiles_a_row,
-                                        wanted.end * tiles_a_row, solver.n_parts()};
-            const Buffer& listed = m_listed.begin(tiles.n_tiles);
-            const std::array<const Buffer*, 3> tiles_bindings = {&*m_boxes, &*m_tiles, &listed};
-            kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
-                                    divided_up(tiles.end_tile - tiles.first_tile, tiles_group_size));
-            const std::array<const Buffer*, 9> pixels_bindings = {&m_frame,
-                                                                  &target.layer.samples,
-                                                                  &*m_tiles,
-                                                                  &m_counts,
-                                                                  &target.layer.marks,
-                                                                  &*m_hits,
-                                                                  &target.layer.normals,
-                                                                  target.places != nullptr ? target.places
-                                                                                           : &target.layer.normals,
-                                                                  &listed};
-            const TileList::Part part = m_listed.read().shallow;
-            in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-                const PixelsParameters pixels{width,
-                                              height,
-                                              part.first + first,
-                                              surface,
-                                              component.first(),
-                                              component.end(),
-                                              component.is_discontinuous ? 1u : 0u,
-                                              static_cast<float>(most_error),
-                                              target.places != nullptr ? 1u : 0u};
-                kernels.pixels->dispatch(pixels_bindings, std::as_bytes(std::span(&pixels, 1)), count);
-            });
+            draw_pixels(kernels, picture);
         }
         if (shows_outside) {
-            if (!m_outside) {
-                m_outside = std::make_unique<OutsidePass>(m_device, m_precision, false);
-            }
-            m_outside->draw(m_frame, &*m_hits, surface, target);
+            draw_outside(picture);
             break;
         }
         const std::uint32_t n_found = m_counts.read_items<std::uint32_t>(1, n_pass_counts)[0];
@@ -184,6 +197,13 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     counts.field_evaluations += found[0];
     counts.newton_iterations += found[1];
     counts.newton_failures += found[2];
+}
+
+void SurfacePass::draw_outside(const Picture& picture) {
+    if (!m_outside) {
+        m_outside = std::make_unique<OutsidePass>(m_device, m_precision, false);
+    }
+    m_outside->draw(m_frame, &*m_hits, picture.surface, picture.target);
 }
 
 } // namespace elvis

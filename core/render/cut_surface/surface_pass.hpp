@@ -44,7 +44,11 @@ private:
         std::unique_ptr<ComposedKernel> tiles;
         std::unique_ptr<ComposedKernel> pixels;
     };
-    void provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t n_parts);
+    struct Picture;
+    std::uint32_t find_hits(const Picture& picture, std::uint32_t round) const;
+    void draw_pixels(const ClassKernels& kernels, const Picture& picture);
+    void draw_outside(const Picture& picture);
+    void provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t boxes_a_tile);
 
     const Device& m_device;
     const DeviceVolume& m_data;

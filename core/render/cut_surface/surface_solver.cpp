@@ -211,7 +211,7 @@ void SurfaceSolver::find(const Buffer& frame, std::span<const Buffer* const> buf
                          std::uint32_t tiles_a_row, std::uint32_t tile_rows) const {
     std::vector<const Buffer*> bindings = {&frame, &*m_rows};
     bindings.insert(bindings.end(), buffers.begin(), buffers.end());
-    m_kernel->dispatch(bindings, parameters, tiles_a_row, tile_rows * n_parts());
+    m_kernel->dispatch(bindings, parameters, tiles_a_row, tile_rows * boxes_a_tile());
 }
 
 } // namespace elvis

@@ -31,7 +31,7 @@ public:
     SurfaceSolver(const Device& device, Precision precision, const CutShape& shape);
 
     /** Boxes of a tile that the kernel writes, one below the other. */
-    std::uint32_t n_parts() const { return surface_tile_height / m_hit_rows; }
+    std::uint32_t boxes_a_tile() const { return surface_tile_height / m_hit_rows; }
 
     /**
      * Prepares a picture of a shape with the solver's key. `bounds`: min x y z, max x y z; crossings are looked for in this

@@ -1,5 +1,5 @@
 #include <core/base/bounds.hpp>
-#include <core/render/device/in_parts.hpp>
+#include <core/render/device/in_batches.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/device/real_array.hpp>
 #include <core/render/isosurface/isosurface_pass.hpp>
@@ -188,20 +188,20 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
         const std::array<const Buffer*, 11> bindings = {&m_frame,      &layer.samples, &layer.normals, &m_counts,
                                                         &layer.marks,  &tiles,         &*m_isovalues,  &beyond,
                                                         target.places, &*m_bending,    &listed};
-        const auto draw_tiles = [&](Role role, const TileList::Part& part) {
-            in_parts(part.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-                parameters.first_listed = part.first + first;
+        const auto draw_tiles = [&](Role role, const TileList::Range& range) {
+            in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+                parameters.first_listed = range.first + first;
                 kernels.provide(m_device, role, m_values.size() == 1)
                     .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / rows_an_invocation);
             });
         };
-        const TileList::Parts parts = m_listed.read();
-        draw_tiles(Role::pixels, parts.shallow);
-        draw_tiles(Role::deep_pixels, parts.deep);
+        const TileList::Ranges ranges = m_listed.read();
+        draw_tiles(Role::pixels, ranges.shallow);
+        draw_tiles(Role::deep_pixels, ranges.deep);
         const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
         counts.field_evaluations += found[evaluations];
-        counts.excluded_pieces += found[excluded] + found[outside];
-        counts.undecided_pieces += found[undecided];
+        counts.excluded_intervals += found[excluded] + found[outside];
+        counts.undecided_intervals += found[undecided];
         counts.isosurface_crossings += found[crossings];
     }
 }

@@ -14,7 +14,7 @@ constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: each may take a thousand evaluations. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 13;
 /** Of m_counts. */
-enum Count : std::size_t { evaluations, certified, verified, undecided, crossings, failures, pieces, degrees, n_counts };
+enum Count : std::size_t { evaluations, certified, verified, undecided, crossings, failures, fits, degrees, n_counts };
 
 struct ListParameters {
     std::uint32_t n_pixels, groups_x, wanted_flags;
@@ -94,12 +94,12 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.field_evaluations += found[evaluations];
     counts.certified_segments += found[certified];
-    counts.verified_segments += found[verified];
-    counts.undecided_segments += found[undecided];
+    counts.verified_fits += found[verified];
+    counts.undecided_fits += found[undecided];
     counts.isosurface_crossings += found[crossings];
     counts.newton_failures += found[failures];
-    counts.segments += found[pieces];
-    counts.segment_degrees += found[degrees];
+    counts.fits += found[fits];
+    counts.fit_degrees += found[degrees];
     // Once, not for each class.
     counts.projected_pixels = std::max<std::uint64_t>(counts.projected_pixels, m_n_listed);
 }

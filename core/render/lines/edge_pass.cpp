@@ -39,15 +39,11 @@ public:
         m_right = unit(cross(m_axis, camera.up));
         m_top = cross(m_right, m_axis);
         m_spread = std::tan(camera.field_of_view * std::numbers::pi / 360);
-        double distance = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            distance += m_axis[i] * (camera.look_at[i] - camera.eye[i]);
-        }
-        m_near = nearest_depth * distance;
+        m_near = nearest_depth * dot(m_axis, minus(camera.look_at, camera.eye));
     }
 
     ViewPoint see(const Vector3& x) const {
-        const Vector3 away = {x[0] - m_camera.eye[0], x[1] - m_camera.eye[1], x[2] - m_camera.eye[2]};
+        const Vector3 away = minus(x, m_camera.eye);
         return {dot(away, m_right), dot(away, m_top), dot(away, m_axis)};
     }
     /** Half the picture's height at this distance, in world units. */
@@ -68,11 +64,7 @@ public:
         }
         const double s = (2 * (column + 0.5 + m_camera.image_shift[0]) / m_width - 1) * m_width / m_height * m_spread;
         const double v = (1 - 2 * (row + 0.5 + m_camera.image_shift[1]) / m_height) * m_spread;
-        Vector3 d;
-        for (std::size_t i = 0; i < 3; ++i) {
-            d[i] = m_axis[i] + s * m_right[i] + v * m_top[i];
-        }
-        return d;
+        return plus(plus(m_axis, scaled(m_right, s)), scaled(m_top, v));
     }
 
 private:
@@ -228,13 +220,13 @@ void write(const View& view, const Canvas& canvas, double width, double value, s
         }
         const Vector3 d =
             view.direction(static_cast<std::uint32_t>(i % layer.width), static_cast<std::uint32_t>(i / layer.width));
-        const double length = std::sqrt(dot(d, d));
+        const double distance = length(d);
         const double tolerance = EdgePass::depth_tolerance * std::max(1.0, width) * view.pixel_size(pixel.z);
-        samples[i] = {static_cast<Real>(value), static_cast<Real>(length * std::max(pixel.z - tolerance, 0.5 * pixel.z)),
+        samples[i] = {static_cast<Real>(value), static_cast<Real>(distance * std::max(pixel.z - tolerance, 0.5 * pixel.z)),
                       pixel.number};
         marks[i] = {surface << 5u, pixel.flags};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            normals[3 * i + axis] = -d[axis] / length;
+            normals[3 * i + axis] = -d[axis] / distance;
         }
     }
     layer.samples.write_items(std::span<const Sample<Real>>(samples));

@@ -1,3 +1,4 @@
+#include <core/render/device/in_batches.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/device/real_array.hpp>
 #include <core/render/lines/line_pass.hpp>
@@ -93,8 +94,9 @@ std::uint32_t unite_entries(const Buffer& list, std::uint32_t n_entries) {
 
 LinePass::LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces,
                    bool is_whole_boundary, std::uint32_t quadric_rows, bool on_own_boundary)
-    : m_device(device), m_volume(volume), m_data(data), m_faces(faces), m_is_whole_boundary(is_whole_boundary),
-      m_quadric_rows(quadric_rows), m_on_own_boundary(on_own_boundary),
+    : m_device(device), m_volume(volume), m_data(data), m_faces(faces),
+      // Where elements are cut, rays pass between faces and what the cut leaves out.
+      m_is_closed(is_whole_boundary && !volume.is_cut()), m_quadric_rows(quadric_rows), m_on_own_boundary(on_own_boundary),
       m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
       m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {}
@@ -168,120 +170,147 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
     return list;
 }
 
-void LinePass::look_closer(const std::vector<ClassKernels>& kernels, std::unique_ptr<ComposedKernel> ClassKernels::*which,
-                           std::uint32_t n_listed, std::uint32_t most_a_dispatch, const std::vector<const Buffer*>& bindings,
-                           const ShownComponent& component, const LineRequest& lines, std::uint32_t subdivisions,
-                           std::uint32_t open_count, bool is_closed, const Layer& layer) const {
-    for (const ClassKernels& of_class : kernels) {
-        for (std::uint32_t first = 0; first < n_listed; first += most_a_dispatch) {
-            const std::uint32_t count = std::min(most_a_dispatch, n_listed - first);
-            const ListedParameters parameters{layer.width,
-                                              layer.height,
-                                              first,
-                                              count,
-                                              of_class.element_class,
-                                              component.first(),
-                                              component.end(),
-                                              static_cast<std::uint32_t>(lines.isovalues.size()),
-                                              lines.mesh_lines ? 1u : 0u,
-                                              subdivisions,
-                                              open_count,
-                                              is_closed ? 1u : 0u};
-            (of_class.*which)->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_width));
-        }
-    }
-}
+struct LinePass::Picture {
+    const std::vector<ClassKernels>& kernels;
+    const ShownComponent& component;
+    const LineRequest& lines;
+    const Buffer *bending, *shape;
+    const LayerTarget& target;
+
+    std::uint32_t n_isovalues() const { return static_cast<std::uint32_t>(lines.isovalues.size()); }
+};
+
+/** Pixels in a list, and the list of those that they leave open. */
+struct LinePass::Listed {
+    const Buffer &from, &to;
+    std::uint32_t count, most_a_dispatch;
+    /** Which of the counts is that of the second list; 0: there is none. */
+    std::uint32_t open_count;
+    bool is_closed;
+};
 
 void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& component, const LineRequest& lines,
                     const Buffer* bending, const Buffer* shape, const LayerTarget& target, FrameCounts& counts) {
-    const Layer& layer = target.layer;
-    const auto n_isovalues = static_cast<std::uint32_t>(lines.isovalues.size());
-    const std::vector<ClassKernels>& kernels = m_kernels[n_isovalues > 0 ? 1 : 0];
+    const Picture picture{m_kernels[lines.isovalues.empty() ? 0 : 1], component, lines, bending, shape, target};
+    const std::uint64_t n_pixels = target.layer.n_pixels();
     write_reals(m_frame, m_data.precision(), std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
     m_counts.fill(0);
     // A buffer cannot be empty.
-    provide_buffer(m_isovalues, m_device, std::max<std::uint64_t>(n_isovalues, 1) * real_bytes(m_data.precision()));
+    provide_buffer(m_isovalues, m_device, std::max<std::uint64_t>(picture.n_isovalues(), 1) * real_bytes(m_data.precision()));
     write_reals(*m_isovalues, m_data.precision(), lines.isovalues);
-    provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
+    provide_buffer(m_list, m_device, n_pixels * sizeof(std::uint32_t));
+    // Each class may leave a pixel open.
+    const std::uint64_t open_bytes = picture.kernels.size() * n_pixels * sizeof(std::uint32_t);
+    provide_buffer(m_open, m_device, open_bytes);
+    provide_buffer(m_still_open, m_device, open_bytes);
+    settle(picture);
+    const std::uint32_t n_listed = n_of(1);
+    counts.refined_pixels += n_listed;
+    look_closer(picture, n_listed, m_is_closed && start_on_one_side(view, m_data.bounds()));
+    counts.field_evaluations += n_of(0);
+}
 
-    std::vector<const Buffer*> bindings = {&m_frame,     &layer.samples, &layer.normals, &m_counts,
-                                           &layer.marks, &*m_isovalues,  target.places,  &*m_list};
-    if (bending != nullptr) {
-        bindings.push_back(bending);
+/** Lists the pixels that the elements which they show leave open. */
+void LinePass::settle(const Picture& picture) const {
+    const Layer& layer = picture.target.layer;
+    std::vector<const Buffer*> bindings = {&m_frame,     &layer.samples, &layer.normals,        &m_counts,
+                                           &layer.marks, &*m_isovalues,  picture.target.places, &*m_list};
+    if (picture.bending != nullptr) {
+        bindings.push_back(picture.bending);
     }
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    const TileRows wanted = target.tile_rows(tile_height);
+    const TileRows wanted = picture.target.tile_rows(tile_height);
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
-    for (const ClassKernels& of_class : kernels) {
+    for (const ClassKernels& of_class : picture.kernels) {
         for (std::uint32_t first_row = wanted.first; first_row < wanted.end; first_row += rows_a_dispatch) {
             const SettleParameters parameters{layer.width,
                                               layer.height,
                                               first_row,
                                               of_class.element_class,
-                                              &of_class == &kernels.front() ? 1u : 0u,
-                                              component.first(),
-                                              component.end(),
-                                              n_isovalues,
-                                              lines.mesh_lines ? 1u : 0u};
+                                              &of_class == &picture.kernels.front() ? 1u : 0u,
+                                              picture.component.first(),
+                                              picture.component.end(),
+                                              picture.n_isovalues(),
+                                              picture.lines.mesh_lines ? 1u : 0u};
             of_class.settle->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row,
                                       std::min(rows_a_dispatch, wanted.end - first_row));
         }
     }
-    const std::uint32_t n_listed = n_of(1);
-    counts.refined_pixels += n_listed;
-    // Each class may leave a pixel open.
-    const std::uint64_t list_bytes = kernels.size() * layer.n_pixels() * sizeof(std::uint32_t);
-    provide_buffer(m_open, m_device, list_bytes);
-    provide_buffer(m_still_open, m_device, list_bytes);
-    const auto of_lists = [&](const Buffer& from, const Buffer& to) -> std::vector<const Buffer*> {
-        if (m_faces) {
-            return {&m_frame,      &layer.samples, &layer.normals, &m_counts, &layer.marks,
-                    &*m_isovalues, target.places,  &from,          &to};
-        }
-        return {&m_frame, shape, &layer.normals, &m_counts, &layer.marks, &*m_isovalues, bending, &from, &layer.samples, &to};
-    };
-    // Few halvings first: most pixels need no more, and what they decide stays decided whatever the limit is.
-    const std::uint32_t few = std::min(lines.subdivisions, few_subdivisions);
+}
+
+/**
+ * Few halvings first: most pixels need no more, and what they decide stays decided whatever the limit is. Level by level where
+ * lines are excluded, too: what decides a pixel is found early, and deep walks are for few.
+ */
+std::vector<LinePass::Round> LinePass::rounds_to(std::uint32_t subdivisions) const {
+    const std::uint32_t few = std::min(subdivisions, few_subdivisions);
     const auto search = &ClassKernels::search, exclude = &ClassKernels::exclude;
-    struct Round {
-        std::unique_ptr<ComposedKernel> ClassKernels::*kernel;
-        std::uint32_t subdivisions;
-    };
-    // Level by level where lines are excluded, too: what decides a pixel is found early, and deep walks are for few.
     std::vector<Round> rounds = {{search, 0}};
     if (m_quadric_rows > 0) {
-        rounds.insert(rounds.end(), {{exclude, few}, {search, lines.subdivisions}});
+        rounds.insert(rounds.end(), {{exclude, few}, {search, subdivisions}});
     } else {
         rounds.push_back({search, few});
         if (m_faces) {
             rounds.push_back({exclude, few});
-        } else if (lines.subdivisions > few) {
-            rounds.push_back({search, lines.subdivisions});
+        } else if (subdivisions > few) {
+            rounds.push_back({search, subdivisions});
         }
     }
-    for (std::uint32_t most = few; (m_faces || m_quadric_rows > 0) && most < lines.subdivisions;) {
-        most = std::min(most + few_subdivisions, lines.subdivisions);
+    for (std::uint32_t most = few; (m_faces || m_quadric_rows > 0) && most < subdivisions;) {
+        most = std::min(most + few_subdivisions, subdivisions);
         if (m_faces) {
             rounds.push_back({search, most});
         }
         rounds.push_back({exclude, most});
     }
-    const bool is_closed = m_is_whole_boundary && start_on_one_side(view, m_data.bounds());
+    return rounds;
+}
+
+void LinePass::look_closer(const Picture& picture, const Round& round, const Listed& listed) const {
+    const Layer& layer = picture.target.layer;
+    std::vector<const Buffer*> bindings = {&m_frame,      &layer.samples,        &layer.normals, &m_counts, &layer.marks,
+                                           &*m_isovalues, picture.target.places, &listed.from,   &listed.to};
+    if (!m_faces) {
+        bindings = {&m_frame,      picture.shape,   &layer.normals, &m_counts,      &layer.marks,
+                    &*m_isovalues, picture.bending, &listed.from,   &layer.samples, &listed.to};
+    }
+    for (const ClassKernels& of_class : picture.kernels) {
+        in_batches(listed.count, listed.most_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+            const ListedParameters parameters{layer.width,
+                                              layer.height,
+                                              first,
+                                              count,
+                                              of_class.element_class,
+                                              picture.component.first(),
+                                              picture.component.end(),
+                                              picture.n_isovalues(),
+                                              picture.lines.mesh_lines ? 1u : 0u,
+                                              round.subdivisions,
+                                              listed.open_count,
+                                              listed.is_closed ? 1u : 0u};
+            (of_class.*round.kernel)
+                ->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_width));
+        });
+    }
+}
+
+/** Into the listed pixels, round by round into those that stay open. */
+void LinePass::look_closer(const Picture& picture, std::uint32_t n_listed, bool is_closed) {
+    const std::vector<Round> rounds = rounds_to(picture.lines.subdivisions);
     const Buffer* from = &*m_list;
     std::uint32_t n_left = n_listed;
     for (std::uint32_t round = 0; round < rounds.size(); ++round) {
         const bool is_last = round + 1 == rounds.size();
         const Buffer* to = from == &*m_open ? &*m_still_open : &*m_open;
-        const std::uint32_t count = is_last ? 0 : 2 + round;
-        look_closer(kernels, rounds[round].kernel, n_left, round == 0 ? listed_a_dispatch : open_a_dispatch,
-                    of_lists(*from, *to), component, lines, rounds[round].subdivisions, count, is_closed, layer);
+        const std::uint32_t open_count = is_last ? 0 : 2 + round;
+        const std::uint32_t most_a_dispatch = round == 0 ? listed_a_dispatch : open_a_dispatch;
+        look_closer(picture, rounds[round], {*from, *to, n_left, most_a_dispatch, open_count, is_closed});
         from = to;
-        n_left = is_last ? 0 : n_of(count);
-        if (kernels.size() > 1 && n_left > 0) {
+        n_left = is_last ? 0 : n_of(open_count);
+        if (picture.kernels.size() > 1 && n_left > 0) {
             n_left = unite_entries(*to, n_left);
         }
     }
-    counts.field_evaluations += n_of(0);
 }
 
 } // namespace elvis

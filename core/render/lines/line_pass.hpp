@@ -24,8 +24,8 @@ class LinePass {
 public:
     /**
      * On these faces, which must outlive it, or on shapes of one solver (SurfaceSolver::quadric_rows). `data` must have
-     * derivative bounds. `is_whole_boundary`: what of it faces away is never seen. `on_own_boundary`: on
-     * where elements are cut, as if they were whole, since they end there.
+     * derivative bounds. `is_whole_boundary`: they are all without neighbour. `on_own_boundary`: on where elements are cut,
+     * as if they were whole, since they end there.
      */
     LinePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet* faces,
              bool is_whole_boundary, std::uint32_t quadric_rows, bool on_own_boundary = false);
@@ -48,10 +48,17 @@ private:
     };
     std::vector<ClassKernels> compile(bool with_contours) const;
     std::uint32_t n_of(std::size_t which) const { return m_counts.read_items<std::uint32_t>(n_counts)[which]; }
-    void look_closer(const std::vector<ClassKernels>& kernels, std::unique_ptr<ComposedKernel> ClassKernels::*which,
-                     std::uint32_t n_listed, std::uint32_t most_a_dispatch, const std::vector<const Buffer*>& bindings,
-                     const ShownComponent& component, const LineRequest& lines, std::uint32_t subdivisions,
-                     std::uint32_t open_count, bool is_closed, const Layer& layer) const;
+    struct Picture;
+    struct Listed;
+    /** Which of the kernels takes the listed pixels, with how many halvings. */
+    struct Round {
+        std::unique_ptr<ComposedKernel> ClassKernels::*kernel;
+        std::uint32_t subdivisions;
+    };
+    void settle(const Picture& picture) const;
+    std::vector<Round> rounds_to(std::uint32_t subdivisions) const;
+    void look_closer(const Picture& picture, std::uint32_t n_listed, bool is_closed);
+    void look_closer(const Picture& picture, const Round& round, const Listed& listed) const;
 
     /** Evaluations, listed pixels, and those that each round leaves open. */
     static constexpr std::size_t n_counts = 40;
@@ -60,7 +67,8 @@ private:
     const RuntimeVolume& m_volume;
     const DeviceVolume& m_data;
     const FaceSet* m_faces;
-    bool m_is_whole_boundary;
+    /** What of it faces away is never seen. */
+    bool m_is_closed;
     std::uint32_t m_quadric_rows;
     bool m_on_own_boundary;
     std::uint32_t m_tile_width;

@@ -151,7 +151,7 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      style_bits(mesh),
                                      reach(contour),
                                      reach(mesh),
-                                     std::holds_alternative<CutPlane>(surface.geometry) ? 1u : 0u};
+                                     traits_of(surface.geometry).plane != nullptr ? 1u : 0u};
     const std::span<const std::byte> push_constants = std::as_bytes(std::span(&parameters, 1));
     std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
     const ComposedKernel& kernel = provide(lighting != nullptr, surface.has_lines());

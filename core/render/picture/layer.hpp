@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 
 namespace elvis {
 
@@ -78,8 +77,6 @@ struct LayerTarget {
     const Buffer* places = nullptr;
     /** Rows of pixels from which on, and before which, something is wanted. */
     std::uint32_t first_row = 0, end_row = 0xffffffffu;
-    /** To be called when samples and marks are drawn, before they are looked at for lines. */
-    std::function<void()> after_samples{};
 
     TileRows tile_rows(std::uint32_t tile_height) const {
         return {first_row / tile_height, (std::min(end_row, layer.height) + tile_height - 1) / tile_height};

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t rays_a_batch = 1u << 15;
 /** Segments of a ray's list; a ray that has more goes on when they are taken. */
 constexpr std::uint32_t list_capacity = 48;
-/** More than any ray has chains, and chains parts in different classes, and their parts take dispatches. */
+/** More than any ray has walks, and walks segments in different classes, and their segments take dispatches. */
 constexpr std::uint32_t most_rounds = 4096;
 constexpr std::uint32_t estimated_segment = 0x80000000u;
 /** Of shaders/segments/walk_state.glsl. */
@@ -61,7 +61,7 @@ template <class Real> bool is_undecided(const RayState<Real>& state) {
 
 /** Adds to the list; what goes on in the same element becomes longer. */
 void append(std::vector<Segment>& list, const Segment& segment) {
-    // A part that ended early, where a bound could not be held.
+    // A segment that ended early, where a bound could not be held.
     if (!list.empty() && segment.element == list.back().element && segment.enter == list.back().leave) {
         list.back().leave = segment.leave;
         list.back().error = std::max(list.back().error, segment.error);

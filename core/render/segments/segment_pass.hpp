@@ -1,6 +1,6 @@
 /**
  * @file segment_pass.hpp
- * The segments of rays: their parts inside of elements, front to back.
+ * The segments of rays, front to back.
  */
 #pragma once
 
@@ -53,7 +53,7 @@ struct SegmentCounts {
     std::uint64_t segments = 0;
     /** Of the mapping, to walk through elements and to find where they begin. */
     std::uint64_t evaluations = 0, seek_evaluations = 0;
-    /** Parts of elements that others hide, elements of which the way out could not be found, segments that are estimates. */
+    /** Elements that others hide in part, elements of which the way out could not be found, segments that are estimates. */
     std::uint64_t overlaps = 0, failures = 0, estimated = 0;
     /** Where a face did not tell the next element. */
     std::uint64_t breaks = 0;

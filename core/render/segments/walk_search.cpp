@@ -130,7 +130,7 @@ WalkSearch::Found WalkSearch::seek(std::size_t index, const WalkRays& rays, cons
     if (m_are_given) {
         dispatch(0, tiles_a_row(rays.width));
     } else {
-        groups.in_parts(dispatch);
+        groups.in_batches(dispatch);
     }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     return {found[seeking] > 0, found[evaluations]};

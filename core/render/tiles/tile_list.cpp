@@ -7,7 +7,7 @@ namespace elvis {
 
 namespace {
 
-/** In front of the tiles, the numbers of both parts: shaders/tiles/list_tile.glsl. */
+/** In front of the tiles, the numbers of both ranges: shaders/tiles/list_tile.glsl. */
 constexpr std::uint32_t n_header_words = 2;
 
 } // namespace
@@ -20,7 +20,7 @@ const Buffer& TileList::begin(std::uint32_t n_tiles) {
     return buffer;
 }
 
-TileList::Parts TileList::read() const {
+TileList::Ranges TileList::read() const {
     const std::vector<std::uint32_t> header = m_buffer->read_items<std::uint32_t>(n_header_words);
     return {{n_header_words, header[0]}, {n_header_words + m_n_tiles - header[1], header[1]}};
 }

@@ -19,12 +19,12 @@ namespace elvis {
 class TileList {
 public:
     /** Tiles from `first` on in the list, in no order, as kernels read them (shaders/tiles/listed_tile.glsl). */
-    struct Part {
+    struct Range {
         std::uint32_t first, count;
     };
-    struct Parts {
-        /** Of tiles/ray_tiles.comp: those whose lists hold leaves only, and those with inner nodes. Others have one part. */
-        Part shallow, deep;
+    struct Ranges {
+        /** Of tiles/ray_tiles.comp: those whose lists hold leaves only, and those with inner nodes. Others have one range. */
+        Range shallow, deep;
     };
 
     explicit TileList(const Device& device) : m_device(device) {}
@@ -32,7 +32,7 @@ public:
     /** An empty list, for so many tiles. It is good until the next one. */
     const Buffer& begin(std::uint32_t n_tiles);
     /** What the list holds since begin(). */
-    Parts read() const;
+    Ranges read() const;
     const Buffer& buffer() const { return *m_buffer; }
 
 private:

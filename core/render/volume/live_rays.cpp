@@ -1,4 +1,4 @@
-#include <core/render/device/in_parts.hpp>
+#include <core/render/device/in_batches.hpp>
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/volume/live_rays.hpp>
@@ -39,8 +39,8 @@ KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::ui
 
 } // namespace
 
-void RayGroups::in_parts(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const {
-    elvis::in_parts(count, groups_a_dispatch, dispatch);
+void RayGroups::in_batches(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const {
+    elvis::in_batches(count, groups_a_dispatch, dispatch);
 }
 
 RayGroups AllRayGroups::of(const Device& device, std::uint32_t tiles_a_row, std::uint32_t height) {
@@ -74,7 +74,7 @@ RayGroups LiveRays::run(std::uint32_t seeks, std::uint32_t first_element, std::u
     m_counts.fill(0);
     const Buffer& next_open = *m_open_lists[m_next_open];
     const std::array<const Buffer*, 6> bindings = {m_states, m_has_starts, m_open.list, &*m_live, &next_open, &m_counts};
-    m_open.in_parts([&](std::uint32_t first, std::uint32_t count) {
+    m_open.in_batches([&](std::uint32_t first, std::uint32_t count) {
         const Parameters parameters{m_width, m_height, first, count, seeks, first_element, n_elements};
         m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
                           (count + groups_a_work_group - 1) / groups_a_work_group);

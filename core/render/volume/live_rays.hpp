@@ -21,8 +21,8 @@ struct RayGroups {
     const Buffer* list = nullptr;
     std::uint32_t count = 0;
 
-    /** Calls `dispatch` with parts of the list that a device can take at once, as their first place and their number. */
-    void in_parts(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const;
+    /** Calls `dispatch` with batches of the list that a device can take at once, as their first place and their number. */
+    void in_batches(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const;
 };
 
 /** All groups of a picture, by ascending number. */

@@ -13,7 +13,7 @@ namespace {
 
 /** Of the polynomials of one step. */
 constexpr int step_degree = 5;
-/** A ray has no more chains, and chains no more parts in different classes: far more than there are elements along a ray. */
+/** A ray has no more walks, and walks no more segments in different classes: far more than there are elements along a ray. */
 constexpr std::uint32_t most_rounds = 4096;
 /** Beyond all values, and a number in single precision. */
 constexpr double unbounded = 3e38;
@@ -175,7 +175,7 @@ bool VolumePass::march(std::size_t index, const Picture& picture, const RayGroup
     const std::array<const Buffer*, 8> bindings = {&m_frame,   &*m_states, &depths, &*m_breakpoints,
                                                    &*m_pieces, &m_counts,  &stops,  groups.list};
     const ComposedKernel& kernel = march_kernel(index);
-    groups.in_parts([&](std::uint32_t first, std::uint32_t count) {
+    groups.in_batches([&](std::uint32_t first, std::uint32_t count) {
         parameters.first_group = first;
         kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
     });

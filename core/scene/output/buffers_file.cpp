@@ -33,7 +33,7 @@ ShownFields shown_fields(const FrameRequest& request, const RuntimeVolume& volum
     for (const Surface& surface : request.surfaces) {
         const std::string label = surface.field_label.empty() ? field_label(volume, surface.field) : surface.field_label;
         const bool is_new = std::find(shown.labels.begin(), shown.labels.end(), label) == shown.labels.end();
-        if (is_new && !std::holds_alternative<WireFrame>(surface.geometry)) {
+        if (is_new && traits_of(surface.geometry).wires == nullptr) {
             shown.labels.push_back(label);
             // The unit of an expression is the user's affair.
             const std::string unit = surface.field.expression ? "" : volume.fields()[surface.field.field].unit;
@@ -121,7 +121,7 @@ void write_all(hid_t file, const Frame& frame, const FrameRequest& request, cons
 } // namespace
 
 void write_buffers(const Frame& frame, const FrameRequest& request, const RuntimeVolume& volume, const std::string& path,
-                   bool double_precision) {
+                   Precision precision) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     OutputFile output(path);
     const hid_t file = H5Fcreate(output.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
@@ -129,7 +129,7 @@ void write_buffers(const Frame& frame, const FrameRequest& request, const Runtim
         throw Error(path, "cannot be created");
     }
     try {
-        write_all(file, frame, request, volume, double_precision ? H5T_IEEE_F64LE : H5T_IEEE_F32LE);
+        write_all(file, frame, request, volume, precision == Precision::float64 ? H5T_IEEE_F64LE : H5T_IEEE_F32LE);
     } catch (const std::runtime_error&) {
         H5Fclose(file);
         throw Error(path, "cannot be written; is the disk full?");

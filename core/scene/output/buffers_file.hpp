@@ -6,6 +6,7 @@
 
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/frame.hpp>
+#include <core/vulkan/precision.hpp>
 
 #include <string>
 
@@ -18,6 +19,6 @@ namespace elvis {
  * file.
  */
 void write_buffers(const Frame& frame, const FrameRequest& request, const RuntimeVolume& volume, const std::string& path,
-                   bool double_precision);
+                   Precision precision);
 
 } // namespace elvis

@@ -73,7 +73,9 @@ SceneJson scene_json(const Scene& scene, const std::string& path) {
         json["volume"] = volume_json(scene, path);
     }
     set(json, "field", scene.field);
-    set(json, "precision", scene.precision);
+    if (scene.precision) {
+        json["precision"] = name_of(*scene.precision);
+    }
     if (const SceneJson camera = camera_json(scene.camera); !camera.empty()) {
         json["camera"] = camera;
     }

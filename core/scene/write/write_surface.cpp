@@ -1,16 +1,11 @@
 #include <core/scene/write/write_parts.hpp>
 
-#include <core/base/error.hpp>
+#include <core/base/overloaded.hpp>
 #include <elvis/native/space.hpp>
-
-#include <type_traits>
 
 namespace elvis {
 
 namespace {
-
-template <class... Functions> struct Overloaded : Functions... { using Functions::operator()...; };
-template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions...>;
 
 void add_groups(SceneJson& json, const BoundaryFaces& boundary) {
     if (!boundary.groups.empty()) {
@@ -44,11 +39,9 @@ void add_selection(SceneJson& json, const ElementSelection& selection) {
 
 void add_wireframe(SceneJson& json, const WireFrame& frame) {
     json["width"] = frame.width;
-    if (const auto* boundary = std::get_if<BoundaryFaces>(&frame.faces)) {
-        add_groups(json, *boundary);
-    } else if (const auto* elements = std::get_if<ElementFaces>(&frame.faces)) {
-        add_selection(json, elements->selection);
-    }
+    std::visit(Overloaded{[&](const BoundaryFaces& boundary) { add_groups(json, boundary); }, [](const FlatElements&) {},
+                          [&](const ElementFaces& elements) { add_selection(json, elements.selection); }},
+               frame.faces);
 }
 
 void add_isosurfaces(SceneJson& json, const Isosurfaces& isosurfaces) {
@@ -143,8 +136,8 @@ std::optional<Rgb> only_color(const std::optional<SceneColorMap>& map) {
 
 SceneJson surface_json(const SceneSurface& surface, const std::string& scene) {
     SceneJson json = geometry_json(surface.geometry, scene);
-    const bool is_wireframe = std::holds_alternative<WireFrame>(surface.geometry);
-    const bool is_isosurface = std::holds_alternative<Isosurfaces>(surface.geometry);
+    const SurfaceTraits traits = traits_of(surface.geometry);
+    const bool is_wireframe = traits.wires != nullptr, is_isosurface = traits.isosurfaces != nullptr;
     if (!surface.name.empty()) {
         json["name"] = surface.name;
     }

@@ -139,7 +139,7 @@ TEST_CASE("isosurfaces by projection are where the oracle finds them") {
             // In single precision rounding of these fields moves most crossings: that must be said.
             CHECK((precisions[i] == Precision::float32 || comparison.n_flagged <= comparison.n_pixels / 100));
             CHECK(one.counts[i].projected_pixels == comparison.n_pixels);
-            CHECK(one.counts[i].verified_segments > 0);
+            CHECK(one.counts[i].verified_fits > 0);
         }
         CHECK(one.comparisons[1].n_wrong_grazing == 0);
     }
@@ -180,7 +180,7 @@ TEST_CASE("projection of a higher degree is nearer to the isosurface") {
         CHECK(n_same > 100);
         CHECK(sum / n_same < 0.2 * last);
         last = sum / n_same;
-        CHECK(frame.counts.segment_degrees == degree * frame.counts.segments);
+        CHECK(frame.counts.fit_degrees == degree * frame.counts.fits);
     }
 }
 

@@ -232,7 +232,7 @@ TEST_CASE("what passes share changes no picture, but for the rounding of isosurf
             CHECK(largest <= (sharing.depths ? 1e-6 : 0));
             CHECK(frame.element == unshared.element);
             CHECK((frame.counts.hidden_pixels > 0) == sharing.depths);
-            CHECK((frame.counts.spared_pixels > 0) == sharing.parts);
+            CHECK((frame.counts.spared_pixels > 0) == sharing.rows);
             if (sharing.depths) {
                 CHECK(frame.counts.field_evaluations < unshared.counts.field_evaluations);
             }

@@ -56,7 +56,7 @@ void check(const std::string& text, const ValueFunction& value, double float32_t
         CHECK(comparison.max_channel_error <= (is_single ? float32_tolerance : 1e-9));
         CHECK(frame.counts.estimated_pixels == 0);
         // Sampled: within what is seen, and not far beyond.
-        const FieldRange range = renderer.field_range(request.surfaces[0].field, 0);
+        const FieldRange range = renderer.ranges().range(request.surfaces[0].field, 0);
         CHECK(range.lower <= low + 0.05 * (high - low));
         CHECK(range.upper >= high - 0.05 * (high - low));
     }

@@ -33,68 +33,112 @@ Vector3 across(const Vector3& a) {
     return unit(cross(a, other));
 }
 
-std::vector<Handle> handles_of_plane(const CutPlane& plane, const VolumeFacts& volume) {
-    const Vector3 anchor = anchor_of(plane, volume);
-    const Vector3 normal = normal_of(plane);
-    const Vector3 tip = plus(anchor, scaled(normal, arrow_length * volume.diagonal()));
-    return {{Handle::Kind::along, anchor, normal, std::nullopt, "Drag: move the plane along its normal", "move"},
-            {Handle::Kind::free, tip, {}, anchor, "Drag: turn the plane", "turn"}};
-}
+constexpr const char* move_text = "Drag: move it";
+constexpr const char* move_end_text = "Drag: move this end";
+constexpr const char* grow_text = "Drag: change the radius";
 
-std::vector<Handle> handles_of_shape(const CutShape& shape) {
-    const char* move = "Drag: move it";
-    const char* grow = "Drag: change the radius";
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+/** What can be dragged of a surface; nothing of most kinds. */
+struct HandlesOf {
+    using Handles = std::vector<Handle>;
+    const VolumeFacts& volume;
+
+    Handles operator()(const CutPlane& plane) const {
+        const Vector3 anchor = anchor_of(plane, volume);
+        const Vector3 normal = normal_of(plane);
+        const Vector3 tip = plus(anchor, scaled(normal, arrow_length * volume.diagonal()));
+        return {{Handle::Kind::along, anchor, normal, std::nullopt, "Drag: move the plane along its normal", "move"},
+                {Handle::Kind::free, tip, {}, anchor, "Drag: turn the plane", "turn"}};
+    }
+    Handles operator()(const CutShape& shape) const { return std::visit(*this, shape); }
+    Handles operator()(const Sphere& sphere) const {
         const Vector3 out = {1, 0, 0};
-        return {{Handle::Kind::free, sphere->center, {}, std::nullopt, move, "move"},
-                {Handle::Kind::along, plus(sphere->center, scaled(out, sphere->radius)), out, sphere->center, grow, "radius"}};
-    }
-    if (const auto* torus = std::get_if<Torus>(&shape)) {
-        const Vector3 out = across(torus->axis);
         return {
-            {Handle::Kind::free, torus->center, {}, std::nullopt, move, "move"},
-            {Handle::Kind::along, plus(torus->center, scaled(out, torus->major_radius)), out, torus->center, grow, "radius"}};
+            {Handle::Kind::free, sphere.center, {}, std::nullopt, move_text, "move"},
+            {Handle::Kind::along, plus(sphere.center, scaled(out, sphere.radius)), out, sphere.center, grow_text, "radius"}};
     }
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-        const Vector3 out = across(minus(cylinder->to, cylinder->from));
+    Handles operator()(const Torus& torus) const {
+        const Vector3 out = across(torus.axis);
         return {
-            {Handle::Kind::free, cylinder->from, {}, std::nullopt, "Drag: move this end", "from"},
-            {Handle::Kind::free, cylinder->to, {}, cylinder->from, "Drag: move this end", "to"},
-            {Handle::Kind::along, plus(cylinder->from, scaled(out, cylinder->radius)), out, cylinder->from, grow, "radius"}};
+            {Handle::Kind::free, torus.center, {}, std::nullopt, move_text, "move"},
+            {Handle::Kind::along, plus(torus.center, scaled(out, torus.major_radius)), out, torus.center, grow_text, "radius"}};
     }
-    if (const auto* cone = std::get_if<Cone>(&shape)) {
-        return {{Handle::Kind::free, cone->from, {}, std::nullopt, "Drag: move this end", "from"},
-                {Handle::Kind::free, cone->to, {}, cone->from, "Drag: move this end", "to"}};
+    Handles operator()(const Cylinder& cylinder) const {
+        const Vector3 out = across(minus(cylinder.to, cylinder.from));
+        Handles handles = of_ends(cylinder.from, cylinder.to);
+        handles.push_back(
+            {Handle::Kind::along, plus(cylinder.from, scaled(out, cylinder.radius)), out, cylinder.from, grow_text, "radius"});
+        return handles;
     }
-    return {};
-}
+    Handles operator()(const Cone& cone) const { return of_ends(cone.from, cone.to); }
+    Handles operator()(const Quadric&) const { return {}; }
+    Handles operator()(const ImplicitSurface&) const { return {}; }
+    Handles operator()(const MeshSurface&) const { return {}; }
+    Handles operator()(const BezierSurface&) const { return {}; }
+    Handles operator()(const FaceGeometry&) const { return {}; }
+    Handles operator()(const WireFrame&) const { return {}; }
+    Handles operator()(const Isosurfaces&) const { return {}; }
 
-void move_shape(CutShape& shape, std::size_t handle, const Vector3& position) {
-    constexpr double least = 1e-9;
-    if (auto* sphere = std::get_if<Sphere>(&shape)) {
+    static Handles of_ends(const Vector3& from, const Vector3& to) {
+        return {{Handle::Kind::free, from, {}, std::nullopt, move_end_text, "from"},
+                {Handle::Kind::free, to, {}, from, move_end_text, "to"}};
+    }
+};
+
+/** Drags one of these handles to a position. */
+struct MovedHandle {
+    const VolumeFacts& volume;
+    std::size_t handle;
+    const Vector3& position;
+
+    void operator()(CutPlane& plane) const {
         if (handle == 0) {
-            sphere->center = position;
-        } else {
-            sphere->radius = std::max(length(minus(position, sphere->center)), least);
+            plane.plane[3] -= side(plane, position) * length({plane.plane[0], plane.plane[1], plane.plane[2]});
+            return;
         }
-    } else if (auto* torus = std::get_if<Torus>(&shape)) {
-        if (handle == 0) {
-            torus->center = position;
-        } else {
-            torus->major_radius = std::max(length(minus(position, torus->center)), least);
-        }
-    } else if (auto* cylinder = std::get_if<Cylinder>(&shape)) {
-        if (handle == 2) {
-            cylinder->radius = std::max(length(minus(position, cylinder->from)), least);
-        } else if (position != (handle == 0 ? cylinder->to : cylinder->from)) {
-            (handle == 0 ? cylinder->from : cylinder->to) = position;
-        }
-    } else if (auto* cone = std::get_if<Cone>(&shape)) {
-        if (position != (handle == 0 ? cone->to : cone->from)) {
-            (handle == 0 ? cone->from : cone->to) = position;
+        const Vector3 anchor = anchor_of(plane, volume);
+        const Vector3 normal = minus(position, anchor);
+        if (length(normal) > 1e-9 * volume.diagonal()) {
+            plane = plane_through(anchor, unit(normal));
         }
     }
-}
+    void operator()(CutShape& shape) const { std::visit(*this, shape); }
+    void operator()(Sphere& sphere) const { move_round(sphere.center, sphere.radius); }
+    void operator()(Torus& torus) const { move_round(torus.center, torus.major_radius); }
+    void operator()(Cylinder& cylinder) const {
+        if (handle == 2) {
+            cylinder.radius = radius_from(cylinder.from);
+        } else {
+            move_end(cylinder.from, cylinder.to);
+        }
+    }
+    void operator()(Cone& cone) const { move_end(cone.from, cone.to); }
+    /** Kinds without handles. */
+    void operator()(const Quadric&) const {}
+    void operator()(const ImplicitSurface&) const {}
+    void operator()(const MeshSurface&) const {}
+    void operator()(const BezierSurface&) const {}
+    void operator()(const FaceGeometry&) const {}
+    void operator()(const WireFrame&) const {}
+    void operator()(const Isosurfaces&) const {}
+
+    double radius_from(const Vector3& centre) const {
+        constexpr double least = 1e-9;
+        return std::max(length(minus(position, centre)), least);
+    }
+    void move_round(Vector3& centre, double& radius) const {
+        if (handle == 0) {
+            centre = position;
+        } else {
+            radius = radius_from(centre);
+        }
+    }
+    /** The two stay apart. */
+    void move_end(Vector3& from, Vector3& to) const {
+        if (position != (handle == 0 ? to : from)) {
+            (handle == 0 ? from : to) = position;
+        }
+    }
+};
 
 } // namespace
 
@@ -109,14 +153,7 @@ std::vector<Handle> handles_of(const Scene& scene, const ItemId& item, const Vol
     if (item.kind != ItemKind::surface || !scene.surfaces[item.index].is_shown) {
         return {};
     }
-    const SurfaceGeometry& geometry = scene.surfaces[item.index].geometry;
-    if (const auto* plane = std::get_if<CutPlane>(&geometry)) {
-        return handles_of_plane(*plane, volume);
-    }
-    if (const auto* shape = std::get_if<CutShape>(&geometry)) {
-        return handles_of_shape(*shape);
-    }
-    return {};
+    return std::visit(HandlesOf{volume}, scene.surfaces[item.index].geometry);
 }
 
 Vector3 dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
@@ -146,20 +183,7 @@ Scene with_moved_handle(const Scene& scene, const ItemId& item, const VolumeFact
         result.lighting->lights[item.index].vector = position;
         return result;
     }
-    SurfaceGeometry& geometry = result.surfaces[item.index].geometry;
-    if (auto* plane = std::get_if<CutPlane>(&geometry)) {
-        if (handle == 0) {
-            plane->plane[3] -= side(*plane, position) * length({plane->plane[0], plane->plane[1], plane->plane[2]});
-        } else {
-            const Vector3 anchor = anchor_of(*plane, volume);
-            const Vector3 normal = minus(position, anchor);
-            if (length(normal) > 1e-9 * volume.diagonal()) {
-                *plane = plane_through(anchor, unit(normal));
-            }
-        }
-    } else if (auto* shape = std::get_if<CutShape>(&geometry)) {
-        move_shape(*shape, handle, position);
-    }
+    std::visit(MovedHandle{volume, handle, position}, result.surfaces[item.index].geometry);
     return result;
 }
 

@@ -28,31 +28,34 @@ std::string number(double value) {
     return text;
 }
 
-std::string detail(const SceneSurface& surface) {
-    if (!surface.name.empty()) {
-        return surface.name;
-    }
-    if (const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry)) {
-        std::vector<std::string> values;
-        for (const double value : isosurfaces->values) {
-            values.push_back(number(value));
-        }
-        return joined(values);
-    }
-    if (const auto* boundary = std::get_if<BoundaryFaces>(&surface.geometry)) {
-        return joined(boundary->groups);
-    }
-    if (const auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
-        const auto& [a, b, c, d] = plane->plane;
+/** Which of its kind it is. */
+struct Detail {
+    std::string operator()(const CutPlane& plane) const {
+        const auto& [a, b, c, d] = plane.plane;
         const char* names[] = {"x", "y", "z"};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (plane->plane[axis] != 0 && plane->plane[(axis + 1) % 3] == 0 && plane->plane[(axis + 2) % 3] == 0) {
-                return std::string(names[axis]) + " = " + number(-d / plane->plane[axis] + 0.0);
+            if (plane.plane[axis] != 0 && plane.plane[(axis + 1) % 3] == 0 && plane.plane[(axis + 2) % 3] == 0) {
+                return std::string(names[axis]) + " = " + number(-d / plane.plane[axis] + 0.0);
             }
         }
         return std::string("(") + number(a) + ", " + number(b) + ", " + number(c) + ")";
     }
-    return {};
+    std::string operator()(const BoundaryFaces& boundary) const { return joined(boundary.groups); }
+    std::string operator()(const Isosurfaces& isosurfaces) const {
+        std::vector<std::string> values;
+        for (const double value : isosurfaces.values) {
+            values.push_back(number(value));
+        }
+        return joined(values);
+    }
+    std::string operator()(const FlatElements&) const { return {}; }
+    std::string operator()(const ElementFaces&) const { return {}; }
+    std::string operator()(const WireFrame&) const { return {}; }
+    std::string operator()(const CutShape&) const { return {}; }
+};
+
+std::string detail(const SceneSurface& surface) {
+    return surface.name.empty() ? std::visit(Detail(), surface.geometry) : surface.name;
 }
 
 template <class T> T copied_after(std::vector<T>& list, std::size_t index) {

@@ -11,7 +11,7 @@ namespace {
 std::vector<CutPlane> planes_of(const Scene& scene) {
     std::vector<CutPlane> planes;
     for (const SceneSurface& surface : scene.surfaces) {
-        if (const auto* plane = std::get_if<CutPlane>(&surface.geometry); plane != nullptr && surface.is_shown) {
+        if (const CutPlane* const plane = traits_of(surface.geometry).plane; plane != nullptr && surface.is_shown) {
             planes.push_back(*plane);
         }
     }

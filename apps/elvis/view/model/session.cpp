@@ -39,7 +39,7 @@ Session::~Session() = default;
 
 VolumeFacts Session::open(const Scene& scene) {
     const std::string key = scene.volume + "\n" + scene.plugin + "\n" + scene.plugin_options;
-    const Precision precision = scene.precision.value_or("float32") == "float64" ? Precision::float64 : Precision::float32;
+    const Precision precision = scene.precision.value_or(Precision::float32);
     if (!m_volume || key != m_key) {
         if (scene.volume.empty()) {
             throw Error("the scene names no volume");
@@ -53,14 +53,14 @@ VolumeFacts Session::open(const Scene& scene) {
         m_precision = precision;
         m_key = key;
     }
-    return facts_of(*m_volume, *m_renderer);
+    return facts_of(*m_volume, m_renderer->ranges());
 }
 
 void Session::need_precision(const Scene& scene) {
     if (!m_volume) {
         throw Error("no volume is open");
     }
-    const Precision precision = scene.precision.value_or("float32") == "float64" ? Precision::float64 : Precision::float32;
+    const Precision precision = scene.precision.value_or(Precision::float32);
     if (!m_renderer || precision != m_precision) {
         m_renderer.reset();
         m_renderer = std::make_unique<Renderer>(*m_device, *m_volume, precision);
@@ -79,7 +79,7 @@ Picture Session::draw(const Scene& scene, const FrameSchedule::Step& step) {
     if (step.divisor == 1) {
         commands::MissedSurfaces missed;
         missed.add(request, frame);
-        const std::vector<std::string> remarks = missed.remarks(scene, request, *m_renderer);
+        const std::vector<std::string> remarks = missed.remarks(scene, request, m_renderer->ranges());
         picture.remarks.insert(picture.remarks.end(), remarks.begin(), remarks.end());
     }
     picture.is_refinable = has_refinement(request);
@@ -102,7 +102,7 @@ std::vector<std::string> Session::save_picture(const Scene& scene, const std::st
 }
 
 FrameRequest Session::drawn_request(const Scene& scene) {
-    FrameRequest request = make_frame_request(scene, *m_volume, *m_renderer);
+    FrameRequest request = make_frame_request(scene, *m_volume, m_renderer->ranges());
     request.with_buffers = false;
     return request;
 }
@@ -110,7 +110,7 @@ FrameRequest Session::drawn_request(const Scene& scene) {
 FieldRange Session::range(const Scene& scene, const std::optional<std::string>& field) {
     need_precision(scene);
     const std::optional<std::string> text = field ? std::optional(with_distances(*field, scene.surfaces)) : std::nullopt;
-    return m_renderer->field_extrema(choose_field(*m_volume, text), scene.time_step).range();
+    return m_renderer->ranges().extrema(choose_field(*m_volume, text), scene.time_step).range();
 }
 
 Scene Session::first_scene(const std::string& path) {
@@ -122,7 +122,7 @@ Scene Session::first_scene(const std::string& path) {
         return scene;
     }
     scene.surfaces =
-        default_surfaces(scene.camera, *m_volume, *m_renderer, choose_field(*m_volume, std::nullopt), scene.time_step);
+        default_surfaces(scene.camera, *m_volume, m_renderer->ranges(), choose_field(*m_volume, std::nullopt), scene.time_step);
     if (m_volume->n_faces() > 0) {
         scene.lighting = Lighting{};
     }
@@ -132,7 +132,7 @@ Scene Session::first_scene(const std::string& path) {
 Picked Session::pick(const Scene& scene, const std::array<double, 2>& place) {
     need_precision(scene);
     // One pixel with the ray of that place: s and v of a picture of one pixel are 2 shift_x and -2 shift_y.
-    FrameRequest request = make_frame_request(scene, *m_volume, *m_renderer);
+    FrameRequest request = make_frame_request(scene, *m_volume, m_renderer->ranges());
     const double width = request.width, height = request.height;
     const Ray ray = ray_through(request.camera, {width, height}, place);
     request.camera.image_shift = {((place[0] + request.camera.image_shift[0]) / width - 0.5) * width / height,
@@ -171,7 +171,7 @@ bool Session::probe(const Ray& ray, std::uint32_t time_step, Picked& picked) {
         expressions.push_back(std::make_shared<const Expression>(text, m_volume->fields(), m_volume->dimension()));
     }
     // A point of the boundary may be outside by what single precision is off: then a little deeper, or less deep.
-    const std::array<double, 6> bounds = m_renderer->bounds();
+    const std::array<double, 6> bounds = m_renderer->ranges().bounds();
     const double diagonal = diagonal_of(bounds);
     for (const double shift : {0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4}) {
         const Vector3 position = ray.at(picked.depth + shift * diagonal);
@@ -206,7 +206,7 @@ std::vector<double> Session::samples(const Scene& scene, const std::optional<std
     if (!m_prober) {
         m_prober = std::make_unique<Prober>(*m_volume);
     }
-    return commands::field_samples(*m_prober, *m_volume, m_renderer->bounds(), scene, field, piece);
+    return commands::field_samples(*m_prober, *m_volume, m_renderer->ranges().bounds(), scene, field, piece);
 }
 
 } // namespace elvis::view

@@ -9,14 +9,14 @@ namespace elvis::view {
 
 double VolumeFacts::diagonal() const { return diagonal_of(bounds); }
 
-VolumeFacts facts_of(const RuntimeVolume& volume, Renderer& renderer) {
+VolumeFacts facts_of(const RuntimeVolume& volume, VolumeRanges& ranges) {
     VolumeFacts facts;
     facts.path = volume.path();
     facts.plugin = volume.plugin().name();
     facts.dimension = volume.dimension();
     facts.n_elements = volume.n_elements();
-    facts.bounds = renderer.bounds();
-    facts.outline = renderer.outline();
+    facts.bounds = ranges.bounds();
+    facts.outline = ranges.outline();
     facts.fields = volume.fields();
     facts.times = volume.times();
     facts.boundary_groups = volume.boundary_groups();

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/plugin_host/runtime_volume.hpp>
-#include <core/render/renderer.hpp>
+#include <core/render/field/volume_ranges.hpp>
 #include <core/scene/resolve.hpp>
 
 #include <array>
@@ -32,6 +32,6 @@ struct VolumeFacts {
     VolumeExtent extent() const { return {bounds, outline}; }
 };
 
-VolumeFacts facts_of(const RuntimeVolume& volume, Renderer& renderer);
+VolumeFacts facts_of(const RuntimeVolume& volume, VolumeRanges& ranges);
 
 } // namespace elvis::view

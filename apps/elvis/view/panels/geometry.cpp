@@ -219,7 +219,7 @@ bool edit(Ui& ui, ElementSelection& selection) {
 
 bool edit(Ui& ui, ElementFaces& elements) { return edit(ui, elements.selection); }
 
-bool edit(Ui&, FlatElements&) { return false; }
+bool edit(Ui&, const FlatElements&) { return false; }
 
 bool edit(Ui& ui, WireFrame& frame) {
     bool is_changed = slider(ui, "wires/width", "Width", frame.width, 1, 16, "In pixels");
@@ -305,18 +305,18 @@ bool edit(Ui& ui, ImplicitSurface& implicit) {
     return text(ui, "shape/expression", "Zero of", implicit.expression, "An expression of x, y and z");
 }
 
-bool edit(Ui&, MeshSurface& mesh) {
-    ImGui::TextWrapped("%s", mesh.mesh->path.c_str());
+/** Of a file that is not edited. */
+bool show_file(const std::string& path) {
+    ImGui::TextWrapped("%s", path.c_str());
     return false;
 }
 
-bool edit(Ui&, BezierSurface& bezier) {
-    ImGui::TextWrapped("%s", bezier.mesh->path.c_str());
-    return false;
-}
+bool edit(Ui&, const MeshSurface& surface) { return show_file(surface.mesh->path); }
+
+bool edit(Ui&, const BezierSurface& surface) { return show_file(surface.mesh->path); }
 
 bool edit(Ui& ui, CutShape& shape) {
-    return std::visit([&](auto& one) { return edit(ui, one); }, shape);
+    return std::visit([&](auto& kind) { return edit(ui, kind); }, shape);
 }
 
 bool edit(Ui& ui, Isosurfaces& isosurfaces) {
@@ -351,7 +351,7 @@ bool edit(Ui& ui, Isosurfaces& isosurfaces) {
 } // namespace
 
 bool edit_geometry(Ui& ui, SceneSurface& surface) {
-    return std::visit([&](auto& geometry) { return edit(ui, geometry); }, surface.geometry);
+    return std::visit([&](auto& kind) { return edit(ui, kind); }, surface.geometry);
 }
 
 bool edit_light(Ui& ui, Light& light) {

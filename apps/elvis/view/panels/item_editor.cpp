@@ -8,10 +8,10 @@ namespace {
 
 /** Which field and colours, if not the scene's. */
 bool edit_looks(Ui& ui, SceneSurface& surface) {
-    const bool is_isosurface = std::holds_alternative<Isosurfaces>(surface.geometry);
-    const bool is_wireframe = std::holds_alternative<WireFrame>(surface.geometry);
+    const SurfaceTraits traits = traits_of(surface.geometry);
+    const bool is_isosurface = traits.isosurfaces != nullptr;
     bool is_changed = false;
-    if (is_wireframe) {
+    if (traits.wires != nullptr) {
         Rgb rgb = surface.color_map && !surface.color_map->points.empty() ? surface.color_map->points[0].rgb : Rgb{0, 0, 0};
         if (color(ui, "surface/color", "Colour", rgb, "Of the lines")) {
             surface.color_map = uniform_color_map(rgb);
@@ -89,7 +89,6 @@ bool edit_clip(Ui& ui, SceneSurface& surface) {
 }
 
 bool edit_surface(Ui& ui, SceneSurface& surface) {
-    const bool is_wireframe = std::holds_alternative<WireFrame>(surface.geometry);
     bool is_changed =
         text(ui, "surface/name", "Name", surface.name, "By which expressions speak of it: distance(NAME)", "none");
     is_changed = edit_geometry(ui, surface) || is_changed;
@@ -97,12 +96,13 @@ bool edit_surface(Ui& ui, SceneSurface& surface) {
     is_changed = edit_looks(ui, surface) || is_changed;
     is_changed =
         slider(ui, "surface/opacity", "Opacity", surface.opacity, 0, 1, "Below 1, what is behind can be seen") || is_changed;
-    if (!is_wireframe) {
+    const SurfaceTraits traits = traits_of(surface.geometry);
+    if (traits.wires == nullptr) {
         is_changed = check(ui, "surface/lit", "Lit", surface.is_lit, "Whether the scene's light falls on it") || is_changed;
         is_changed = edit_contours(ui, "surface/contours", surface.contours) || is_changed;
         is_changed = edit_mesh_lines(ui, "surface/mesh lines", surface.mesh_lines) || is_changed;
     }
-    if (std::holds_alternative<CutPlane>(surface.geometry) || std::holds_alternative<CutShape>(surface.geometry)) {
+    if (traits.may_lie_outside) {
         is_changed = optional_color(ui, "surface/outside", "Outside", surface.outside, {0.8, 0.8, 0.8},
                                     "Colour where it lies in no element; else one sees through it there") ||
                      is_changed;

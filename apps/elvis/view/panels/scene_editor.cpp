@@ -66,11 +66,11 @@ bool edit_image(Ui& ui, Scene& scene) {
     if (is_changed) {
         std::copy(background.begin(), background.end(), scene.background.begin());
     }
-    static const std::vector<std::string> words = {"float32", "float64"};
-    std::size_t precision = scene.precision.value_or("float32") == "float64" ? 1 : 0;
+    static const std::vector<std::string> words = {name_of(Precision::float32), name_of(Precision::float64)};
+    auto precision = static_cast<std::size_t>(scene.precision.value_or(Precision::float32));
     if (choice(ui, "scene/precision", "Precision", precision, words,
                "float64 is slower, and within 1e-9 of exact arithmetic instead of 0.001")) {
-        scene.precision = words[precision];
+        scene.precision = static_cast<Precision>(precision);
         is_changed = true;
     }
     int subdivisions = static_cast<int>(scene.subdivisions);

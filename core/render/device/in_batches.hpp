@@ -1,5 +1,5 @@
 /**
- * @file in_parts.hpp
+ * @file in_batches.hpp
  * Work of many items, in dispatches of bounded time.
  */
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace elvis {
 
-/** Calls `dispatch(first, number)` for consecutive parts of `count` items, each of at most `most`. */
-template <class Dispatch> void in_parts(std::uint32_t count, std::uint32_t most, const Dispatch& dispatch) {
+/** Calls `dispatch(first, number)` for consecutive batches of `count` items, each of at most `most`. */
+template <class Dispatch> void in_batches(std::uint32_t count, std::uint32_t most, const Dispatch& dispatch) {
     for (std::uint32_t first = 0; first < count; first += most) {
         dispatch(first, std::min(most, count - first));
     }

@@ -1,0 +1,132 @@
+#include <core/render/layered_picture.hpp>
+
+namespace elvis {
+
+namespace {
+
+/** Crossings of one ray with one see-through surface that are drawn: far more than people can tell apart. */
+constexpr std::uint32_t max_rounds = 64;
+
+} // namespace
+
+struct LayeredPicture::Setting {
+    /** One core_place a pixel, if they are wanted. */
+    const Buffer* places = nullptr;
+    /** Depths of opaque surfaces in front of which it is wanted; null: all of it is. */
+    const Buffer* opaque = nullptr;
+    /** Whether nothing is looked for behind them. */
+    bool is_occluded = false;
+};
+
+LayeredPicture::LayeredPicture(const Device& device, Precision precision)
+    : m_device(device), m_precision(precision), m_color_pass(device, precision), m_merge_pass(device, precision),
+      m_occlusion_pass(device, precision) {}
+
+void LayeredPicture::begin(const FrameRequest& request, const PixelRows& rows, Frame& frame) {
+    m_request = &request;
+    m_frame = &frame;
+    if (!m_layer || m_layer->width != request.width || m_layer->height != request.height) {
+        m_layer.reset();
+        m_layer = std::make_unique<Layer>(m_device, m_precision, request.width, request.height);
+    }
+    m_is_alone = request.surfaces.size() == 1 && !request.surfaces[0].is_see_through() && !request.volume;
+    m_layer->rows = m_is_alone ? PixelRows{0, request.height} : rows;
+    if (!m_is_alone) {
+        m_merge_pass.begin(request.width, request.height, rows, request.background);
+        frame.counts.spared_pixels += std::uint64_t{request.width} * (request.height - (rows.end - rows.first));
+    }
+    m_color_pass.begin(request.surfaces.size());
+}
+
+void LayeredPicture::provide(const Surface& surface) { m_color_pass.provide(is_lit(surface), surface.has_lines()); }
+
+LayeredPicture::Setting LayeredPicture::setting_of(const SurfaceDrawing& drawing) {
+    const Surface& surface = drawing.surface();
+    const SurfaceTraits& traits = drawing.traits();
+    Setting setting;
+    if ((surface.has_lines() && traits.plane == nullptr) || traits.isosurfaces != nullptr) {
+        setting.places = &provide_buffer(m_places, m_device, m_layer->n_pixels() * place_bytes(m_precision));
+    }
+    // Edges are nothing behind which much would be hidden from them.
+    setting.opaque = m_is_alone || traits.wires != nullptr ? nullptr : m_merge_pass.depths();
+    // Lines look at neighbouring pixels, hidden ones included.
+    setting.is_occluded = setting.opaque != nullptr && m_request->sharing.depths && !surface.has_lines();
+    return setting;
+}
+
+void LayeredPicture::draw(SurfaceDrawing& drawing, std::size_t index, std::uint32_t common_flags) {
+    const Surface& surface = drawing.surface();
+    const SurfaceTraits& traits = drawing.traits();
+    const Setting setting = setting_of(drawing);
+    FrameCounts& counts = m_frame->counts;
+    const Buffer* beyond = nullptr;
+    MergePass::Wanted wanted{1, 0, m_layer->height};
+    std::uint64_t n_hidden = 0;
+    for (std::uint32_t round = 0; wanted.n_pixels > 0 && round < max_rounds; ++round) {
+        n_hidden += draw_layer(drawing, setting, wanted, beyond);
+        m_color_pass.draw(*m_layer, surface, index, drawing.rays(), m_is_alone ? m_request->background : Color{},
+                          drawing.offset(), common_flags, is_lit(surface) ? &*m_request->lighting : nullptr);
+        wanted = merge(drawing, index);
+        // A plane is met once, and what edges hide of others is nothing.
+        if (traits.plane != nullptr || traits.wires != nullptr) {
+            wanted = {};
+        }
+        if (wanted.n_pixels > 0 && m_request->sharing.rows) {
+            counts.spared_pixels += std::uint64_t{m_layer->width} * (m_layer->height - (wanted.end_row - wanted.first_row));
+        } else {
+            wanted = {wanted.n_pixels, 0, m_layer->height};
+        }
+        beyond = m_merge_pass.beyond();
+    }
+    counts.work_limit_pixels += wanted.n_pixels;
+    // Where nothing was looked for behind others, it may have been there.
+    m_frame->is_met[index] = n_hidden > 0;
+}
+
+/** Returns in how many pixels opaque surfaces hide it. */
+std::uint32_t LayeredPicture::draw_layer(SurfaceDrawing& drawing, const Setting& setting, const MergePass::Wanted& wanted,
+                                         const Buffer* beyond) {
+    const Surface& surface = drawing.surface();
+    const bool wants_normals = m_request->with_buffers || is_lit(surface) || surface.has_lines();
+    const LayerTarget target{*m_layer, beyond, wants_normals, setting.places, wanted.first_row, wanted.end_row};
+    std::uint32_t n_hidden = 0;
+    m_layer->marks.fill(0);
+    if (setting.is_occluded) {
+        m_occlusion_pass.begin(*m_layer, *setting.opaque);
+    }
+    drawing.draw(target, m_frame->counts);
+    if (setting.is_occluded) {
+        n_hidden = m_occlusion_pass.end(*m_layer, *setting.opaque);
+        m_frame->counts.hidden_pixels += n_hidden;
+    }
+    drawing.finish(target, m_frame->counts);
+    if (setting.opaque != nullptr) {
+        n_hidden += m_occlusion_pass.hide(*m_layer, *setting.opaque);
+    }
+    return n_hidden;
+}
+
+/** Returns where what is behind is wanted. */
+MergePass::Wanted LayeredPicture::merge(const SurfaceDrawing& drawing, std::size_t index) {
+    return m_is_alone ? MergePass::Wanted{}
+                      : m_merge_pass.merge(*m_layer, static_cast<std::uint32_t>(index) + 1, drawing.traits().plane == nullptr,
+                                           drawing.surface().is_see_through());
+}
+
+void LayeredPicture::draw(VolumePass& volume, const DeviceVolume& data) {
+    const Camera& camera = m_request->camera;
+    ViewStart start{camera.eye, std::nullopt};
+    if (camera.orthographic) {
+        start.direction = unit(minus(camera.look_at, camera.eye));
+    }
+    m_merge_pass.fill_empty();
+    volume.draw(rays_of(*m_request, nullptr, data), start, m_merge_pass, m_request->sharing.rows, m_frame->counts);
+}
+
+void LayeredPicture::finish() {
+    if (!m_is_alone) {
+        m_merge_pass.finish();
+    }
+}
+
+} // namespace elvis

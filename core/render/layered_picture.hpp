@@ -1,0 +1,62 @@
+/**
+ * @file layered_picture.hpp
+ * Surfaces one after the other into layers, with light and colours, and layers into a picture.
+ */
+#pragma once
+
+#include <core/render/device/provide_buffer.hpp>
+#include <core/render/frame.hpp>
+#include <core/render/picture/color_pass.hpp>
+#include <core/render/picture/merge_pass.hpp>
+#include <core/render/picture/occlusion_pass.hpp>
+#include <core/render/surface_drawing.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace elvis {
+
+class LayeredPicture {
+public:
+    LayeredPicture(const Device& device, Precision precision);
+
+    /** Starts a picture that has something in these rows only; both must outlive the picture. */
+    void begin(const FrameRequest& request, const PixelRows& rows, Frame& frame);
+
+    /** Compiles what the surface's colours need and is not there yet. */
+    void provide(const Surface& surface);
+    /** The surface of this index in the request. `common_flags`: of each pixel that shows it. Opaque surfaces come first. */
+    void draw(SurfaceDrawing& drawing, std::size_t index, std::uint32_t common_flags);
+    /** Light of the volume, with its field, over and between all surfaces. */
+    void draw(VolumePass& volume, const DeviceVolume& data);
+    /** All surfaces are drawn, and no volume. */
+    void finish();
+
+    const Layer& drawn() const { return m_is_alone ? *m_layer : m_merge_pass.picture(); }
+    std::vector<SpecialValues> special_values() const { return m_color_pass.special_values(); }
+
+private:
+    /** How a surface is drawn beside the others. */
+    struct Setting;
+    Setting setting_of(const SurfaceDrawing& drawing);
+    std::uint32_t draw_layer(SurfaceDrawing& drawing, const Setting& setting, const MergePass::Wanted& wanted,
+                             const Buffer* beyond);
+    MergePass::Wanted merge(const SurfaceDrawing& drawing, std::size_t index);
+    bool is_lit(const Surface& surface) const { return m_request->lighting.has_value() && surface.is_lit; }
+
+    const Device& m_device;
+    Precision m_precision;
+    ColorPass m_color_pass;
+    MergePass m_merge_pass;
+    OcclusionPass m_occlusion_pass;
+    /** Kept from frame to frame: fresh memory costs a page fault for each page. */
+    std::unique_ptr<Layer> m_layer;
+    /** Of the layer's pixels. */
+    std::optional<Buffer> m_places;
+    const FrameRequest* m_request = nullptr;
+    Frame* m_frame = nullptr;
+    /** A single surface that hides what is behind it needs no merging. */
+    bool m_is_alone = false;
+};
+
+} // namespace elvis

@@ -1,0 +1,36 @@
+#include <core/render/surface.hpp>
+
+#include <core/expression/expression.hpp>
+
+namespace elvis {
+
+namespace {
+
+struct TraitsOfKind {
+    SurfaceTraits operator()(const CutPlane& plane) const { return {.plane = &plane, .may_lie_outside = true}; }
+    SurfaceTraits operator()(const BoundaryFaces& boundary) const { return {.is_whole_boundary = boundary.groups.empty()}; }
+    SurfaceTraits operator()(const FlatElements&) const { return {.fits_flat = true, .fits_solid = false}; }
+    SurfaceTraits operator()(const ElementFaces&) const { return {.fits_flat = true, .lacks_own_boundary = true}; }
+    SurfaceTraits operator()(const WireFrame& wires) const {
+        const SurfaceTraits of_faces = std::visit(*this, wires.faces);
+        return {.fits_flat = of_faces.fits_flat, .fits_solid = of_faces.fits_solid, .wires = &wires};
+    }
+    SurfaceTraits operator()(const CutShape&) const { return {.may_lie_outside = true}; }
+    SurfaceTraits operator()(const Isosurfaces& isosurfaces) const { return {.isosurfaces = &isosurfaces}; }
+};
+
+} // namespace
+
+bool FieldChoice::operator==(const FieldChoice& other) const {
+    if (is_own_boundary || other.is_own_boundary) {
+        return is_own_boundary == other.is_own_boundary;
+    }
+    if (expression && other.expression) {
+        return expression == other.expression || expression->text() == other.expression->text();
+    }
+    return !expression && !other.expression && field == other.field && component == other.component;
+}
+
+SurfaceTraits traits_of(const SurfaceGeometry& geometry) { return std::visit(TraitsOfKind(), geometry); }
+
+} // namespace elvis

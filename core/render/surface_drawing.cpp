@@ -1,0 +1,145 @@
+#include <core/render/surface_drawing.hpp>
+
+namespace elvis {
+
+namespace {
+
+/** The number of what is drawn: a layer holds one surface. Each class of faces counts as one, so that the nearest wins. */
+constexpr std::uint32_t first = 1;
+
+} // namespace
+
+CutPlaneGeometry rays_of(const FrameRequest& request, const CutPlane* plane, const DeviceVolume& data) {
+    const Camera& camera = request.camera;
+    CutPlane across;
+    if (plane == nullptr) {
+        const std::array<double, 6>& bounds = data.bounds();
+        const Vector3 along = minus(camera.look_at, camera.eye);
+        across.plane = {along[0], along[1], along[2], 0};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            across.plane[3] -= along[axis] * 0.5 * (bounds[axis] + bounds[axis + 3]);
+        }
+    }
+    return cut_plane_geometry(plane != nullptr ? *plane : across, camera, request.width, request.height, data.centre());
+}
+
+SurfaceDrawing::SurfaceDrawing(const FrameRequest& request, const Surface& surface, const DeviceVolume& data,
+                               ShownFields& fields, PassSet& passes)
+    : m_request(request), m_surface(surface), m_fields(fields), m_passes(passes), m_traits(traits_of(surface.geometry)),
+      m_rays(rays_of(request, m_traits.plane, data)), m_offset(fields.upload(surface.field, request.time_step)),
+      m_component(fields.component(surface.field)), m_lines(line_request(surface, m_offset)), m_own(passes.of(surface.field)),
+      m_edge_pass(data.precision()) {}
+
+void SurfaceDrawing::provide() {
+    std::visit([this](const auto& kind) { provide(kind); }, m_surface.geometry);
+}
+
+void SurfaceDrawing::draw(const LayerTarget& target, FrameCounts& counts) {
+    std::visit([&](const auto& kind) { draw(kind, target, counts); }, m_surface.geometry);
+}
+
+void SurfaceDrawing::finish(const LayerTarget& target, FrameCounts& counts) {
+    std::visit([&](const auto& kind) { finish(kind, target, counts); }, m_surface.geometry);
+}
+
+LinePass& SurfaceDrawing::lines_on(const CutShape& shape) {
+    return m_own.lines_on_shapes(m_passes.solver(shape).quadric_rows());
+}
+
+LinePass& SurfaceDrawing::lines_on(const Isosurfaces& isosurfaces) {
+    return isosurfaces.field.is_own_boundary ? m_own.lines_on_own_boundary() : m_own.lines_on_shapes(0);
+}
+
+LinePass& SurfaceDrawing::lines_on(const FaceGeometry& faces) {
+    return m_own.lines_on_faces(m_passes.faces(faces), m_traits.is_whole_boundary);
+}
+
+template <class Kind> void SurfaceDrawing::provide_lines(const Kind& kind) {
+    if (m_surface.has_lines()) {
+        lines_on(kind).provide(!m_lines.isovalues.empty());
+    }
+}
+
+template <class Kind>
+void SurfaceDrawing::draw_lines(const Kind& kind, const Buffer* bending, const Buffer* shape, const LayerTarget& target,
+                                FrameCounts& counts) {
+    if (m_surface.has_lines()) {
+        lines_on(kind).draw(m_rays, m_component, m_lines, bending, shape, target, counts);
+    }
+}
+
+void SurfaceDrawing::provide(const CutPlane&) { m_own.cut_planes(m_surface.has_lines()); }
+
+void SurfaceDrawing::draw(const CutPlane&, const LayerTarget& target, FrameCounts& counts) {
+    m_own.cut_planes(m_surface.has_lines()).draw(m_rays, first, m_component, m_lines, target, counts);
+}
+
+void SurfaceDrawing::finish(const CutPlane&, const LayerTarget& target, FrameCounts& counts) {
+    CutPlanePass& pass = m_own.cut_planes(m_surface.has_lines());
+    if (m_surface.has_lines()) {
+        pass.draw_lines(m_component, m_lines, target, counts);
+    }
+    if (m_surface.outside) {
+        pass.draw_outside(m_rays, first, target);
+    }
+}
+
+void SurfaceDrawing::provide(const CutShape& shape) {
+    m_own.cut_shapes();
+    m_passes.solver(shape);
+    provide_lines(shape);
+}
+
+void SurfaceDrawing::draw(const CutShape& shape, const LayerTarget& target, FrameCounts& counts) {
+    m_own.cut_shapes().draw(m_rays, m_passes.solver(shape), shape, first, m_component, m_surface.outside.has_value(), target,
+                            counts);
+}
+
+void SurfaceDrawing::finish(const CutShape& shape, const LayerTarget& target, FrameCounts& counts) {
+    draw_lines(shape, &m_own.cut_shapes().bending(), &m_passes.solver(shape).rows(), target, counts);
+}
+
+void SurfaceDrawing::provide(const Isosurfaces& isosurfaces) {
+    if (m_surface.field != isosurfaces.field) {
+        m_own.point_values();
+    }
+    const double offset = m_fields.upload(isosurfaces.field, m_request.time_step);
+    m_passes.of(isosurfaces.field).isosurfaces().choose(isosurfaces, offset, m_fields.component(isosurfaces.field));
+    provide_lines(isosurfaces);
+}
+
+void SurfaceDrawing::draw(const Isosurfaces& isosurfaces, const LayerTarget& target, FrameCounts& counts) {
+    m_passes.of(isosurfaces.field).isosurfaces().draw(m_rays, first, target, counts);
+}
+
+void SurfaceDrawing::finish(const Isosurfaces& isosurfaces, const LayerTarget& target, FrameCounts& counts) {
+    const IsosurfacePass& pass = m_passes.of(isosurfaces.field).isosurfaces();
+    if (m_surface.field != isosurfaces.field) {
+        m_own.point_values().draw(m_component, target, counts);
+    }
+    // No quadric: the frame stands for its rows.
+    draw_lines(isosurfaces, &pass.bending(), &pass.frame(), target, counts);
+}
+
+void SurfaceDrawing::provide(const WireFrame& wires) { m_passes.edges(wires.faces); }
+
+void SurfaceDrawing::draw(const WireFrame& wires, const LayerTarget& target, FrameCounts&) {
+    m_edge_pass.draw(m_passes.edges(wires.faces), m_request.camera, wires.width, -m_offset, first, target);
+}
+
+void SurfaceDrawing::finish(const WireFrame&, const LayerTarget&, FrameCounts&) {}
+
+void SurfaceDrawing::provide(const FaceGeometry& faces) {
+    m_own.faces(m_passes.faces(faces));
+    provide_lines(faces);
+}
+
+void SurfaceDrawing::draw(const FaceGeometry& faces, const LayerTarget& target, FrameCounts& counts) {
+    m_own.faces(m_passes.faces(faces)).draw(m_rays, first, m_component, target, counts);
+}
+
+void SurfaceDrawing::finish(const FaceGeometry& faces, const LayerTarget& target, FrameCounts& counts) {
+    draw_lines(faces, nullptr, nullptr, target, counts);
+}
+
+} // namespace elvis
