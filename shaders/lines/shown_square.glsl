@@ -12,15 +12,14 @@ struct core_shown_square {
     core_frame frame;
     core_subpixel subpixel;
     core_approach approach;
-    // The plane through the corners; not on cut planes.
-    core_tangent tangent;
     // Nothing of the surface is there. What is there of it hides the element, or is hidden with it.
     bool is_absent, is_hidden;
     // What is met in the square is seen in the pixel.
     bool is_seen;
     // The square is the pixel, and what fills it hides everything else. It is larger than the pixel.
     bool is_whole, is_oversized;
-    // On an element's own face: rays enter the element there.
+    // On an element's own face: the plane through the corners; and whether rays enter the element there.
+    core_tangent tangent;
     bool enters;
 };
 

@@ -17,10 +17,6 @@
 // Times the mapping is linearized anew nearer to a subpixel before the subpixel is judged.
 #define CORE_MAX_MOVES 8u
 
-core_picture_square core_searched_place(core_line_search search) {
-    return core_subpixel_place(search.column, search.row, search.level, search.across, search.down);
-}
-
 // The point of the element at which the mapping is linearized next, expected to be the middle of the subpixel.
 void core_predict(core_surface surface, core_shown_square square, core_element_image image, inout core_line_search search) {
     bool is_met;
