@@ -36,7 +36,7 @@ uint core_next_word(bool is_wanted, float end_t, inout core_face_descent descent
     return word;
 }
 
-// From an inner node to those of its children that the ray meets before `end_t`, the nearer one first or the second one.
+// From an inner node to those of its children that the ray meets before `end_t`: the nearer one first, or the second one.
 void core_descend(uint word, core_ray ray, float end_t, bool goes_nearer_first, inout core_face_descent descent) {
 #if CORE_DESCENDS
     if ((word & CORE_TILE_INNER) != 0u && word != CORE_NO_FACE) {
