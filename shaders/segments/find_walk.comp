@@ -155,9 +155,8 @@ void core_next_candidate(core_ray pixel_ray, core_traced_ray ray, inout core_seg
 
 #if CORE_HAS_CURVED
 // In an element so curved that bounds tell little: a start at the eye, and through each face by which the ray may come in.
-void core_start_in_curved(core_traced_ray ray, bool is_curved, inout core_segment segment, inout core_start_search search) {
+void core_start_in_curved(core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment, inout core_start_search search) {
     const uint element = core_first_element + segment.element;
-    const vec3 along = vec3(ray.direction / length(ray.direction));
     if (is_curved && search.is_first && segment.anchor.t <= search.from) {
         const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
         search.n_evaluations += segment.iterations;
@@ -273,11 +272,12 @@ void main() {
     const core_traced_ray ray = core_traced_ray_of(pixel_ray, elvis_real(core_extent));
     core_start_search search = core_search_begin(state, pixel_ray.least_t, place, is_mine);
     core_segment segment = core_no_segment();
+    const vec3 along = vec3(ray.direction / ray.speed);
     while ((search.is_following || core_has_nodes(search)) && search.work < CORE_WORK_LIMIT) {
         search.work += 1u;
         core_next_candidate(pixel_ray, ray, segment, search);
 #if CORE_HAS_CURVED
-        core_start_in_curved(ray, search.is_following && segment.curvature > CORE_FOLLOWED_CURVATURE, segment, search);
+        core_start_in_curved(ray, along, search.is_following && segment.curvature > CORE_FOLLOWED_CURVATURE, segment, search);
 #endif
         core_follow(ray, segment, search);
         if (!search.is_following && !core_has_nodes(search)) {

@@ -155,12 +155,6 @@ void main() {
         core_states[index] = core_segment_state(end, list.done_error, list.at_error, list.sum, list.n_segments,
                                                 list.is_done_estimated ? 1u : 0u);
     }
-    core_count(0u, walk.is_mine ? 1u : 0u);
-    core_count(1u, list.n_made);
-    core_count(2u, n_evaluations);
-    core_count(3u, list.n_overlaps);
-    core_count(4u, n_failures);
-    core_count(5u, list.n_estimated);
-    core_count(6u, n_breaks);
-    core_count(7u, walk.is_mine && list.n_segments >= most ? 1u : 0u);
+    core_count(0u, uvec4(walk.is_mine ? 1u : 0u, list.n_made, n_evaluations, list.n_overlaps));
+    core_count(4u, uvec4(n_failures, list.n_estimated, n_breaks, walk.is_mine && list.n_segments >= most ? 1u : 0u));
 }

@@ -134,12 +134,6 @@ void main() {
     if (march.walk.is_mine) {
         core_states[pixel] = core_volume_state(end, march.step, march.light);
     }
-    core_count(0u, march.walk.is_mine ? 1u : 0u);
-    core_count(1u, march.n_evaluations);
-    core_count(2u, march.n_mappings);
-    core_count(3u, march.n_segments);
-    core_count(4u, march.n_empty);
-    core_count(5u, march.n_steps);
-    core_count(6u, march.n_breakpoints);
-    core_count(7u, march.n_failures);
+    core_count(0u, uvec4(march.walk.is_mine ? 1u : 0u, march.n_evaluations, march.n_mappings, march.n_segments));
+    core_count(4u, uvec4(march.n_empty, march.n_steps, march.n_breakpoints, march.n_failures));
 }
