@@ -4,6 +4,7 @@
 #include <core/bench/volume/volume_convergence.hpp>
 #include <core/render/renderer.hpp>
 #include <tests/support/device.hpp>
+#include <tests/support/files.hpp>
 
 #include <catch2/catch.hpp>
 

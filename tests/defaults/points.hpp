@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <elvis/element.h>
 #include <elvis/native/space.hpp>
 #include <tests/support/device.hpp>
 

@@ -262,7 +262,7 @@ TEST_CASE("rays that leave through an edge or a corner are neither lost nor coun
                 if (random() % 3 != 0) {
                     eta[random() % 3] = static_cast<double>(random() % 1000) / 500 - 1;
                 }
-                const Point target = bend(test::expand(shape, eta));
+                const Point target = bend(native::expand(native::Shape{shape}, eta));
                 const Point through = bend(inner);
                 Point d;
                 double length = 0;

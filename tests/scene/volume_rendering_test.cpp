@@ -110,7 +110,7 @@ TEST_CASE("The schema's integrators are those there are") {
 
 TEST_CASE("A transfer function in a file is looked for beside the scene") {
     const SceneVolumeRendering rendering = read(R"({"transfer": "functions/levels.json"})");
-    CHECK_THAT(rendering.transfer_file, Contains("elvis-test-") && Catch::Matchers::EndsWith("/functions/levels.json"));
+    CHECK_THAT(rendering.transfer_file, Contains("elvis-") && Catch::Matchers::EndsWith("/functions/levels.json"));
     CHECK_FALSE(rendering.is_colored_by_map());
     CHECK_FALSE(rendering.has_default_density());
 }

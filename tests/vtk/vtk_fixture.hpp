@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+using elvis::test::read_file;
+
 /** Opens with the plugin under test. */
 elvis::SourceVolume open_vtk(const std::vector<std::string>& paths);
 
