@@ -6,7 +6,7 @@
 struct core_octant_descent {
     // How many entries the group has, how many of them the ray looks at, and the next one.
     uint n_listed, n_entries, entry;
-    // Those from `first` to before `entry` that have to be looked into, as bits.
+    // Bit i is set if entry `first + i` must be examined.
     uint first, ahead;
     // Nodes that wait.
     uint stack_size;
@@ -47,7 +47,7 @@ uint core_octant_below(uint index, core_ray ray, float end_t, inout core_octant_
 uint core_next_octant(core_ray ray, float end_t, inout core_octant_descent descent) {
     const bool is_popped = descent.stack_size > 0u;
     const uint at = min(descent.first + uint(findLSB(descent.ahead | 1u << 31)), descent.n_listed - 1u);
-    const bool is_behind = !is_popped && core_group_entries[at] > end_t;
+    const bool is_behind = !is_popped && core_group_enter_t[at] > end_t;
     uint word = is_behind ? CORE_NO_NODE : is_popped ? CORE_TOP : core_group_words[at];
     descent.stack_size -= is_popped ? 1u : 0u;
     descent.ahead = is_popped ? descent.ahead : is_behind ? 0u : descent.ahead & (descent.ahead - 1u);
