@@ -31,7 +31,7 @@ layout(push_constant) uniform core_parameters {
 
 #include "arithmetic/count.glsl"
 #include "picture/look_beyond.glsl"
-#include "cut_surface/show.glsl"
+#include "picture/show.glsl"
 
 core_location core_location_of(core_face_crossing nearest) {
     const bool has_found = nearest.face != CORE_NO_PATCH;

@@ -15,7 +15,7 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "element/face_frame.glsl"
 #include "boundary/face_patch.glsl"
 #include "boundary/face_point.glsl"

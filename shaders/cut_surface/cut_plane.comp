@@ -11,8 +11,8 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "picture/view.glsl"
+#include "tiles/node_tiles.glsl"
 #include "picture/samples.glsl"
 
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
@@ -40,7 +40,7 @@ uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
 #include "arithmetic/count.glsl"
-#include "cut_surface/show.glsl"
+#include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
 #include "cut_surface/locate.glsl"
 

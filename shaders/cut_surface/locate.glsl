@@ -8,7 +8,7 @@
 // Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first,
 // from the solution here carried on with the Jacobian here, which leaves one Newton step to do.
 //
-// The kernel brings core_entry(i), the nodes to descend from, cut_surface/show.glsl, and the buffer core_elements
+// The kernel brings core_entry(i), the nodes to descend from, picture/show.glsl, and the buffer core_elements
 // (element/linearization.glsl).
 //
 // One loop serves all candidates of a pixel, one Newton step an iteration: lanes that dismiss a candidate after one step go on to their

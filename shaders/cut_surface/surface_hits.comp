@@ -11,7 +11,7 @@
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "cut_surface/surface_hit.glsl"
 
 struct core_hit_record {

@@ -5,7 +5,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "arithmetic/finite.glsl"
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "picture/samples.glsl"
 
 layout(set = 0, binding = 1, std430) writeonly buffer core_samples_block { core_sample core_samples[]; };

@@ -6,8 +6,8 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "picture/view.glsl"
+#include "tiles/node_tiles.glsl"
 #include "element/place.glsl"
 #include "picture/samples.glsl"
 
@@ -50,7 +50,7 @@ elvis_vec3 core_normal_here;
 #define CORE_SURFACE_NORMAL core_normal_here
 
 #include "arithmetic/count.glsl"
-#include "cut_surface/show.glsl"
+#include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
 #include "cut_surface/locate.glsl"
 

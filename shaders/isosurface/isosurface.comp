@@ -21,7 +21,7 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "tiles/ray_tiles.glsl"
 #include "tiles/hierarchy.glsl"
 #include "picture/samples.glsl"

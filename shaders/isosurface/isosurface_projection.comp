@@ -21,7 +21,7 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "tiles/hierarchy.glsl"
 #include "picture/samples.glsl"
 #include "element/place.glsl"
@@ -59,7 +59,7 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 #define CORE_SEGMENT_ITERATIONS 160u
 #include "segments/segment.glsl"
 #include "segments/ray_sample.glsl"
-#include "isosurface/linear_model.glsl"
+#include "field/linear_model.glsl"
 #include "isosurface/value_span.glsl"
 #include "segments/polynomial.glsl"
 #include "segments/colleague.glsl"

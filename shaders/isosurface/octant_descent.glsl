@@ -6,8 +6,10 @@
 struct core_octant_descent {
     // How many entries the group has, how many of them the ray looks at, and the next one.
     uint n_listed, n_entries, entry;
+    // The first of those that were looked ahead at; the last one is before `entry`.
+    uint first;
     // Bit i is set if entry `first + i` must be examined.
-    uint first, ahead;
+    uint ahead;
     // Nodes that wait.
     uint stack_size;
 };

@@ -1,6 +1,6 @@
 // Projection: the segments of a ray in an element.
 //
-// The kernel brings isosurface/projection_search.glsl, isosurface/linear_model.glsl and isosurface/value_span.glsl.
+// The kernel brings isosurface/projection_search.glsl, field/linear_model.glsl and isosurface/value_span.glsl.
 
 // Segments of a ray in one element.
 #define CORE_MOST_SEGMENTS 16u

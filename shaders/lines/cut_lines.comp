@@ -4,8 +4,8 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "picture/view.glsl"
+#include "tiles/node_tiles.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_list_block { uint core_list[]; };

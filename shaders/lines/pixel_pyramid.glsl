@@ -1,6 +1,6 @@
 // The pyramid of a pixel's rays, and whether parallelograms and boxes lie in it. The kernel brings tiles/hierarchy.glsl.
 
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 
 // dot(normal, x - point) >= 0; x relative to the reference point.
 struct core_half_space {
@@ -11,7 +11,7 @@ struct core_pyramid {
     core_half_space left, right, upper, lower;
 };
 
-// Rays of one side of the pixel lie in one plane: their bases and directions move along the same line (picture/cut_frame.glsl).
+// Rays of one side of the pixel lie in one plane: their bases and directions move along the same line (picture/view.glsl).
 core_half_space core_pixel_side(core_cut_ray ray, elvis_vec3 along, elvis_vec3 inward) {
     const elvis_vec3 normal = cross(ray.direction, along);
     return core_half_space(ray.base, (dot(normal, inward) < elvis_real(0) ? elvis_real(-1) : elvis_real(1)) / length(normal) * normal);

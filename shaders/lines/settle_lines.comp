@@ -12,7 +12,7 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "lines/line_marks.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };

@@ -4,7 +4,7 @@
 #define CORE_SHOWN_SQUARE
 
 #include "lines/subpixel.glsl"
-#include "cut_surface/tangent_square.glsl"
+#include "picture/tangent_square.glsl"
 
 struct core_shown_square {
     // All of the surface in the square lies between these points, but for their error. If not all of them are known, nothing is.

@@ -16,7 +16,7 @@
 
 #include "element/element_frame.glsl"
 #include "element/face_frame.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "element/inside.glsl"
 #include "arithmetic/model.glsl"
 #include "element/prediction.glsl"

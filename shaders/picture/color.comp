@@ -4,7 +4,7 @@
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "arithmetic/finite.glsl"
 #include "picture/samples.glsl"
 // A kernel without light costs nothing for it.

@@ -3,7 +3,7 @@
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "picture/samples.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "tiles/node_tiles.glsl"
 
 layout(set = 0, binding = 0, std430) readonly buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 1, std430) readonly buffer core_tiles_block { uint core_tiles[]; };

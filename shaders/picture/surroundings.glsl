@@ -1,7 +1,7 @@
 // What a pixel, and the pixels around it, tell of the surface that it shows. The kernel brings core_size, core_marks, core_samples
 // and core_normals.
 
-#include "cut_surface/tangent_square.glsl"
+#include "picture/tangent_square.glsl"
 
 // How far neighbours may lie from the tangent plane of a smooth surface, relative to their distance.
 #define CORE_SMOOTH elvis_real(0.1LF)

@@ -4,7 +4,7 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "tiles/hierarchy.glsl"
 #include "tiles/ray_tiles.glsl"
 #include "arithmetic/driver_limit.glsl"

@@ -1,7 +1,7 @@
 // What is found along a pixel's ray, and how it gets into the picture: the nearest surface wins; on one surface, the element on the
 // viewer's side, then the lowest number.
 //
-// The kernel brings picture/cut_frame.glsl, picture/samples.glsl, core_samples, core_marks, core_surface_number, core_first_component,
+// The kernel brings picture/view.glsl, picture/samples.glsl, core_samples, core_marks, core_surface_number, core_first_component,
 // core_end_component and core_is_discontinuous.
 
 #include "arithmetic/driver_limit.glsl"
