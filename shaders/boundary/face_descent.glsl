@@ -25,12 +25,13 @@ void core_end_if(bool ends, inout core_face_descent descent) {
     descent.stack_size = ends ? 0u : descent.stack_size;
 }
 
-// The next patch or inner node, if one is wanted; CORE_NO_FACE, which looks like an inner node, if all further ones are behind `end_t`.
+// The next patch or inner node, if one is wanted. Returns CORE_NO_PATCH if nothing is left before `end_t`. It has the inner-node bit set,
+// so callers must test it first.
 uint core_next_word(bool is_wanted, float end_t, inout core_face_descent descent) {
     const bool is_popped = is_wanted && descent.stack_size > 0u, is_listed = is_wanted && !is_popped;
     const uint at = descent.list + 1u + 2u * min(descent.entry, max(descent.n_entries, 1u) - 1u);
     const bool is_behind = is_listed && uintBitsToFloat(core_tiles[at + 1u]) > end_t;
-    const uint word = is_behind ? CORE_NO_FACE : is_popped ? CORE_TOP : core_tiles[at];
+    const uint word = is_behind ? CORE_NO_PATCH : is_popped ? CORE_TOP : core_tiles[at];
     descent.entry = is_behind ? descent.n_entries : descent.entry + (is_listed ? 1u : 0u);
     descent.stack_size -= is_popped ? 1u : 0u;
     return word;
@@ -39,7 +40,7 @@ uint core_next_word(bool is_wanted, float end_t, inout core_face_descent descent
 // From an inner node to those of its children that the ray meets before `end_t`: the nearer one first, or the second one.
 void core_descend(uint word, core_ray ray, float end_t, bool goes_nearer_first, inout core_face_descent descent) {
 #if CORE_DESCENDS
-    if ((word & CORE_TILE_INNER) != 0u && word != CORE_NO_FACE) {
+    if ((word & CORE_TILE_INNER) != 0u && word != CORE_NO_PATCH) {
         const core_node node = core_fetch_node(word & ~CORE_TILE_INNER);
         const core_node one = core_fetch_node(node.child), other = core_fetch_node(node.child + 1u);
         const float one_t = core_box_entry(one, ray), other_t = core_box_entry(other, ray);

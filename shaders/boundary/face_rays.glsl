@@ -3,9 +3,10 @@
 // The kernel brings picture/pixel_ray.glsl, element/face_frame.glsl, element/inside.glsl, boundary/face_patch.glsl,
 // boundary/face_point.glsl, and the buffer core_faces: local element, local face, number, misfit of the polynomial.
 
-#define CORE_NO_FACE 0xffffffffu
+// In place of the index of a patch, or of a face among all.
+#define CORE_NO_PATCH 0xffffffffu
 
-struct core_face_step {
+struct core_face_newton_step {
     // Of the row of core_faces.
     uint element, number;
     int local_face;
@@ -24,8 +25,8 @@ struct core_face_step {
     elvis_real across;
 };
 
-core_face_step core_face_newton(uint face, elvis_real u, elvis_real v, core_ray ray) {
-    core_face_step s;
+core_face_newton_step core_face_newton(uint face, elvis_real u, elvis_real v, core_ray ray) {
+    core_face_newton_step s;
     const uvec4 row = elvis_fetch4_core_faces(face, 0u);
     s.element = row.x;
     s.local_face = int(row.y);
@@ -60,7 +61,8 @@ struct core_face_verdict {
 };
 
 // What is known after a step to (u, v), which is `outside` of the square, and at most `left` from the crossing but for rounding.
-core_face_verdict core_judge_face_step(core_ray ray, core_face_step s, elvis_real u, elvis_real v, elvis_real outside, elvis_real left) {
+core_face_verdict core_judge_face_step(core_ray ray, core_face_newton_step s, elvis_real u, elvis_real v, elvis_real outside,
+                                       elvis_real left) {
     core_face_verdict verdict;
     const elvis_real step_length = max(abs(s.step_u), abs(s.step_v));
     verdict.has_converged = s.is_regular && (step_length <= s.error || left <= elvis_real(0.5LF) * s.error);
@@ -75,7 +77,7 @@ core_face_verdict core_judge_face_step(core_ray ray, core_face_step s, elvis_rea
 
 // A crossing of the ray with a face.
 struct core_face_crossing {
-    // CORE_NO_FACE: there is none.
+    // CORE_NO_PATCH: there is none.
     uint face, number, patch_index;
     // 1 if the ray enters the element here and the one that it leaves is drawn, too: that one, on the viewer's side, goes first.
     uint key;
@@ -89,15 +91,15 @@ struct core_face_crossing {
 
 core_face_crossing core_no_crossing() {
     const elvis_real zero = elvis_real(0), far = elvis_real(3.0e38LF);
-    return core_face_crossing(CORE_NO_FACE, CORE_NO_FACE, CORE_NO_FACE, 0u, zero, zero, far, zero, zero, zero, false, 0u);
+    return core_face_crossing(CORE_NO_PATCH, CORE_NO_NUMBER, CORE_NO_PATCH, 0u, zero, zero, far, zero, zero, zero, false, 0u);
 }
 
 // Behind this nothing need be looked at.
-float core_end_t(core_face_crossing nearest) { return float(nearest.t + nearest.slack); }
+float core_nearest_end(core_face_crossing nearest) { return float(nearest.t + nearest.slack); }
 
 // After the step s to (u, v). `motion`: of the ray's point from this pixel to the next one of the column.
-core_face_crossing core_face_crossing_at(uint face, uint patch_index, uint square_word, elvis_real u, elvis_real v, core_face_step s,
-                                         elvis_vec3 motion) {
+core_face_crossing core_face_crossing_at(uint face, uint patch_index, uint square_word, elvis_real u, elvis_real v,
+                                         core_face_newton_step s, elvis_vec3 motion) {
     const bool leaves = (s.across > elvis_real(0)) == ((square_word & CORE_FACE_IS_OUTWARD) != 0u);
     const uint key = (square_word & CORE_FACE_HAS_PARTNER) != 0u && !leaves ? 1u : 0u;
     const elvis_real excess = (square_word & CORE_FACE_IS_TRIANGLE) != 0u ? max(max(-u, -v) - elvis_real(1), u + v)

@@ -20,7 +20,7 @@ layout(push_constant) uniform core_parameters {
     // Where in the list of tiles, or of pixels, the dispatch begins.
     uint core_first;
     // Counted from 1; 0 is no surface.
-    uint core_surface;
+    uint core_surface_number;
     uint core_first_component;
     uint core_end_component;
     uint core_is_discontinuous;
@@ -31,10 +31,10 @@ layout(push_constant) uniform core_parameters {
 
 #include "arithmetic/count.glsl"
 #include "picture/look_beyond.glsl"
-#include "cut_surface/show.glsl"
+#include "picture/show.glsl"
 
 core_location core_location_of(core_face_crossing nearest) {
-    const bool has_found = nearest.face != CORE_NO_FACE;
+    const bool has_found = nearest.face != CORE_NO_PATCH;
     const uvec4 place = elvis_fetch4_core_faces(has_found ? nearest.face : 0u, 0u);
     const elvis_vec3 xi = core_face_xi(int(place.y), nearest.u, nearest.v);
     return core_location(has_found ? place.x : CORE_NO_ELEMENT, nearest.number, nearest.key, xi.x, xi.y, xi.z, nearest.is_on_edge,

@@ -15,7 +15,7 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "element/face_frame.glsl"
 #include "boundary/face_patch.glsl"
 #include "boundary/face_point.glsl"
@@ -36,7 +36,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #define CORE_WORK_LIMIT 1500u
 
 struct core_face_search {
-    // The patch at hand, or CORE_NO_FACE, its face, and the word of its square.
+    // The patch at hand, or CORE_NO_PATCH, its face, and the word of its square.
     uint patch_index, face, square_word;
     // Bounds of the patch for this ray (core_patch_meeting).
     float slope, bend;
@@ -52,11 +52,11 @@ struct core_face_search {
 
 core_face_search core_face_search_begin(bool is_tracking) {
     const elvis_real zero = elvis_real(0);
-    return core_face_search(CORE_NO_FACE, 0u, 0u, 0.0, 0.0, zero, zero, 0u, is_tracking, false, 0u, 0u);
+    return core_face_search(CORE_NO_PATCH, 0u, 0u, 0.0, 0.0, zero, zero, 0u, is_tracking, false, 0u, 0u);
 }
 
 bool core_goes_on(core_face_search search, core_face_descent descent) {
-    return search.patch_index != CORE_NO_FACE || search.is_tracking || core_has_more(descent);
+    return search.patch_index != CORE_NO_PATCH || search.is_tracking || core_has_more(descent);
 }
 
 // To the next patch if the ray can meet it. `track`: the crossing of the column's last pixel.
@@ -73,7 +73,7 @@ void core_next_patch(core_ray ray, core_face_crossing track, float end_t, inout 
         core_meet_patch(tried, ray.box_origin, vec3(ray.direction), ray.far, float(ray.least_t), end_t);
     const bool is_met = is_tried && meeting.is_met;
     search.is_careful = search.is_careful || (is_met && !meeting.is_single);
-    search.patch_index = is_met && meeting.is_single ? word : CORE_NO_FACE;
+    search.patch_index = is_met && meeting.is_single ? word : CORE_NO_PATCH;
     const uvec4 more = elvis_fetch4_core_patches(tried, 4u);
     search.square_word = more.w;
     search.face = more.z;
@@ -91,8 +91,8 @@ void core_next_patch(core_ray ray, core_face_crossing track, float end_t, inout 
 // A step of Newton's method on the patch.
 void core_step_on_patch(core_ray ray, core_cut_column along, inout core_face_search search, inout core_face_descent descent,
                         inout core_face_crossing nearest) {
-    const bool is_active = search.patch_index != CORE_NO_FACE;
-    const core_face_step s = core_face_newton(search.face, search.u, search.v, ray);
+    const bool is_active = search.patch_index != CORE_NO_PATCH;
+    const core_face_newton_step s = core_face_newton(search.face, search.u, search.v, ray);
     const core_square square = core_square_of(search.square_word);
     const elvis_real half_size = elvis_real(square.size), per_size = elvis_real(1) / half_size;
     const elvis_real middle_u = elvis_real(square.a), middle_v = elvis_real(square.b);
@@ -108,7 +108,7 @@ void core_step_on_patch(core_ray ray, core_cut_column along, inout core_face_sea
     const elvis_vec3 motion = along.base_row.xyz + s.t * along.direction_row.xyz;
     core_take_crossing(is_active && verdict.is_hit,
                        core_face_crossing_at(search.face, search.patch_index, search.square_word, u, v, s, motion), nearest);
-    search.patch_index = is_done || search.is_careful ? CORE_NO_FACE : search.patch_index;
+    search.patch_index = is_done || search.is_careful ? CORE_NO_PATCH : search.patch_index;
     core_end_if(search.is_careful, descent);
     // Points are kept where the bounds hold.
     const elvis_real reach = elvis_real(CORE_PATCH_REACH) * half_size;
@@ -132,14 +132,14 @@ void main() {
         const uint pixel = row * core_size.x + column;
         const uint n_entries = core_look_beyond(pixel, ray) ? n_listed : 0u;
         core_face_descent descent = core_face_descent(list, n_entries, 0u, 0u);
-        core_face_search search = core_face_search_begin(track.patch_index != CORE_NO_FACE && n_entries > 0u);
+        core_face_search search = core_face_search_begin(track.patch_index != CORE_NO_PATCH && n_entries > 0u);
         core_face_crossing nearest = core_no_crossing();
         while (core_goes_on(search, descent) && search.work < CORE_WORK_LIMIT) {
             search.work += 1u;
-            while (search.patch_index == CORE_NO_FACE && core_goes_on(search, descent) && search.work < CORE_WORK_LIMIT) {
+            while (search.patch_index == CORE_NO_PATCH && core_goes_on(search, descent) && search.work < CORE_WORK_LIMIT) {
                 search.work += 1u;
-                core_next_patch(ray, track, core_end_t(nearest), search, descent);
-                if (search.patch_index != CORE_NO_FACE || !core_has_more(descent)) {
+                core_next_patch(ray, track, core_nearest_end(nearest), search, descent);
+                if (search.patch_index != CORE_NO_PATCH || !core_has_more(descent)) {
                     break;
                 }
             }
@@ -154,14 +154,14 @@ void main() {
             core_list[atomicAdd(core_counts[3], 1u)] = pixel;
         }
         track = nearest;
-        track.patch_index = is_careful ? CORE_NO_FACE : nearest.patch_index;
+        track.patch_index = is_careful ? CORE_NO_PATCH : nearest.patch_index;
         n_steps += search.n_steps;
         row += 1u;
         if (row >= end_row) {
             break;
         }
     }
-    core_distrust_column(column, first_row, row, end_row, core_surface >> 31);
+    core_distrust_column(column, first_row, row, end_row, core_surface_number >> 31);
     if (end_row > first_row) {
         core_count(0u, n_evaluations);
         core_count(1u, n_steps);

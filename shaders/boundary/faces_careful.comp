@@ -15,7 +15,7 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "element/face_frame.glsl"
 #include "boundary/face_patch.glsl"
 #include "boundary/face_point.glsl"
@@ -30,14 +30,14 @@ layout(local_size_x = 32) in;
 
 #define CORE_STEPS 10u
 #define CORE_WORK_LIMIT 30000u
-#define CORE_MAX_LEVEL 13u
+#define CORE_MOST_LEVEL 13u
 // Each level leaves three squares behind.
 #define CORE_SQUARES 48
 
 // Squares of the patch that wait.
 uint core_squares[CORE_SQUARES];
 
-struct core_face_search {
+struct core_careful_search {
     // The patch at hand, its face, and the word of its square.
     uint patch_index, face, square_word;
     // Of the patch: how many squares wait; the one at hand: level, column, row.
@@ -51,16 +51,16 @@ struct core_face_search {
     uint n_steps, work;
 };
 
-core_face_search core_face_search_begin() {
+core_careful_search core_careful_search_begin() {
     const elvis_real zero = elvis_real(0);
-    return core_face_search(CORE_NO_FACE, 0u, 0u, 0u, 0u, false, zero, zero, zero, 0u, elvis_real(3.2e38LF), 0u, 0u);
+    return core_careful_search(CORE_NO_PATCH, 0u, 0u, 0u, 0u, false, zero, zero, zero, 0u, elvis_real(3.2e38LF), 0u, 0u);
 }
 
-bool core_has_patch(core_face_search search) { return search.n_squares > 0u || search.is_polishing; }
-bool core_goes_on(core_face_search search, core_face_descent descent) { return core_has_patch(search) || core_has_more(descent); }
+bool core_has_patch(core_careful_search search) { return search.n_squares > 0u || search.is_polishing; }
+bool core_goes_on(core_careful_search search, core_face_descent descent) { return core_has_patch(search) || core_has_more(descent); }
 
 // To the next patch if the ray can meet it.
-void core_next_patch(core_ray ray, float end_t, inout core_face_search search, inout core_face_descent descent) {
+void core_next_patch(core_ray ray, float end_t, inout core_careful_search search, inout core_face_descent descent) {
     const uint word = core_next_word(true, end_t, descent);
     if ((word & CORE_TILE_INNER) == 0u) {
         const core_patch_meeting meeting =
@@ -107,9 +107,9 @@ struct core_square_verdict {
     elvis_real slope, least_t;
 };
 
-core_square_verdict core_judge_square(core_ray ray, core_face_step s, uint patch_index, core_square patch_square, core_patch_square square,
-                                      core_face_crossing nearest) {
-    const uint safe_patch = patch_index == CORE_NO_FACE ? 0u : patch_index;
+core_square_verdict core_judge_square(core_ray ray, core_face_newton_step s, uint patch_index, core_square patch_square,
+                                      core_patch_square square, core_face_crossing nearest) {
+    const uint safe_patch = patch_index == CORE_NO_PATCH ? 0u : patch_index;
     const elvis_vec3 bound = elvis_vec3(uintBitsToFloat(elvis_fetch4_core_patches(safe_patch, 5u).xyz));
     const elvis_vec3 q = square.share * square.share * bound;
     const elvis_vec3 tangent_a = square.half_size * s.point.along_u, tangent_b = square.half_size * s.point.along_v;
@@ -134,12 +134,12 @@ core_square_verdict core_judge_square(core_ray ray, core_face_step s, uint patch
     verdict.slope = s.is_regular ? elvis_real(2 * CORE_PATCH_REACH) * change : elvis_real(1);
     verdict.is_single = verdict.slope < elvis_real(0.5LF);
     verdict.is_rounding = max(max(q.x, q.y), q.z) <= elvis_real(0.25LF) * max(max(noise.x, noise.y), noise.z) ||
-                          square.level == CORE_MAX_LEVEL;
+                          square.level == CORE_MOST_LEVEL;
     verdict.least_t = t_middle - t_reach;
     return verdict;
 }
 
-void core_split(core_patch_square square, inout core_face_search search) {
+void core_split(core_patch_square square, inout core_careful_search search) {
     for (uint k = 0u; k < 4u; ++k) {
         core_squares[search.n_squares] =
             (square.level + 1u) | ((2u * square.column + (k & 1u)) << 4) | ((2u * square.row + (k >> 1)) << 17);
@@ -148,7 +148,7 @@ void core_split(core_patch_square square, inout core_face_search search) {
 }
 
 // The next square, or the next step of Newton's method in the one at hand.
-void core_step_in_square(core_ray ray, inout core_face_search search, inout core_face_crossing nearest) {
+void core_step_in_square(core_ray ray, inout core_careful_search search, inout core_face_crossing nearest) {
     const bool is_active = core_has_patch(search), is_square = is_active && !search.is_polishing;
     search.n_squares -= is_square ? 1u : 0u;
     search.square = is_square ? core_squares[search.n_squares] : search.square;
@@ -156,7 +156,7 @@ void core_step_in_square(core_ray ray, inout core_face_search search, inout core
     const core_patch_square square = core_patch_square_of(search.square, patch_square);
     search.u = is_square ? square.u : search.u;
     search.v = is_square ? square.v : search.v;
-    const core_face_step s = core_face_newton(search.face, search.u, search.v, ray);
+    const core_face_newton_step s = core_face_newton(search.face, search.u, search.v, ray);
     search.n_steps += is_active ? 1u : 0u;
     const core_square_verdict of_square = core_judge_square(ray, s, search.patch_index, patch_square, square, nearest);
 
@@ -202,13 +202,13 @@ void main() {
     const uint n_entries = is_pixel && is_wanted ? core_tiles[list] & ~CORE_TILE_INNER : 0u;
 
     core_face_descent descent = core_face_descent(list, n_entries, 0u, 0u);
-    core_face_search search = core_face_search_begin();
+    core_careful_search search = core_careful_search_begin();
     core_face_crossing nearest = core_no_crossing();
     while (core_goes_on(search, descent) && search.work < CORE_WORK_LIMIT) {
         search.work += 1u;
         while (!core_has_patch(search) && core_has_more(descent) && search.work < CORE_WORK_LIMIT) {
             search.work += 1u;
-            core_next_patch(ray, core_end_t(nearest), search, descent);
+            core_next_patch(ray, core_nearest_end(nearest), search, descent);
             if (core_has_patch(search) || !core_has_more(descent)) {
                 break;
             }
@@ -218,7 +218,7 @@ void main() {
             break;
         }
     }
-    const bool is_cut_short = core_goes_on(search, descent) || core_has_driver_given_up(core_surface >> 31);
+    const bool is_cut_short = core_goes_on(search, descent) || core_has_driver_given_up(core_surface_number >> 31);
     const uint n_evaluations = core_show(pixel, ray, nearest, is_pixel, is_cut_short);
     if (is_pixel && search.touched_t <= nearest.t + nearest.slack) {
         core_marks[pixel].flags |= CORE_FLAG_UNDECIDED;

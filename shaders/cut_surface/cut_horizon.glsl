@@ -3,7 +3,7 @@
 // In perspective the reciprocal of the distance at which a ray meets the plane, along the axis of view, is linear in the picture. So the
 // plane is nowhere nearer in the square than at one of its corners.
 //
-// The kernel brings picture/cut_frame.glsl and tiles/hierarchy.glsl.
+// The kernel brings picture/view.glsl and tiles/hierarchy.glsl.
 
 // Of the volume's bounds, for rounding of what is compared.
 #define CORE_HORIZON_MARGIN elvis_real(1e-3LF)

@@ -11,8 +11,8 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "picture/view.glsl"
+#include "tiles/node_tiles.glsl"
 #include "picture/samples.glsl"
 
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
@@ -23,7 +23,7 @@ layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_first_listed;
     // Counted from 1; 0 is no surface.
-    uint core_surface;
+    uint core_surface_number;
     // Components of the field: the only one, or all that make up the length of the vector.
     uint core_first_component;
     uint core_end_component;
@@ -40,7 +40,7 @@ uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
 #include "arithmetic/count.glsl"
-#include "cut_surface/show.glsl"
+#include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
 #include "cut_surface/locate.glsl"
 
@@ -73,9 +73,9 @@ core_pixel_lines core_lines_of_pixel(uint element, elvis_vec3 xi, uvec2 pixel, e
 #endif
 
 void main() {
-    const uint tile = core_listed_tile(core_first_listed), tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
-    const uint column = tile % tiles_a_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
-    const uint first_row = tile / tiles_a_row * CORE_TILE_HEIGHT;
+    const uint tile = core_listed_tile(core_first_listed), tiles_per_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    const uint column = tile % tiles_per_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
+    const uint first_row = tile / tiles_per_row * CORE_TILE_HEIGHT;
     const uint n_entries = core_tiles[core_first_entry() - 1u];
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u;
@@ -114,7 +114,7 @@ void main() {
             break;
         }
     }
-    core_distrust_column(column, first_row, row, end_row, core_surface >> 31);
+    core_distrust_column(column, first_row, row, end_row, core_surface_number >> 31);
     if (end_row > first_row) {
         core_count(0u, n_evaluations);
         core_count(1u, n_steps);

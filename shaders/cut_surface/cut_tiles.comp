@@ -3,7 +3,7 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 
 layout(std430, set = 0, binding = 1) writeonly buffer core_output {
     uint core_tiles[];
@@ -15,7 +15,7 @@ layout(push_constant) uniform core_constants {
 };
 
 #define CORE_LISTED_BINDING 2
-#include "cut_surface/list_nodes.glsl"
+#include "tiles/list_nodes.glsl"
 #include "cut_surface/cut_horizon.glsl"
 
 void main() {

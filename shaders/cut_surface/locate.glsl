@@ -8,7 +8,7 @@
 // Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first,
 // from the solution here carried on with the Jacobian here, which leaves one Newton step to do.
 //
-// The kernel brings core_entry(i), the nodes to descend from, cut_surface/show.glsl, and the buffer core_elements
+// The kernel brings core_entry(i), the nodes to descend from, picture/show.glsl, and the buffer core_elements
 // (element/linearization.glsl).
 //
 // One loop serves all candidates of a pixel, one Newton step an iteration: lanes that dismiss a candidate after one step go on to their
@@ -55,7 +55,7 @@ struct core_side {
     uint key;
 };
 
-// Where a converged point lies that is within rounding of a face: each face with the rounding error across it.
+// Classifies a converged point near a face, with each face's own rounding.
 core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction) {
     const elvis_vec3 error = elvis_real(2) * elvis_vec3(inverse.error0, inverse.error1, inverse.error2);
     const elvis_vec3 towards_viewer = -elvis_vec3(dot(inverse.row0, direction), dot(inverse.row1, direction), dot(inverse.row2, direction));
@@ -130,7 +130,7 @@ core_location core_nothing_found() {
     return core_location(CORE_NO_ELEMENT, 0xffffffffu, 2u, zero, zero, zero, false, false, 0u, 0u, 0u, false);
 }
 
-struct core_candidate {
+struct core_element_candidate {
     // CORE_NO_ELEMENT: none is looked at.
     uint element;
     // It held the column's last pixel.
@@ -140,8 +140,8 @@ struct core_candidate {
 };
 
 // First the element that held the column's last pixel.
-core_candidate core_tracked_candidate(core_cut_point point, bool is_wanted, core_track track) {
-    core_candidate candidate;
+core_element_candidate core_tracked_candidate(core_cut_point point, bool is_wanted, core_track track) {
+    core_element_candidate candidate;
     candidate.element = is_wanted ? track.element : CORE_NO_ELEMENT;
     candidate.is_tracked = candidate.element != CORE_NO_ELEMENT;
     candidate.target = core_target_in(candidate.is_tracked ? candidate.element : 0u, point);
@@ -161,8 +161,8 @@ uint core_stack[CORE_STACK_SIZE];
 bool core_has_more(core_descent descent) { return descent.stack_size > 0u || descent.entry < descent.n_entries; }
 
 // To the next node: a candidate if it is an element that the point is not certain to lie outside of.
-void core_next_candidate(core_cut_point point, vec3 in_hierarchy, float box_tolerance, inout core_descent descent,
-                         inout core_candidate candidate) {
+void core_next_element(core_cut_point point, vec3 in_hierarchy, float box_tolerance, inout core_descent descent,
+                       inout core_element_candidate candidate) {
     const bool is_popped = descent.stack_size > 0u;
     const uint index = is_popped ? core_stack[descent.stack_size - 1u] : core_entry(descent.entry);
     descent.stack_size -= is_popped ? 1u : 0u;
@@ -184,8 +184,8 @@ void core_next_candidate(core_cut_point point, vec3 in_hierarchy, float box_tole
 }
 
 // Where the candidate's solution lies in its element. `excess`: over the faces; `most`: what rounding makes of it.
-core_side core_judge_candidate(uint element, core_candidate candidate, core_inverse inverse, elvis_vec3 direction, bool has_converged,
-                               elvis_real excess, elvis_real most) {
+core_side core_judge_candidate(uint element, core_element_candidate candidate, core_inverse inverse, elvis_vec3 direction,
+                               bool has_converged, elvis_real excess, elvis_real most) {
     const elvis_vec3 xi = elvis_vec3(candidate.state.x, candidate.state.y, candidate.state.z);
     const bool is_inside = has_converged && excess <= most;
     core_side side = core_side(is_inside, is_inside && excess >= -most, false, 0u);
@@ -201,7 +201,7 @@ core_side core_judge_candidate(uint element, core_candidate candidate, core_inve
 }
 
 // Takes the candidate if it goes before what was found.
-void core_take_candidate(bool is_accepted, core_candidate candidate, uint number, core_side side, inout core_location found) {
+void core_take_candidate(bool is_accepted, core_element_candidate candidate, uint number, core_side side, inout core_location found) {
     const bool is_better = is_accepted && (side.key < found.key || (side.key == found.key && number < found.number));
     found.n_candidates += is_accepted ? 1u : 0u;
     found.element = is_better ? candidate.element : found.element;
@@ -215,7 +215,7 @@ void core_take_candidate(bool is_accepted, core_candidate candidate, uint number
 }
 
 // `is_alone`: the candidate holds the point, and no other element does.
-void core_keep_track(bool is_done, bool is_alone, core_candidate candidate, core_inverse inverse, inout core_track track) {
+void core_keep_track(bool is_done, bool is_alone, core_element_candidate candidate, core_inverse inverse, inout core_track track) {
     track.element = is_done ? (is_alone ? candidate.element : CORE_NO_ELEMENT) : track.element;
     track.x = is_alone ? candidate.state.x : track.x;
     track.y = is_alone ? candidate.state.y : track.y;
@@ -228,8 +228,8 @@ void core_keep_track(bool is_done, bool is_alone, core_candidate candidate, core
 }
 
 // A step of Newton's method in the candidate.
-void core_step_in_candidate(core_cut_point point, inout core_candidate candidate, inout core_descent descent, inout core_location found,
-                            inout core_track track) {
+void core_step_in_candidate(core_cut_point point, inout core_element_candidate candidate, inout core_descent descent,
+                            inout core_location found, inout core_track track) {
     const bool is_active = candidate.element != CORE_NO_ELEMENT;
     const uint element = is_active ? candidate.element : 0u;
     core_inverse inverse;
@@ -263,12 +263,12 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
                                                                max(max(abs(in_hierarchy.x), abs(in_hierarchy.y)), abs(in_hierarchy.z));
     core_location found = core_nothing_found();
     core_descent descent = core_descent(n_entries, 0u, 0u);
-    core_candidate candidate = core_tracked_candidate(point, n_entries > 0u, track);
+    core_element_candidate candidate = core_tracked_candidate(point, n_entries > 0u, track);
     uint work = 0u;
     while ((candidate.element != CORE_NO_ELEMENT || core_has_more(descent)) && work < CORE_WORK_LIMIT) {
         work += 1u;
         while (candidate.element == CORE_NO_ELEMENT && core_has_more(descent)) {
-            core_next_candidate(point, in_hierarchy, box_tolerance, descent, candidate);
+            core_next_element(point, in_hierarchy, box_tolerance, descent, candidate);
             if (candidate.element != CORE_NO_ELEMENT || !core_has_more(descent)) {
                 break;
             }

@@ -16,7 +16,7 @@
 // 2 |f(y)| / B away along the ray, since a > 0.
 
 #include "cut_surface/surface_quadric.glsl"
-#include "cut_surface/tangent_square.glsl"
+#include "picture/tangent_square.glsl"
 
 struct core_quadric_span {
     // Relative to the reference point.

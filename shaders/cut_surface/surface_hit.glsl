@@ -30,9 +30,12 @@ struct core_hit {
     elvis_real normal_x, normal_y, normal_z;
     // Upper bound of the surface's normal curvatures there, without sign; CORE_FAR where there is none.
     elvis_real bending;
-    // Rounding decides whether the ray meets the surface, there or before. The search was ended before it was done. A crossing may
-    // have been missed, because what the search rests on is not proven.
-    bool is_undecided, is_cut_short, is_estimated;
+    // Rounding decides whether the ray meets the surface, there or before.
+    bool is_undecided;
+    // The search was ended before it was done.
+    bool is_cut_short;
+    // A crossing may have been missed, because what the search rests on is not proven.
+    bool is_estimated;
 };
 
 core_hit core_no_hit() {

@@ -11,7 +11,7 @@
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "cut_surface/surface_hit.glsl"
 
 struct core_hit_record {
@@ -34,7 +34,7 @@ layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_first_tile_row;
     // Counted from 1.
-    uint core_surface;
+    uint core_surface_number;
     uint core_round;
     uint core_has_beyond;
 };
@@ -51,7 +51,7 @@ uint core_next_row(uint column, uint row, uint end_row) {
     bool is_done = core_round > 0u || core_has_beyond != 0u;
     while (is_done && row < end_row) {
         const uint pixel = row * core_size.x + column;
-        const bool is_found = core_marks[pixel].owner >> CORE_OWNER_BITS == core_surface;
+        const bool is_found = core_marks[pixel].owner >> CORE_OWNER_BITS == core_surface_number;
         is_done = core_round > 0u ? core_hits[pixel].t >= CORE_FAR || is_found : core_beyond[pixel] >= CORE_FAR;
         if (is_done) {
             core_hits[pixel].t = CORE_FAR;
@@ -185,7 +185,7 @@ void main() {
             break;
         }
     }
-    core_distrust_column(column, first_row, row, end_row, core_surface >> 31);
+    core_distrust_column(column, first_row, row, end_row, core_surface_number >> 31);
     const uint groups_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
     core_store_box(box, rows_of_groups * groups_a_row + gl_WorkGroupID.x);
     if (end_row > first_row) {

@@ -5,7 +5,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "arithmetic/finite.glsl"
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "picture/samples.glsl"
 
 layout(set = 0, binding = 1, std430) writeonly buffer core_samples_block { core_sample core_samples[]; };
@@ -20,7 +20,7 @@ layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
     uint core_width;
-    uint core_surface;
+    uint core_surface_number;
     // Of planes: the box, relative to the reference point.
     float core_lower_x, core_lower_y, core_lower_z;
     float core_upper_x, core_upper_y, core_upper_z;
@@ -40,12 +40,12 @@ void main() {
 #else
     const elvis_real t = core_hits[safe].t;
 #endif
-    const bool is_outside = pixel < core_n_pixels && t < CORE_FAR && core_marks[safe].owner >> CORE_OWNER_BITS != core_surface;
+    const bool is_outside = pixel < core_n_pixels && t < CORE_FAR && core_marks[safe].owner >> CORE_OWNER_BITS != core_surface_number;
     if (is_outside) {
         const elvis_vec3 direction = (column.direction + (row - column.row0) * column.direction_row).xyz;
         core_samples[pixel].value = core_nan();
         core_samples[pixel].depth = (t + column.reference_distance) * length(direction);
         core_samples[pixel].number = CORE_NO_NUMBER;
-        core_marks[pixel].owner = core_surface << CORE_OWNER_BITS;
+        core_marks[pixel].owner = core_surface_number << CORE_OWNER_BITS;
     }
 }

@@ -6,8 +6,8 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "picture/view.glsl"
+#include "tiles/node_tiles.glsl"
 #include "element/place.glsl"
 #include "picture/samples.glsl"
 
@@ -27,7 +27,7 @@ layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_first_listed;
     // Counted from 1; 0 is no surface.
-    uint core_surface;
+    uint core_surface_number;
     // Components of the field: the only one, or all that make up the length of the vector.
     uint core_first_component;
     uint core_end_component;
@@ -50,7 +50,7 @@ elvis_vec3 core_normal_here;
 #define CORE_SURFACE_NORMAL core_normal_here
 
 #include "arithmetic/count.glsl"
-#include "cut_surface/show.glsl"
+#include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
 #include "cut_surface/locate.glsl"
 
@@ -68,9 +68,9 @@ uint core_next_row(uint column, uint row, uint end_row) {
 }
 
 void main() {
-    const uint tile = core_listed_tile(core_first_listed), tiles_a_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
-    const uint column = tile % tiles_a_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
-    const uint first_row = tile / tiles_a_row * CORE_TILE_HEIGHT;
+    const uint tile = core_listed_tile(core_first_listed), tiles_per_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    const uint column = tile % tiles_per_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
+    const uint first_row = tile / tiles_per_row * CORE_TILE_HEIGHT;
     const uint n_entries = core_tiles[core_first_entry() - 1u];
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u, n_found = 0u;
@@ -96,7 +96,7 @@ void main() {
         const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
         const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
         if (is_news) {
-            const bool was_open = core_marks[pixel].owner >> CORE_OWNER_BITS != core_surface;
+            const bool was_open = core_marks[pixel].owner >> CORE_OWNER_BITS != core_surface_number;
             const uint n_done = core_merge(pixel, point, found, value);
             n_evaluations += n_done;
             if (n_done > 0u && core_wants_places != 0u) {
@@ -112,7 +112,7 @@ void main() {
             break;
         }
     }
-    core_distrust_column(column, first_row, row, end_row, core_surface >> 31);
+    core_distrust_column(column, first_row, row, end_row, core_surface_number >> 31);
     if (end_row > first_row) {
         core_count(0u, n_evaluations);
         core_count(1u, n_steps);

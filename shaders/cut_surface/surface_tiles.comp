@@ -18,7 +18,7 @@ layout(push_constant) uniform core_constants {
 };
 
 #define CORE_LISTED_BINDING 2
-#include "cut_surface/list_nodes.glsl"
+#include "tiles/list_nodes.glsl"
 
 void main() {
     const uint tile = core_first_tile + gl_GlobalInvocationID.x;

@@ -14,7 +14,7 @@
 // Of each entry of the tile's list, a bit: the group takes it over.
 shared uint core_taken[CORE_MASKS];
 shared uint core_group_words[CORE_TILE_CAPACITY];
-shared float core_group_entries[CORE_TILE_CAPACITY];
+shared float core_group_enter_t[CORE_TILE_CAPACITY];
 
 // Number of entries before `end` that are taken over.
 uint core_n_taken(uint end) {
@@ -26,7 +26,7 @@ uint core_n_taken(uint end) {
     return n;
 }
 
-// From the list of `n_listed` entries at `list` to core_group_words and core_group_entries, in its order; returns their number.
+// From the list of `n_listed` entries at `list` to core_group_words and core_group_enter_t, in its order; returns their number.
 // `column`, `row`: the group's first pixel. All of the group's invocations come here together.
 uint core_take_octants(uint list, uint n_listed, uint column, uint row) {
     const uint lane = gl_LocalInvocationID.x;
@@ -47,7 +47,7 @@ uint core_take_octants(uint list, uint n_listed, uint column, uint row) {
         if ((core_taken[i / 32u] >> (i % 32u) & 1u) != 0u) {
             const uint place = core_n_taken(i);
             core_group_words[place] = core_tiles[list + 1u + 2u * i];
-            core_group_entries[place] = uintBitsToFloat(core_tiles[list + 2u + 2u * i]);
+            core_group_enter_t[place] = uintBitsToFloat(core_tiles[list + 2u + 2u * i]);
         }
     }
     barrier();

@@ -17,7 +17,7 @@ struct core_interval_search {
     // The interval; where the one after it begins, and where the octant ends.
     elvis_real from, to, next, last;
     // The field is bounded at least this far to both sides of the interval's middle: more than the interval is long where the field is so
-    // flat that rounding moves the crossing farther.
+    // flat that rounding moves the candidate farther.
     elvis_real wide;
     // Where the mapping is linearized.
     elvis_real x, y, z;
@@ -48,7 +48,7 @@ struct core_evaluation {
     core_ray_interval interval;
     // Of the field's model: its slope in reference coordinates.
     elvis_vec3 slope;
-    core_linear_root crossing;
+    core_linear_root candidate;
     // Bound of the field's second derivatives along curves that are straight in the world: the mapping's own bending counts, too.
     elvis_real bend;
     bool is_finite;
@@ -86,7 +86,7 @@ core_evaluation core_evaluate_at(core_ray ray, inout core_interval_search search
     elvis_real value;
     core_interval_take_field(evaluation.interval, evaluation.element, evaluation.xi, model, value);
     evaluation.slope = model.slope;
-    evaluation.crossing = core_first_linear_root(evaluation.interval);
+    evaluation.candidate = core_first_linear_root(evaluation.interval);
     const elvis_real radius = evaluation.interval.radius;
     search.bend = radius > CORE_WIDE_ENOUGH ? elvis_real(2) * model.remainder / (radius * radius) : search.bend;
     evaluation.bend = search.bend + elvis_real(2) * search.curvature * core_model_norm1(model.slope);

@@ -1,4 +1,4 @@
-// The root of an interval's line: whether it is a crossing of the field with an isovalue, and where.
+// The candidate of an interval, the root of its line: whether the field crosses the isovalue there, and where.
 //
 // The kernel brings isosurface/interval_bounds.glsl.
 
@@ -17,7 +17,7 @@
 
 struct core_root {
     // The field surely takes the isovalue around it, and once only.
-    bool is_crossing;
+    bool is_proven;
     // Another step would not make it more exact.
     bool is_exact;
     // In the element, as far as rounding allows, and in spite of it.
@@ -31,15 +31,16 @@ struct core_root {
 
 core_root core_root_of(core_evaluation evaluation, core_interval_search search) {
     const core_ray_interval interval = evaluation.interval;
-    const core_linear_root crossing = evaluation.crossing;
+    const core_linear_root candidate = evaluation.candidate;
     const core_frame frame = evaluation.frame;
     core_root root;
-    // At both ends of s +- half_width the field lies on different sides. It crosses once only if its slope along the ray surely keeps its
-    // sign. Rounding may move these ends beyond a face: then the root decides.
-    root.is_crossing = interval.is_known && crossing.s - crossing.half_width >= -evaluation.reach &&
-                       crossing.s + crossing.half_width <= evaluation.reach &&
-                       evaluation.speed * evaluation.bend * interval.radius < abs(interval.slope);
-    const elvis_vec3 to_root = interval.q + crossing.s * interval.w;
+    // At the ends of s +- half_width the field lies on different sides of the isovalue. It crosses once only if its slope along the ray
+    // surely keeps its sign. An end may lie beyond a face, outside of [low, high], where nothing bounds the field. Then it counts whether
+    // the root itself lies in the element: is_inside, and is_surely_inside.
+    root.is_proven = interval.is_known && candidate.s - candidate.half_width >= -evaluation.reach &&
+                     candidate.s + candidate.half_width <= evaluation.reach &&
+                     evaluation.speed * evaluation.bend * interval.radius < abs(interval.slope);
+    const elvis_vec3 to_root = interval.q + candidate.s * interval.w;
     const elvis_real distance = core_max_norm(to_root);
     root.xi = evaluation.xi + to_root;
     // J^-T times the gradient in xi.
@@ -57,10 +58,10 @@ core_root core_root_of(core_evaluation evaluation, core_interval_search search) 
                     distance <= core_max_norm(frame.xi_error) ||
                     // Rounding is most of the error: nothing more is to be had.
                     (evaluation.bend * interval.radius * interval.radius <= interval.error &&
-                     distance <= (search.moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * evaluation.speed * crossing.half_width);
+                     distance <= (search.moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * evaluation.speed * candidate.half_width);
     // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face.
     const elvis_real excess = core_excess(root.xi.x, root.xi.y, root.xi.z);
-    const elvis_real along_ray = elvis_real(0.25LF) * evaluation.speed * crossing.half_width;
+    const elvis_real along_ray = elvis_real(0.25LF) * evaluation.speed * candidate.half_width;
     root.is_inside = excess <= CORE_CONSTRAINT_NORM * (elvis_real(2) * interval.beyond + along_ray);
     root.is_surely_inside = excess <= -CORE_CONSTRAINT_NORM * (interval.beyond + along_ray);
 #if ELVIS_HAS_INSIDE

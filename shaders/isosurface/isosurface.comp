@@ -21,7 +21,7 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "tiles/ray_tiles.glsl"
 #include "tiles/hierarchy.glsl"
 #include "picture/samples.glsl"
@@ -38,7 +38,7 @@ layout(push_constant) uniform core_parameters {
     uint core_tiles_per_row;
     uint core_first_listed;
     // Counted from 1; 0 is no surface.
-    uint core_surface;
+    uint core_surface_number;
     uint core_first_component;
     uint core_end_component;
     uint core_n_isovalues;
@@ -67,8 +67,8 @@ layout(push_constant) uniform core_parameters {
 
 // The root, as a crossing of the ray.
 core_nearest_crossing core_found_at(core_evaluation evaluation, core_root root) {
-    const core_linear_root crossing = evaluation.crossing;
-    return core_nearest_crossing(evaluation.middle + crossing.s, crossing.half_width, root.xi.x, root.xi.y, root.xi.z, crossing.isovalue,
+    const core_linear_root candidate = evaluation.candidate;
+    return core_nearest_crossing(evaluation.middle + candidate.s, candidate.half_width, root.xi.x, root.xi.y, root.xi.z, candidate.isovalue,
                                  root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
                                  elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
 }
@@ -93,7 +93,8 @@ struct core_interval_counts {
     uint n_evaluations, n_excluded, n_outside, n_undecided, n_crossings;
 };
 
-// One evaluation, then to the next interval. Returns flags of the pixel.
+// Evaluates the interval once. Accepts the root as a crossing if it is proven, exact, in the element and ahead of the ray. Then chooses
+// the next interval. Returns flags of the pixel.
 uint core_search_step(core_ray ray, inout core_interval_search search, inout core_nearest_crossing nearest,
                       inout core_interval_counts counts) {
     const bool is_active = search.element != CORE_NO_ELEMENT;
@@ -103,13 +104,13 @@ uint core_search_step(core_ray ray, inout core_interval_search search, inout cor
     const core_verdict verdict = core_judge_interval(evaluation, root, search);
     const core_nearest_crossing found = core_found_at(evaluation, root);
     const bool is_ahead = found.t > ray.least_t + ray.widths_behind * found.slack && found.t > ray.least_t;
-    const bool is_hit = verdict.is_crossing && root.is_inside && is_ahead;
+    const bool is_hit = verdict.is_finished_root && root.is_inside && is_ahead;
     core_nearest_take(is_hit, found, nearest);
     const bool is_open = core_interval_search_next(evaluation, verdict, is_hit, core_nearest_end(nearest), search);
     counts.n_evaluations += is_active ? 1u : 0u;
     counts.n_outside += verdict.is_empty ? 1u : 0u;
     counts.n_excluded += verdict.is_excluded ? 1u : 0u;
-    counts.n_crossings += verdict.is_crossing ? 1u : 0u;
+    counts.n_crossings += verdict.is_finished_root ? 1u : 0u;
     counts.n_undecided += is_open ? 1u : 0u;
     const uint open_flag = evaluation.is_finite ? CORE_FLAG_ISOSURFACE_UNDECIDED : CORE_FLAG_NAN;
     return (is_active && core_is_model_estimated(evaluation.element) ? CORE_FLAG_ESTIMATED : 0u) | (is_open ? open_flag : 0u);
@@ -175,7 +176,7 @@ void main() {
             break;
         }
     }
-    core_distrust_column(column, first_row, row, end_row, core_surface >> 31);
+    core_distrust_column(column, first_row, row, end_row, core_surface_number >> 31);
     if (end_row > first_row) {
         core_count(0u, counts.n_evaluations);
         core_count(1u, counts.n_excluded);

@@ -21,7 +21,7 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "tiles/hierarchy.glsl"
 #include "picture/samples.glsl"
 #include "element/place.glsl"
@@ -37,7 +37,7 @@ layout(push_constant) uniform core_parameters {
     // Of the list.
     uint core_first, core_end;
     // Counted from 1; 0 is no surface.
-    uint core_surface;
+    uint core_surface_number;
     uint core_first_component;
     uint core_end_component;
     uint core_n_isovalues;
@@ -59,7 +59,7 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 #define CORE_SEGMENT_ITERATIONS 160u
 #include "segments/segment.glsl"
 #include "segments/ray_sample.glsl"
-#include "isosurface/linear_model.glsl"
+#include "field/linear_model.glsl"
 #include "isosurface/value_span.glsl"
 #include "segments/polynomial.glsl"
 #include "segments/colleague.glsl"
@@ -106,8 +106,8 @@ core_traced_ray core_projection_ray(core_ray ray, elvis_real stretch, out elvis_
 
 // To the next node: the search begins in its element, or its children wait, the nearer one before the other. `nearest_end`: nothing need
 // be looked at behind.
-void core_next_node(core_ray ray, core_traced_ray traced_ray, elvis_real nearest_end, inout uint stack_size,
-                    inout core_projection_search search) {
+void core_projection_next_node(core_ray ray, core_traced_ray traced_ray, elvis_real nearest_end, inout uint stack_size,
+                               inout core_projection_search search) {
     stack_size -= 1u;
     const core_node node = core_fetch_node(core_stack[stack_size]);
     vec2 span = core_box_span(node, ray);
@@ -149,7 +149,7 @@ void core_projection_step(core_ray ray, core_traced_ray traced_ray, elvis_real s
         core_projection_judge(search);
     }
     if (search.phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND) {
-        core_projection_polish(ray, traced_ray, size, found, search, nearest);
+        core_projection_polish_or_take(ray, traced_ray, size, found, search, nearest);
     }
     if (search.phase == CORE_PHASE_INTERVAL_DONE) {
         core_projection_behind_interval(core_nearest_end(nearest), search);
@@ -190,7 +190,7 @@ void main() {
         work += 1u;
         while (search.phase == CORE_PHASE_SEEK && stack_size > 0u && work < CORE_WORK_LIMIT) {
             work += 1u;
-            core_next_node(ray, traced_ray, core_nearest_end(nearest), stack_size, search);
+            core_projection_next_node(ray, traced_ray, core_nearest_end(nearest), stack_size, search);
             if (search.phase != CORE_PHASE_SEEK || stack_size == 0u) {
                 break;
             }
@@ -202,7 +202,7 @@ void main() {
     }
 
     const bool is_over = search.phase == CORE_PHASE_SEEK && stack_size == 0u;
-    const bool is_cut_short = is_pixel && (!is_over || core_has_driver_given_up(core_surface >> 31));
+    const bool is_cut_short = is_pixel && (!is_over || core_has_driver_given_up(core_surface_number >> 31));
     const bool is_undecided = search.undecided_t <= core_nearest_end(nearest) && search.undecided_t < CORE_FAR;
     search.flags |= is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u;
     search.flags |= is_cut_short || is_undecided ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;

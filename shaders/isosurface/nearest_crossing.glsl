@@ -63,7 +63,7 @@ void core_nearest_take(bool is_hit, core_nearest_crossing found, inout core_near
 uint core_nearest_store(core_nearest_crossing nearest, uint pixel, core_ray ray, elvis_real stretch, elvis_real reference_distance) {
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     if (is_hit) {
-        core_store_crossing(pixel, core_surface, nearest.isovalue, (nearest.t + reference_distance) * stretch, nearest.number,
+        core_store_crossing(pixel, core_surface_number, nearest.isovalue, (nearest.t + reference_distance) * stretch, nearest.number,
                             elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z), ray.direction,
                             core_place(nearest.xi_x, nearest.xi_y, nearest.xi_z, nearest.element, CORE_CLASS << CORE_PLACE_FACE_BITS),
                             nearest.bend);

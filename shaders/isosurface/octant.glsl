@@ -1,5 +1,6 @@
-// Octants: the octants of elements, or of octants, that can hold an isovalue (core/volume/isosurface/isovalue_set.hpp), each with linear models of the
-// inverse mapping and of the field in single precision: what can be told of both along a ray before anything is evaluated.
+// An octant is an eighth of an element, or of another octant. Only those that can hold an isovalue are stored
+// (core/volume/isosurface/isovalue_set.hpp), each with linear models of the inverse mapping and of the field in single precision: what can
+// be told of both along a ray before anything is evaluated.
 //
 // A point x of the octant, relative to the hierarchies' centre, has the local coordinates
 //

@@ -6,8 +6,10 @@
 struct core_octant_descent {
     // How many entries the group has, how many of them the ray looks at, and the next one.
     uint n_listed, n_entries, entry;
-    // Those from `first` to before `entry` that have to be looked into, as bits.
-    uint first, ahead;
+    // The first of those that were looked ahead at; the last one is before `entry`.
+    uint first;
+    // Bit i is set if entry `first + i` must be examined.
+    uint ahead;
     // Nodes that wait.
     uint stack_size;
 };
@@ -47,7 +49,7 @@ uint core_octant_below(uint index, core_ray ray, float end_t, inout core_octant_
 uint core_next_octant(core_ray ray, float end_t, inout core_octant_descent descent) {
     const bool is_popped = descent.stack_size > 0u;
     const uint at = min(descent.first + uint(findLSB(descent.ahead | 1u << 31)), descent.n_listed - 1u);
-    const bool is_behind = !is_popped && core_group_entries[at] > end_t;
+    const bool is_behind = !is_popped && core_group_enter_t[at] > end_t;
     uint word = is_behind ? CORE_NO_NODE : is_popped ? CORE_TOP : core_group_words[at];
     descent.stack_size -= is_popped ? 1u : 0u;
     descent.ahead = is_popped ? descent.ahead : is_behind ? 0u : descent.ahead & (descent.ahead - 1u);

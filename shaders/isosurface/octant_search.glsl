@@ -5,12 +5,12 @@
 // Evaluations in one octant, beyond which the ray is left to projection.
 #define CORE_MOST_EVALUATIONS 96u
 // Times the mapping is linearized anew nearer to the interval before it is halved.
-#define CORE_MAX_MOVES 8u
+#define CORE_MOST_MOVES 8u
 // The field is bounded at most this far to both sides of an interval's middle, in reference coordinates.
 #define CORE_WIDEST elvis_real(0.25LF)
 
-// How far to both sides a field is bounded that is flat around the crossing.
-elvis_real core_wider(core_linear_root crossing) { return elvis_real(4) * crossing.half_width; }
+// How far to both sides a field is bounded that is flat around the candidate.
+elvis_real core_wider(core_linear_root candidate) { return elvis_real(4) * candidate.half_width; }
 
 // Starts with the ray's span in an octant. Returns flags of the pixel.
 uint core_interval_search_begin(core_octant octant, core_octant_span reached, out core_interval_search search) {
@@ -35,8 +35,8 @@ struct core_verdict {
     // Nothing of it lies in the element; or no isovalue is taken in it. These and the next three are false for a search without an
     // interval.
     bool is_empty, is_excluded;
-    // Its root is a crossing, wherever that lies.
-    bool is_crossing;
+    // Its candidate is proven and exact, wherever that lies.
+    bool is_finished_root;
     // It cannot be decided; nor can anything behind it.
     bool is_stuck, is_broken;
     // What is next: the interval behind it; what is left from cut_low to cut_high; the same one, with the mapping linearized nearer to it
@@ -47,7 +47,7 @@ struct core_verdict {
 
 core_verdict core_judge_interval(core_evaluation evaluation, core_root root, core_interval_search search) {
     const core_ray_interval interval = evaluation.interval;
-    const core_linear_root crossing = evaluation.crossing;
+    const core_linear_root candidate = evaluation.candidate;
     const bool is_active = search.element != CORE_NO_ELEMENT;
     core_verdict verdict;
     // From the point of the element that is nearest to the interval's middle, as predicted.
@@ -58,37 +58,37 @@ core_verdict core_judge_interval(core_evaluation evaluation, core_root root, cor
     const elvis_real move = max(max(abs(near_x - evaluation.xi.x), abs(near_y - evaluation.xi.y)), abs(near_z - evaluation.xi.z));
     const elvis_real extent = max(evaluation.half_width, evaluation.shortest) * evaluation.speed;
     const bool is_far = move > elvis_real(0.25LF) * extent && move > elvis_real(16) * CORE_ROUNDOFF;
-    // The bound says nothing far away from a curved element: see core_is_clear_of.
+    // The bound says nothing far away from a curved element: as is_clear in lines/subpixel.glsl.
     const bool is_clear =
         !is_far && search.curvature < elvis_real(1e6LF) && interval.clearance > elvis_real(0.5LF) * extent + elvis_real(8) * move;
     const bool is_empty = interval.low > interval.high || is_clear;
-    const bool is_done_with = is_empty || crossing.is_excluded;
-    const bool ends_here = is_active && !is_done_with && root.is_crossing;
+    const bool is_done_with = is_empty || candidate.is_excluded;
+    const bool ends_here = is_active && !is_done_with && root.is_proven;
     verdict.is_empty = is_active && is_empty;
-    verdict.is_excluded = is_active && !is_empty && crossing.is_excluded;
-    verdict.is_crossing = ends_here && root.is_exact;
+    verdict.is_excluded = is_active && !is_empty && candidate.is_excluded;
+    verdict.is_finished_root = ends_here && root.is_exact;
     verdict.is_broken = is_active && (!evaluation.is_finite || search.used >= CORE_MOST_EVALUATIONS);
 
     // If little is left it is looked at as a whole, even if it reaches beyond the interval: then the root is in its middle.
-    const elvis_real from = crossing.s - crossing.half_width, to = crossing.s + crossing.half_width;
+    const elvis_real from = candidate.s - candidate.half_width, to = candidate.s + candidate.half_width;
     const elvis_real narrow = elvis_real(0.6LF) * (interval.high - interval.low);
     const bool is_narrow = interval.is_known && to - from < narrow && from <= interval.high && to >= interval.low;
-    verdict.cut_low = root.is_crossing || is_narrow ? from : max(from, interval.low);
-    verdict.cut_high = root.is_crossing || is_narrow ? to : min(to, interval.high);
+    verdict.cut_low = root.is_proven || is_narrow ? from : max(from, interval.low);
+    verdict.cut_high = root.is_proven || is_narrow ? to : min(to, interval.high);
     const bool is_cut = is_narrow || (interval.is_known && verdict.cut_high - verdict.cut_low < narrow);
 
     const bool is_short = evaluation.half_width < evaluation.shortest;
-    const elvis_real wider = core_wider(crossing);
-    verdict.widens = is_short && !is_done_with && !root.is_crossing && !is_cut && wider > elvis_real(1.5LF) * search.wide &&
+    const elvis_real wider = core_wider(candidate);
+    verdict.widens = is_short && !is_done_with && !root.is_proven && !is_cut && wider > elvis_real(1.5LF) * search.wide &&
                      wider * evaluation.speed < CORE_WIDEST;
     const bool is_nearest =
-        interval.radius <= max(CORE_NARROW, elvis_real(2) * search.wide * evaluation.speed) || search.moves >= CORE_MAX_MOVES;
-    verdict.is_stuck = is_active && is_short && !is_done_with && !verdict.widens && !(is_cut && search.moves < CORE_MAX_MOVES) &&
+        interval.radius <= max(CORE_NARROW, elvis_real(2) * search.wide * evaluation.speed) || search.moves >= CORE_MOST_MOVES;
+    verdict.is_stuck = is_active && is_short && !is_done_with && !verdict.widens && !(is_cut && search.moves < CORE_MOST_MOVES) &&
                        is_nearest && !ends_here;
-    verdict.goes_on = is_done_with || verdict.is_crossing || verdict.is_stuck || verdict.is_broken;
+    verdict.goes_on = is_done_with || verdict.is_finished_root || verdict.is_stuck || verdict.is_broken;
     verdict.cuts = !verdict.goes_on && (ends_here || is_cut);
     verdict.moves_on =
-        !verdict.goes_on && !verdict.cuts && (verdict.widens || is_short || (is_far && search.moves < CORE_MAX_MOVES));
+        !verdict.goes_on && !verdict.cuts && (verdict.widens || is_short || (is_far && search.moves < CORE_MOST_MOVES));
     return verdict;
 }
 
@@ -110,11 +110,11 @@ bool core_interval_search_next(core_evaluation evaluation, core_verdict verdict,
                           : verdict.moves_on ? search.to
                                              : evaluation.middle + elvis_real(0.5LF) * (interval.low + interval.high);
     // Behind the only isovalue of the interval, the interval is over.
-    const elvis_real after_cut = evaluation.crossing.is_only ? search.next : min(search.next, evaluation.middle + verdict.cut_high);
+    const elvis_real after_cut = evaluation.candidate.is_only ? search.next : min(search.next, evaluation.middle + verdict.cut_high);
     search.next = verdict.goes_on ? to : verdict.cuts ? after_cut : verdict.moves_on ? search.next : to;
     const bool is_short = evaluation.half_width < evaluation.shortest;
     search.moves = (verdict.moves_on && !verdict.widens) || (verdict.cuts && is_short) ? search.moves + 1u : 0u;
-    search.wide = verdict.widens ? core_wider(evaluation.crossing) : verdict.goes_on ? elvis_real(0) : search.wide;
+    search.wide = verdict.widens ? core_wider(evaluation.candidate) : verdict.goes_on ? elvis_real(0) : search.wide;
     const bool has_more = from < search.last && from < to && from <= nearest_end;
     const bool is_open = verdict.is_stuck || (verdict.is_broken && (!is_done_with || has_more));
     search.element = ends || verdict.is_broken || (verdict.goes_on && !has_more) ? CORE_NO_ELEMENT : search.element;
@@ -128,7 +128,7 @@ bool core_interval_search_next(core_evaluation evaluation, core_verdict verdict,
     elvis_real y = evaluation.xi.y + (is_usable ? clamp(forward.y, elvis_real(-4), elvis_real(4)) : elvis_real(0));
     elvis_real z = evaluation.xi.z + (is_usable ? clamp(forward.z, elvis_real(-4), elvis_real(4)) : elvis_real(0));
     core_project(x, y, z);
-    const elvis_real share = search.moves > CORE_MAX_MOVES / 2u ? elvis_real(0.5LF) : elvis_real(1);
+    const elvis_real share = search.moves > CORE_MOST_MOVES / 2u ? elvis_real(0.5LF) : elvis_real(1);
     search.x += share * (x - search.x);
     search.y += share * (y - search.y);
     search.z += share * (z - search.z);

@@ -20,7 +20,7 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
 };
 
-#include "isosurface/cube_model.glsl"
+#include "field/cube_model.glsl"
 
 #define CORE_WORDS 32u
 // Of elements that are nearly linear it is not measured for each octant.

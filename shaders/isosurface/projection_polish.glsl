@@ -26,9 +26,10 @@ core_nearest_crossing core_polished(core_ray_sample found, core_projection_searc
                                  elvis_fetch_core_elements(search.element, 0u), is_surely_inside);
 }
 
-// After a sample at the follower's parameter. `size`: of the volume, in the ray's parameter.
-void core_projection_polish(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found,
-                            inout core_projection_search search, inout core_nearest_crossing nearest) {
+// A step of Newton's method from a sample at the follower's parameter; at the root the crossing is taken, or the candidate given up.
+// `size`: of the volume, in the ray's parameter.
+void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found,
+                                    inout core_projection_search search, inout core_nearest_crossing nearest) {
     search.polish_iterations += 1u;
     const elvis_real t = search.follower.at, off = found.value - search.isovalue;
     core_narrow_bracket(t, off, found.error, search);

@@ -1,6 +1,6 @@
 // Projection: the segments of a ray in an element.
 //
-// The kernel brings isosurface/projection_search.glsl, isosurface/linear_model.glsl and isosurface/value_span.glsl.
+// The kernel brings isosurface/projection_search.glsl, field/linear_model.glsl and isosurface/value_span.glsl.
 
 // Segments of a ray in one element.
 #define CORE_MOST_SEGMENTS 16u
@@ -48,7 +48,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     const bool is_lost = ending != CORE_SEGMENT_OPEN && search.segment.has_failed;
     search.n_failures += is_lost ? 1u : 0u;
     search.undecided_t = is_lost ? min(search.undecided_t, search.segment.begin) : search.undecided_t;
-    // A segment may have been missed. In single precision, where rounding takes many iterations, the beginning of one has been, too.
+    // A segment may have been missed. In single precision its beginning may be missing as well: rounding takes many iterations.
     const bool is_found_late = ending == CORE_SEGMENT_FOUND && CORE_BEGINNINGS_ARE_UNCERTAIN;
     const bool is_uncertain = (ending == CORE_SEGMENT_NONE || is_found_late) && search.segment.is_estimated && CORE_PLAIN == 0;
     search.undecided_t = is_uncertain ? min(search.undecided_t, search.sought_from) : search.undecided_t;

@@ -117,12 +117,12 @@ core_linear_root core_first_linear_root(core_ray_interval interval) {
     const uint first = core_isovalue_from(least);
     const uint last = core_isovalues_end(first, most);
     const uint next = interval.slope > elvis_real(0) ? first : max(last, 1u) - 1u;
-    core_linear_root crossing;
-    crossing.is_excluded = interval.is_known && first == last;
-    crossing.is_only = interval.is_known && last == first + 1u;
-    crossing.isovalue = core_isovalue_at(min(next, CORE_N_ISOVALUES - 1u));
+    core_linear_root candidate;
+    candidate.is_excluded = interval.is_known && first == last;
+    candidate.is_only = interval.is_known && last == first + 1u;
+    candidate.isovalue = core_isovalue_at(min(next, CORE_N_ISOVALUES - 1u));
     const elvis_real inverse = elvis_real(1) / interval.slope;
-    crossing.s = (crossing.isovalue - interval.value) * inverse;
-    crossing.half_width = interval.error * abs(inverse);
-    return crossing;
+    candidate.s = (candidate.isovalue - interval.value) * inverse;
+    candidate.half_width = interval.error * abs(inverse);
+    return candidate;
 }

@@ -1,5 +1,5 @@
 // Where along rays an isovalue can be met in an element, as far as its linear models tell: of the mapping (element/linearization.glsl)
-// and of the field (isosurface/linear_model.glsl). Nothing is evaluated for it.
+// and of the field (field/linear_model.glsl). Nothing is evaluated for it.
 //
 // `start` + t `direction`: the ray in reference coordinates, as linearized.
 

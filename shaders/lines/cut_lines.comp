@@ -4,14 +4,14 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "picture/view.glsl"
+#include "tiles/node_tiles.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_list_block { uint core_list[]; };
 layout(push_constant) uniform core_parameters {
     uint core_width;
-    uint core_tiles_a_row;
+    uint core_tiles_per_row;
     uint core_first;
     uint core_n_listed;
     uint core_first_component;
@@ -33,7 +33,7 @@ layout(push_constant) uniform core_parameters {
 
 // Puts what the list of the tile names on the stack, its first entry uppermost; returns their number.
 uint core_stack_tile(uint column, uint row) {
-    const uint tile = row / CORE_TILE_HEIGHT * core_tiles_a_row + column / CORE_TILE_WIDTH;
+    const uint tile = row / CORE_TILE_HEIGHT * core_tiles_per_row + column / CORE_TILE_WIDTH;
     const uint n_entries = core_tiles[tile * CORE_TILE_STRIDE];
     for (uint i = 0u; i < n_entries; ++i) {
         core_stack[i] = core_tiles[tile * CORE_TILE_STRIDE + n_entries - i];
@@ -51,7 +51,7 @@ void main() {
         core_plane_at(elvis_real(column), elvis_real(row), owner != 0u && (owner & CORE_OWNER_KEY) == 0u);
     const bool is_seen = is_pixel && !surface.is_absent;
     const core_line_marks wanted =
-        core_wanted_lines(is_seen && core_n_isovalues > 0u, is_seen && core_with_mesh_lines != 0u);
+        core_no_lines_yet(is_seen && core_n_isovalues > 0u, is_seen && core_with_mesh_lines != 0u);
     core_line_search search = core_begin_search(elvis_real(column), elvis_real(row), core_subdivisions, wanted, false);
     search.stack_size = core_stack_tile(column, row);
     core_search_lines(surface, search);
@@ -59,5 +59,5 @@ void main() {
     if (is_pixel) {
         core_mark_lines(pixel, search.lines, core_undecided_lines(search.lines, is_cut_short));
     }
-    core_count_evaluations(search.n_evaluations);
+    core_count(0u, search.n_evaluations);
 }

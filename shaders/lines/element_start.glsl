@@ -18,9 +18,9 @@ elvis_vec3 core_corner_offset(core_linearization linearization, elvis_vec3 corne
     return abs(elvis_vec3(core_linear_inverse(linearization, vec3(corner))) - start);
 }
 
-// Takes an element unless it lies elsewhere. `corners` around `middle`: the pixel's part of the surface, which reaches at most
+// Selects an element unless it lies elsewhere. `corners` around `middle`: the pixel's part of the surface, which reaches at most
 // `room` times as far; infinitely far if that is zero.
-void core_enter_element(uint element, core_cut_square corners, elvis_vec3 middle, elvis_real room, inout core_line_search search) {
+void core_select_element(uint element, core_cut_square corners, elvis_vec3 middle, elvis_real room, inout core_line_search search) {
     const core_linearization linearization = core_fetch_linearization(element);
     const elvis_vec3 target = core_reference.xyz - elvis_origin(element) + middle;
     const bool is_linearized = linearization.exponents != 0u && corners.all_hit;

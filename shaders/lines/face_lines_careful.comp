@@ -20,10 +20,10 @@ layout(local_size_x = 32) in;
 
 #define CORE_WORK_LIMIT 3000u
 // Levels of squares: from a patch that fills the picture down to subpixels.
-#define CORE_MAX_LEVEL 15u
+#define CORE_MOST_LEVEL 15u
 
 // Squares of the patch that are still to be looked at: level, column and row in one word.
-uint core_squares[3u * CORE_MAX_LEVEL + 4u];
+uint core_squares[3u * CORE_MOST_LEVEL + 4u];
 
 struct core_surface {
     core_listed_pixel listed;
@@ -44,7 +44,7 @@ core_surface core_surface_in(core_listed_pixel listed) {
     const core_place place = core_places[listed.pixel];
     return core_surface(listed, core_pixel_pyramid(listed.column, listed.row, t), t, max(max(terms.x, terms.y), terms.z),
                         pixel_size / elvis_real(1u << core_subdivisions), place,
-                        core_class_of(place) == core_class && !listed.around.is_hidden);
+                        core_class_of(place) == core_class && !listed.around.may_be_hidden);
 }
 
 bool core_reaches(core_surface surface, core_node node) {
@@ -53,7 +53,7 @@ bool core_reaches(core_surface surface, core_node node) {
     return core_box_reaches_pyramid(surface.pyramid, node, 16.0 * CORE_FLOAT_ROUNDOFF * (float(surface.far) + size));
 }
 
-void core_enter(core_surface surface, uint patch_index, inout core_line_search search) {
+void core_select_item(core_surface surface, uint patch_index, inout core_line_search search) {
     search.item = patch_index;
     search.n_squares = 1u;
     core_squares[0] = 0u;
@@ -77,20 +77,21 @@ bool core_is_crossed_towards(elvis_real side, core_frame frame, int face, elvis_
 #endif
 }
 
-struct core_patch_square {
+struct core_face_square {
     uint element;
     int face;
     uint level, across, down;
     // In reference coordinates the square is xi + [-1, 1] a + [-1, 1] b.
     elvis_vec3 xi, a, b;
-    // It lies beyond the diagonal of a triangle as a whole. It reaches to an edge of the face.
-    bool is_beyond, touches_edge;
+    // It lies beyond the diagonal of a triangle as a whole.
+    bool is_beyond;
+    bool touches_edge;
 };
 
-core_patch_square core_patch_square_at(uint patch_index, uint word) {
+core_face_square core_face_square_at(uint patch_index, uint word) {
     const uvec4 more = elvis_fetch4_core_patches(patch_index, 4u), of_face = elvis_fetch4_core_faces(more.z, 0u);
     const core_square of_patch = core_square_of(more.w);
-    core_patch_square square;
+    core_face_square square;
     square.element = of_face.x;
     square.face = int(of_face.y);
     square.level = word & 15u;
@@ -114,12 +115,15 @@ core_patch_square core_patch_square_at(uint patch_index, uint word) {
 // What the pixel sees of a square.
 struct core_sight {
     core_region region;
-    // Nothing. All of it, on the side that the pixel shows.
-    bool is_absent, is_seen;
+    // The pixel sees nothing of it.
+    bool is_absent;
+    // The pixel sees all of it, on the side that it shows.
+    bool is_seen;
+    // It is as small as squares get.
     bool is_small;
 };
 
-core_sight core_sight_of(core_surface surface, core_patch_square square, core_element_image image, bool is_shown) {
+core_sight core_sight_of(core_surface surface, core_face_square square, core_element_image image, bool is_shown) {
     const elvis_vec3 a = square.a, b = square.b, most = abs(a) + abs(b);
     const elvis_real radius = max(max(most.x, most.y), most.z) + elvis_real(8) * CORE_ROUNDOFF;
     core_sight sight;
@@ -147,7 +151,7 @@ core_sight core_sight_of(core_surface surface, core_patch_square square, core_el
                     core_least_depth(surface.pyramid, elvis_real(-1), middle, image_a, image_b, both_errors) > elvis_real(0) &&
                     core_is_crossed_towards(-away, inverse, square.face, change, direction);
     sight.is_small = max(length(image_a), length(image_b)) <= elvis_real(0.5LF) * surface.least_size ||
-                     square.level >= CORE_MAX_LEVEL - 1u;
+                     square.level >= CORE_MOST_LEVEL - 1u;
     return sight;
 }
 
@@ -156,7 +160,7 @@ struct core_own_edge {
     bool is_beyond, is_touched, is_crossed;
 };
 
-core_own_edge core_own_edge_in(core_patch_square square, core_region region) {
+core_own_edge core_own_edge_in(core_face_square square, core_region region) {
     core_own_edge own = core_own_edge(false, false, false);
 #if ELVIS_HAS_INSIDE
     const core_inside g = core_inside_at(square.element, square.xi);
@@ -169,7 +173,7 @@ core_own_edge core_own_edge_in(core_patch_square square, core_region region) {
     return own;
 }
 
-void core_divide(core_patch_square square, inout core_line_search search) {
+void core_divide(core_face_square square, inout core_line_search search) {
     for (uint k = 0u; k < 4u; ++k) {
         core_squares[search.n_squares] =
             (square.level + 1u) | ((2u * square.across + (k & 1u)) << 4) | ((2u * square.down + (k >> 1)) << 18);
@@ -181,7 +185,7 @@ void core_divide(core_patch_square square, inout core_line_search search) {
 void core_ask(core_surface surface, inout core_line_search search) {
     const bool is_active = search.item != CORE_NO_ITEM;
     search.n_squares -= is_active ? 1u : 0u;
-    const core_patch_square square = core_patch_square_at(is_active ? search.item : 0u, core_squares[search.n_squares]);
+    const core_face_square square = core_face_square_at(is_active ? search.item : 0u, core_squares[search.n_squares]);
     const core_element_image image = core_element_image_at(square.element, square.xi);
     search.n_evaluations += is_active ? 1u : 0u;
     const bool is_shown =
@@ -196,15 +200,15 @@ void core_ask(core_surface surface, inout core_line_search search) {
         is_judged && lines.wants_contour && !test.is_excluded && (is_shown || !lines.is_contour_open);
     const bool leaves_mesh =
         is_judged && lines.wants_mesh && (square.touches_edge || own.is_touched) && (is_shown || !lines.is_mesh_open);
-    core_find_lines(lines, is_seen && lines.wants_contour && !own.is_touched && test.is_met,
-                    is_seen && lines.wants_mesh && ((square.touches_edge && !own.is_touched) || own.is_crossed));
+    core_record_lines(lines, is_seen && lines.wants_contour && !own.is_touched && test.is_met,
+                      is_seen && lines.wants_mesh && ((square.touches_edge && !own.is_touched) || own.is_crossed));
     core_leave_open(lines, leaves_contour && sight.is_small, leaves_mesh && sight.is_small);
     lines.is_estimated = lines.is_estimated || (is_judged && test.is_estimated);
     // Only what is seen could still decide what is open.
     lines.wants_contour = lines.wants_contour && (surface.may_find || !lines.is_contour_open);
     lines.wants_mesh = lines.wants_mesh && (surface.may_find || !lines.is_mesh_open);
     search.lines = lines;
-    search.goes_on = core_wants_lines(lines);
+    search.goes_on = core_is_looking(lines);
     if ((leaves_contour || leaves_mesh) && !sight.is_small) {
         core_divide(square, search);
     }
@@ -218,5 +222,5 @@ void main() {
     const core_surface surface = core_surface_in(listed);
     core_line_search search = core_begin_listed(listed, 0u, true, true);
     core_search_lines(surface, search);
-    core_answer(listed, search);
+    core_store_or_relist(listed, search);
 }

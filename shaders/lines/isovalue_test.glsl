@@ -9,8 +9,10 @@
 struct core_isovalue_test {
     // Of the field, where the mapping is linearized.
     elvis_real value;
-    // No isovalue is taken in the square. One is for certain, if the element fills it.
-    bool is_excluded, is_met;
+    // The field surely takes no isovalue in the square.
+    bool is_excluded;
+    // The field surely takes one there, provided that the element fills the square.
+    bool is_met;
     // The field's bounds are estimates.
     bool is_estimated;
 };

@@ -11,6 +11,8 @@ layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
 
+#include "arithmetic/count.glsl"
+
 struct core_line_marks {
     // What is looked for, and not yet found.
     bool wants_contour, wants_mesh;
@@ -21,13 +23,14 @@ struct core_line_marks {
     bool is_estimated;
 };
 
-core_line_marks core_wanted_lines(bool wants_contour, bool wants_mesh) {
+// Nothing is found yet of what is looked for.
+core_line_marks core_no_lines_yet(bool wants_contour, bool wants_mesh) {
     return core_line_marks(wants_contour, wants_mesh, false, false, false, false, false);
 }
 
-bool core_wants_lines(core_line_marks lines) { return lines.wants_contour || lines.wants_mesh; }
+bool core_is_looking(core_line_marks lines) { return lines.wants_contour || lines.wants_mesh; }
 
-void core_find_lines(inout core_line_marks lines, bool finds_contour, bool finds_mesh) {
+void core_record_lines(inout core_line_marks lines, bool finds_contour, bool finds_mesh) {
     lines.has_contour = lines.has_contour || finds_contour;
     lines.has_mesh_line = lines.has_mesh_line || finds_mesh;
     lines.wants_contour = lines.wants_contour && !finds_contour;
@@ -54,13 +57,6 @@ void core_mark_lines(uint pixel, core_line_marks lines, uint undecided) {
                        (lines.is_estimated ? CORE_FLAG_ESTIMATED : 0u);
     if (flags != 0u) {
         core_marks[pixel].flags |= flags;
-    }
-}
-
-void core_count_evaluations(uint n_evaluations) {
-    const uint all_evaluations = subgroupAdd(n_evaluations);
-    if (subgroupElect()) {
-        atomicAdd(core_counts[0], all_evaluations);
     }
 }
 

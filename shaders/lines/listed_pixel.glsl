@@ -62,7 +62,7 @@ core_listed_pixel core_listed_pixel_here() {
     listed.around = core_look_around(place, listed.pixel, listed.is_pixel, listed.tangent);
     // Elements of another class may have found it.
     const uint known = core_marks[listed.pixel].flags;
-    listed.lines = core_wanted_lines(
+    listed.lines = core_no_lines_yet(
         listed.is_pixel && (word & CORE_LIST_CONTOUR) != 0u && (known & CORE_FLAG_CONTOUR) == 0u,
         listed.is_pixel && (word & CORE_LIST_MESH_LINE) != 0u && (known & CORE_FLAG_MESH_LINE) == 0u);
     return listed;
@@ -75,7 +75,7 @@ core_line_search core_begin_listed(core_listed_pixel listed, uint most_level, bo
     return search;
 }
 
-void core_answer(core_listed_pixel listed, core_line_search search) {
+void core_store_or_relist(core_listed_pixel listed, core_line_search search) {
     const bool is_cut_short = core_is_unfinished(search) || core_has_driver_given_up(core_size.x >> 31);
     const uint open = core_undecided_lines(search.lines, is_cut_short);
     const bool is_last = core_open_count == 0u;
@@ -85,5 +85,5 @@ void core_answer(core_listed_pixel listed, core_line_search search) {
     if (listed.is_pixel) {
         core_mark_lines(listed.pixel, search.lines, is_last ? open : 0u);
     }
-    core_count_evaluations(search.n_evaluations);
+    core_count(0u, search.n_evaluations);
 }

@@ -32,7 +32,7 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     surface.box = core_box_around(corners, corners.error, 0.1);
 
     const bool is_filled = (place.class_and_face & CORE_PLACE_FILLED) != 0u;
-    const bool is_usable = listed.is_pixel && !listed.around.is_hidden;
+    const bool is_usable = listed.is_pixel && !listed.around.may_be_hidden;
     // Beside a face that fills the pixel, or on a smooth surface, there is nothing else.
     const bool is_complete = is_usable && (is_filled || (listed.around.is_smooth && corners.all_hit));
     core_line_search search =
@@ -67,7 +67,7 @@ bool core_patch_reaches(uint index, core_box box, core_face face, out elvis_vec3
     return !is_beside && abs(s) <= bounds.y + dot(abs(to_s.xyz), half_size);
 }
 
-void core_enter(core_surface surface, uint patch_index, inout core_line_search search) {
+void core_select_item(core_surface surface, uint patch_index, inout core_line_search search) {
     const uint face = elvis_fetch4_core_patches(patch_index, 4u).z;
     const uvec4 of_face = elvis_fetch4_core_faces(face, 0u);
     search.own_face = int(of_face.y);

@@ -36,10 +36,10 @@ core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind)
     return surface;
 }
 
-void core_enter(core_surface surface, uint element, inout core_line_search search) {
+void core_select_item(core_surface surface, uint element, inout core_line_search search) {
     const core_cut_square corners = surface.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
-    core_enter_element(element, corners, middle, elvis_real(1), search);
+    core_select_element(element, corners, middle, elvis_real(1), search);
 }
 
 core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {

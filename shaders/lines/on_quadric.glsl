@@ -31,9 +31,9 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return core_begin_listed(listed, core_subdivisions, surface.corners.all_hit, surface.corners.all_hit);
 }
 
-void core_enter(core_surface surface, uint element, inout core_line_search search) {
+void core_select_item(core_surface surface, uint element, inout core_line_search search) {
     const elvis_vec3 middle = elvis_real(0.5LF) * (surface.corners.corner0 + surface.corners.corner1);
-    core_enter_element(element, surface.corners, middle, elvis_real(0), search);
+    core_select_element(element, surface.corners, middle, elvis_real(0), search);
 }
 
 core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
@@ -51,7 +51,7 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     square.is_absent = quadric_span.is_absent;
     square.is_seen = front.is_known;
     square.approach.is_clear = square.approach.is_clear && front.is_known;
-    square.is_whole = search.level == 0u;
+    square.is_whole_pixel = search.level == 0u;
     return square;
 }
 

@@ -39,7 +39,7 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
 
     // Where corners miss the plane, or nearly so, the surface is seen edge on.
     const bool is_edge_on = -dot(listed.tangent.normal, listed.ray.direction) < CORE_EDGE_ON * length(listed.ray.direction);
-    // Where the surface is not smooth, only lines that are met are looked for, and not twice.
+    // Where the surface is not smooth, the search can only find lines, never exclude them. It runs in the first rounds only.
     const bool is_searched = is_smooth || core_subdivisions <= CORE_FEW_SUBDIVISIONS;
 #if CORE_SHAPE_ROWS > 0
     // lines/on_quadric.glsl decides more.
@@ -47,17 +47,17 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
 #else
     const bool is_left = false;
 #endif
-    const bool is_known = surface.corners.all_hit && !listed.around.is_hidden && !is_edge_on && is_searched && !is_left;
+    const bool is_known = surface.corners.all_hit && !listed.around.may_be_hidden && !is_edge_on && is_searched && !is_left;
     const uint most_level = is_smooth ? core_subdivisions : min(core_subdivisions, CORE_ROUGH_LEVEL);
     core_line_search search = core_begin_listed(listed, most_level, is_known, is_known);
     search.lines.is_estimated = !is_smooth || bent.is_estimated;
     return search;
 }
 
-void core_enter(core_surface surface, uint element, inout core_line_search search) {
+void core_select_item(core_surface surface, uint element, inout core_line_search search) {
     // What the surface departs from its tangent plane is less than the pixel's size where it is smooth.
     const elvis_real room = surface.listed.around.is_smooth ? elvis_real(2) : elvis_real(0);
-    core_enter_element(element, surface.corners, surface.listed.tangent.point, room, search);
+    core_select_element(element, surface.corners, surface.listed.tangent.point, room, search);
 }
 
 core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
@@ -71,7 +71,7 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     corners.error += surface.departure;
     core_shown_square square =
         core_shown_square_at(image, corners, tangent.normal, surface.listed.ray.direction, CORE_NO_FACE);
-    square.is_whole = is_first && is_smooth;
+    square.is_whole_pixel = is_first && is_smooth;
     square.is_oversized = is_first && !is_smooth;
     square.is_seen = !square.is_oversized;
     return square;

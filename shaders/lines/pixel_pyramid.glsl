@@ -1,6 +1,6 @@
 // The pyramid of a pixel's rays, and whether parallelograms and boxes lie in it. The kernel brings tiles/hierarchy.glsl.
 
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 
 // dot(normal, x - point) >= 0; x relative to the reference point.
 struct core_half_space {
@@ -11,8 +11,8 @@ struct core_pyramid {
     core_half_space left, right, upper, lower;
 };
 
-// Rays of one side of the pixel lie in one plane: their bases and directions move along the same line (picture/cut_frame.glsl).
-core_half_space core_side(core_cut_ray ray, elvis_vec3 along, elvis_vec3 inward) {
+// Rays of one side of the pixel lie in one plane: their bases and directions move along the same line (picture/view.glsl).
+core_half_space core_pixel_side(core_cut_ray ray, elvis_vec3 along, elvis_vec3 inward) {
     const elvis_vec3 normal = cross(ray.direction, along);
     return core_half_space(ray.base, (dot(normal, inward) < elvis_real(0) ? elvis_real(-1) : elvis_real(1)) / length(normal) * normal);
 }
@@ -22,10 +22,10 @@ core_pyramid core_pixel_pyramid(elvis_real column, elvis_real row, elvis_real t)
     const elvis_real half_one = elvis_real(0.5LF);
     const elvis_vec3 next = core_base_column.xyz + t * core_direction_column.xyz;
     const elvis_vec3 below = core_base_row.xyz + t * core_direction_row.xyz;
-    return core_pyramid(core_side(core_cut_ray_at(column - half_one, row), below, next),
-                        core_side(core_cut_ray_at(column + half_one, row), below, -next),
-                        core_side(core_cut_ray_at(column, row - half_one), next, below),
-                        core_side(core_cut_ray_at(column, row + half_one), next, -below));
+    return core_pyramid(core_pixel_side(core_cut_ray_at(column - half_one, row), below, next),
+                        core_pixel_side(core_cut_ray_at(column + half_one, row), below, -next),
+                        core_pixel_side(core_cut_ray_at(column, row - half_one), next, below),
+                        core_pixel_side(core_cut_ray_at(column, row + half_one), next, -below));
 }
 
 // How deep in the half space lie at most (sign 1), or at least (sign -1), the points of the parallelogram middle + [-1, 1] a + [-1, 1] b,

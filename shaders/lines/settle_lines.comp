@@ -12,7 +12,7 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "lines/line_marks.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
@@ -61,7 +61,7 @@ core_shown_square core_pixel_square(core_element_image image, core_place place, 
 #if CORE_ON_FACES
     core_shown_square square = core_own_square_at(image, max(core_face_of(place), 0), in_picture);
     const core_surroundings around = core_look_around(at, pixel, true, square.tangent);
-    square.is_whole = true;
+    square.is_whole_pixel = true;
     is_estimated = false;
 #else
     const core_cut_ray ray = core_cut_ray_at(in_picture.column, in_picture.row);
@@ -71,10 +71,10 @@ core_shown_square core_pixel_square(core_element_image image, core_place place, 
     const core_departure bent = core_departure_in(corners, tangent, ray, core_bending[pixel], around.turning);
     corners.error += bent.distance;
     core_shown_square square = core_shown_square_at(image, corners, tangent.normal, ray.direction, CORE_NO_FACE);
-    square.is_whole = around.is_smooth;
+    square.is_whole_pixel = around.is_smooth;
     is_estimated = !around.is_smooth || bent.is_estimated;
 #endif
-    square.is_seen = square.corners.all_hit && !around.is_hidden;
+    square.is_seen = square.corners.all_hit && !around.may_be_hidden;
     return square;
 }
 
@@ -86,8 +86,8 @@ void core_settle(uvec2 at, uint pixel) {
     bool is_estimated;
     const core_shown_square square = core_pixel_square(image, place, at, pixel, is_estimated);
     const bool is_seen = !is_outside && square.is_seen;
-    const bool is_inside = is_seen && square.subpixel.is_inside, is_filled = is_inside && square.is_whole;
-    core_line_marks lines = core_wanted_lines(CORE_WITH_CONTOURS != 0, core_with_mesh_lines != 0u);
+    const bool is_inside = is_seen && square.subpixel.is_inside, is_filled = is_inside && square.is_whole_pixel;
+    core_line_marks lines = core_no_lines_yet(CORE_WITH_CONTOURS != 0, core_with_mesh_lines != 0u);
     lines.has_mesh_line = lines.wants_mesh && is_seen && square.subpixel.is_crossed;
     lines.is_mesh_open = lines.wants_mesh && !is_filled;
     const core_isovalue_test test = core_isovalues_in(image, square.subpixel.region);
@@ -118,10 +118,8 @@ void main() {
         }
     }
 
-    // Then no pixel of the column is to be trusted.
-    const bool is_cut_short = end_row > first_row && (row < end_row || core_has_driver_given_up(core_class >> 31));
-    core_distrust_column(column, first_row, is_cut_short ? end_row : first_row);
+    core_distrust_column(column, first_row, row, end_row, core_class >> 31);
     if (end_row > first_row) {
-        core_count_evaluations(n_evaluations);
+        core_count(0u, n_evaluations);
     }
 }

@@ -4,7 +4,7 @@
 #define CORE_SHOWN_SQUARE
 
 #include "lines/subpixel.glsl"
-#include "cut_surface/tangent_square.glsl"
+#include "picture/tangent_square.glsl"
 
 struct core_shown_square {
     // All of the surface in the square lies between these points, but for their error. If not all of them are known, nothing is.
@@ -12,14 +12,19 @@ struct core_shown_square {
     core_frame frame;
     core_subpixel subpixel;
     core_approach approach;
-    // Nothing of the surface is there. What is there of it hides the element, or is hidden with it.
-    bool is_absent, is_hidden;
+    // Nothing of the surface is there.
+    bool is_absent;
+    // What is there of it hides the element, or is hidden with it.
+    bool is_hidden;
     // What is met in the square is seen in the pixel.
     bool is_seen;
-    // The square is the pixel, and what fills it hides everything else. It is larger than the pixel.
-    bool is_whole, is_oversized;
-    // On an element's own face: the plane through the corners; and whether rays enter the element there.
+    // The square is the pixel, and an element that fills it hides everything else.
+    bool is_whole_pixel;
+    // The square is larger than the pixel.
+    bool is_oversized;
+    // On an element's own face: the plane through the corners.
     core_tangent tangent;
+    // On an element's own face: rays enter the element there.
     bool enters;
 };
 
@@ -31,7 +36,7 @@ core_shown_square core_shown_square_at(core_element_image image, core_cut_square
     square.frame = core_frame_at(image.position, image.jacobian, corners.error + image.shift_error);
     square.subpixel = core_subpixel_at(image, square.frame, corners, normal, direction, own_face);
     square.approach = core_approach_to(square.subpixel, image);
-    square.is_absent = square.is_hidden = square.is_whole = square.is_oversized = square.enters = false;
+    square.is_absent = square.is_hidden = square.is_whole_pixel = square.is_oversized = square.enters = false;
     square.is_seen = corners.all_hit;
     return square;
 }

@@ -16,7 +16,7 @@
 
 #include "element/element_frame.glsl"
 #include "element/face_frame.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "element/inside.glsl"
 #include "arithmetic/model.glsl"
 #include "element/prediction.glsl"
@@ -68,12 +68,14 @@ struct core_subpixel {
 // Sine of the angle between surface and face below which the face may lie in the surface, if it also lies there within rounding.
 #define CORE_COPLANAR elvis_real(1e-4LF)
 
+// In place of the index of a face within an element.
 #define CORE_NO_FACE -1
 
-// Where a surface touches an element along an edge only, it crosses two faces or more in the subpixel. How far a corner is beyond each of
-// them, over the change of that in the subpixel, has a mean. That is negative in the element. If it is negative at no corner, but for
-// rounding, the surface is grazed. One face is no edge: along the border of the volume there may be no other element to tell its line.
-// A subpixel that is not this many times as wide as the rounding, at extreme magnification, stays open.
+// Where a surface touches an element along an edge only, corners straddle two faces or more. For each of these faces, take a corner's
+// distance beyond it, divided by the face's range over the corners. In the element the mean over these faces is negative. If it is
+// negative at no corner, but for rounding, the surface only touches the edge. One face is no edge: along the border of the volume there
+// may be no other element to tell its line. A subpixel that is not this many times as wide as the rounding, at extreme magnification,
+// stays open.
 #define CORE_GRAZE_SPAN elvis_real(64)
 
 uint core_bits(bvec4 b) { return uint(b.x) | uint(b.y) << 1 | uint(b.z) << 2 | uint(b.w) << 3; }
@@ -187,9 +189,9 @@ core_subpixel core_subpixel_at(core_element_image image, core_frame frame, core_
 struct core_approach {
     // Another point of the element is so much nearer to the subpixel that more would be known from there.
     bool is_far;
-    // The subpixel lies outside for another reason than the bound, which says nothing far away from a curved element: the point of the
-    // element nearest to the prediction is about the one that it was made from, and the subpixel lies beyond a face by far more than
-    // the two are apart. Only an element that folds could meet the surface elsewhere all the same; of those no curvature is known.
+    // The subpixel lies outside although the bound, which says nothing far away from a curved element, does not show it. The prediction's
+    // nearest element point is almost the point it was made from, and the subpixel is beyond a face by much more than their distance.
+    // Only an element that folds could still meet the surface elsewhere; of those no curvature is known.
     bool is_clear;
 };
 

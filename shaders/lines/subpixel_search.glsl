@@ -15,7 +15,7 @@
 #include "lines/subpixel_quadtree.glsl"
 
 // Times the mapping is linearized anew nearer to a subpixel before the subpixel is judged.
-#define CORE_MAX_MOVES 8u
+#define CORE_MOST_MOVES 8u
 
 // The point of the element at which the mapping is linearized next, expected to be the middle of the subpixel.
 void core_predict(core_surface surface, core_shown_square square, core_element_image image, inout core_line_search search) {
@@ -26,7 +26,7 @@ void core_predict(core_surface surface, core_shown_square square, core_element_i
     elvis_vec3 next = image.xi + (is_usable ? clamp(step, elvis_real(-4), elvis_real(4)) : elvis_vec3(0));
     core_project(next.x, next.y, next.z);
     // Whole steps may go to and fro between points of a strongly curved element.
-    const elvis_real share = search.moves > CORE_MAX_MOVES / 2u ? elvis_real(0.5LF) : elvis_real(1);
+    const elvis_real share = search.moves > CORE_MOST_MOVES / 2u ? elvis_real(0.5LF) : elvis_real(1);
     search.x += share * (next.x - search.x);
     search.y += share * (next.y - search.y);
     search.z += share * (next.z - search.z);
@@ -58,24 +58,24 @@ void core_ask(core_surface surface, inout core_line_search search) {
     const bool is_known = square.corners.all_hit;
     const bool is_out = square.is_absent ||
                         (is_known && (square.subpixel.is_outside || square.approach.is_clear || square.is_hidden));
-    const bool may_move = is_active && !is_out && is_known && square.approach.is_far && search.moves < CORE_MAX_MOVES;
+    const bool may_move = is_active && !is_out && is_known && square.approach.is_far && search.moves < CORE_MOST_MOVES;
     const bool is_judged = is_active && !is_out && !(CORE_MOVES_FIRST != 0 && may_move);
 
     core_line_marks lines = search.lines;
     const bool is_inside = is_known && square.subpixel.is_inside;
     const core_isovalue_test test = core_isovalues_in(image, square.subpixel.region);
-    core_find_lines(lines, is_judged && lines.wants_contour && square.is_seen && is_inside && test.is_met,
-                    is_judged && lines.wants_mesh && square.is_seen && square.subpixel.is_crossed);
+    core_record_lines(lines, is_judged && lines.wants_contour && square.is_seen && is_inside && test.is_met,
+                      is_judged && lines.wants_mesh && square.is_seen && square.subpixel.is_crossed);
     const bool leaves_contour = is_judged && lines.wants_contour && !(is_known && test.is_excluded);
     const bool leaves_mesh = is_judged && lines.wants_mesh && !is_inside;
     const bool is_left_open = leaves_contour || leaves_mesh;
     const bool moves_on = may_move && (CORE_MOVES_FIRST != 0 || is_left_open);
     const bool is_divided = is_left_open && !moves_on && search.level < search.most_level;
-    // Of a square that is larger than the pixel, only lines in the pixel can decide what it leaves open.
+    // A square larger than the pixel cannot prove a line. Its open answer stays unless a smaller square finds one.
     const bool stays_open = !moves_on && (!is_divided || square.is_oversized);
     core_leave_open(lines, leaves_contour && stays_open, leaves_mesh && stays_open);
     lines.is_estimated = lines.is_estimated || (is_judged && test.is_estimated);
     search.lines = lines;
-    search.goes_on = core_wants_lines(lines) && !(is_judged && square.is_whole && is_inside && !leaves_contour);
+    search.goes_on = core_is_looking(lines) && !(is_judged && square.is_whole_pixel && is_inside && !leaves_contour);
     core_go_on(surface, square, image, is_active, moves_on, is_divided, search);
 }

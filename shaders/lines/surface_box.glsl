@@ -1,6 +1,6 @@
 // A box around a pixel's part of a surface, in the coordinates of the hierarchy. The kernel brings tiles/hierarchy.glsl.
 
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 
 struct core_box {
     vec3 lower, upper;

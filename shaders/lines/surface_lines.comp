@@ -29,5 +29,5 @@ void main() {
     core_surface surface;
     core_line_search search = core_begin_surface(listed, surface);
     core_search_lines(surface, search);
-    core_answer(listed, search);
+    core_store_or_relist(listed, search);
 }

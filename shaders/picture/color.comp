@@ -4,7 +4,7 @@
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "arithmetic/finite.glsl"
 #include "picture/samples.glsl"
 // A kernel without light costs nothing for it.
@@ -33,7 +33,7 @@ layout(push_constant) uniform core_parameters {
     uint core_n_clips;
     // Flags of every pixel that is hit.
     uint core_common_flags;
-    uint core_surface;
+    uint core_surface_number;
     // CORE_STYLE_...
     uint core_contour_style;
     uint core_mesh_style;
@@ -182,11 +182,11 @@ elvis_vec3 core_lit_at(uint pixel, elvis_vec3 color) {
 void core_note_special(core_shown shown, elvis_vec4 limits) {
     const bool is_far = !shown.is_outside && (shown.value < limits.y || shown.value > limits.z);
     if (shown.has_no_place || is_far) {
-        core_special_values[4u * core_surface + (shown.has_no_place ? 2u : (shown.is_below ? 0u : 1u))] = 1u;
+        core_special_values[4u * core_surface_number + (shown.has_no_place ? 2u : (shown.is_below ? 0u : 1u))] = 1u;
     }
     // Few write what nearly all would.
-    if (core_special_values[4u * core_surface + 3u] == 0u) {
-        core_special_values[4u * core_surface + 3u] = 1u;
+    if (core_special_values[4u * core_surface_number + 3u] == 0u) {
+        core_special_values[4u * core_surface_number + 3u] = 1u;
     }
 }
 

@@ -3,7 +3,7 @@
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "picture/samples.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "tiles/node_tiles.glsl"
 
 layout(set = 0, binding = 0, std430) readonly buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 1, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
@@ -13,14 +13,14 @@ layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
     uint core_width;
-    uint core_tiles_a_row;
+    uint core_tiles_per_row;
 };
 
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const uint safe = min(pixel, core_n_pixels - 1u);
     const uint column = safe % core_width, row = safe / core_width;
-    const uint tile = row / CORE_TILE_HEIGHT * core_tiles_a_row + column / CORE_TILE_WIDTH;
+    const uint tile = row / CORE_TILE_HEIGHT * core_tiles_per_row + column / CORE_TILE_WIDTH;
     const bool is_open = (core_marks[safe].owner & CORE_OWNER_SETTLED) == 0u;
     const bool is_listed = pixel < core_n_pixels && is_open && core_tiles[tile * CORE_TILE_STRIDE] > 0u;
     const uint n_listed = subgroupAdd(is_listed ? 1u : 0u);

@@ -24,7 +24,7 @@ layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
     // Counted from 1.
-    uint core_surface;
+    uint core_surface_number;
     // The layer has normals.
     uint core_has_normals;
     // The picture is empty, with this colour.
@@ -67,7 +67,7 @@ void main() {
     const bool is_nearest = is_seen && depth < old_depth;
     if (is_inside) {
         const uint low_bits = layer.owner & ((1u << CORE_OWNER_BITS) - 1u);
-        core_marks[pixel].owner = is_nearest ? (core_surface << CORE_OWNER_BITS) | low_bits : (is_empty ? 0u : old.owner);
+        core_marks[pixel].owner = is_nearest ? (core_surface_number << CORE_OWNER_BITS) | low_bits : (is_empty ? 0u : old.owner);
         core_marks[pixel].flags = core_merged_flags(layer, is_first ? 0u : old.flags, is_drawn, is_seen, is_nearest);
     }
     if (is_nearest) {

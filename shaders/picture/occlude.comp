@@ -1,6 +1,6 @@
 // What opaque surfaces, drawn before, hide of the layer of the next one.
 //
-// Before it is drawn they stand in the layer as a surface that nothing behind goes before (cut_surface/show.glsl): then nothing is
+// Before it is drawn they stand in the layer as a surface that nothing behind goes before (picture/show.glsl): then nothing is
 // evaluated there, and isosurfaces are not looked for. Afterwards what still stands there is taken away again.
 
 layout(local_size_x = CORE_GROUP_SIZE) in;

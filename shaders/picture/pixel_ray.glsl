@@ -1,6 +1,6 @@
 // Rays of pixels.
 //
-// The kernel brings picture/cut_frame.glsl and tiles/hierarchy.glsl.
+// The kernel brings picture/view.glsl and tiles/hierarchy.glsl.
 
 #include "tiles/box_ray.glsl"
 

@@ -1,7 +1,7 @@
 // What a pixel, and the pixels around it, tell of the surface that it shows. The kernel brings core_size, core_marks, core_samples
 // and core_normals.
 
-#include "cut_surface/tangent_square.glsl"
+#include "picture/tangent_square.glsl"
 
 // How far neighbours may lie from the tangent plane of a smooth surface, relative to their distance.
 #define CORE_SMOOTH elvis_real(0.1LF)
@@ -18,8 +18,10 @@ core_tangent core_shown_tangent(uint pixel, core_cut_ray ray) {
 }
 
 struct core_surroundings {
-    // Every neighbour sees a point near the tangent plane. One of them sees a point in front of it.
-    bool is_smooth, is_hidden;
+    // Every neighbour sees a point near the tangent plane.
+    bool is_smooth;
+    // A neighbour sees a point in front of that plane: something may hide a part of the pixel.
+    bool may_be_hidden;
 #if !CORE_ON_FACES
     // How fast normals turn from here to those neighbours that are near the plane.
     elvis_real turning;
@@ -29,7 +31,7 @@ struct core_surroundings {
 core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_tangent tangent) {
     core_surroundings around;
     around.is_smooth = true;
-    around.is_hidden = false;
+    around.may_be_hidden = false;
     elvis_real turning = elvis_real(0);
     const core_cut_ray own = core_cut_ray_at(elvis_real(place.x), elvis_real(place.y));
     const elvis_vec3 base = own.base - tangent.point, direction = own.direction;
@@ -48,7 +50,7 @@ core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_
         const bool is_far = height * height > CORE_SMOOTH * CORE_SMOOTH * square;
         const bool is_near = is_seen && !is_far;
         around.is_smooth = around.is_smooth && (other == pixel || is_near);
-        around.is_hidden = around.is_hidden || (other != pixel && is_seen && is_far && height > elvis_real(0));
+        around.may_be_hidden = around.may_be_hidden || (other != pixel && is_seen && is_far && height > elvis_real(0));
 #if !CORE_ON_FACES
         const elvis_real turned = length(core_shown_normal(other) - tangent.normal) / sqrt(square);
         turning = other != pixel && is_near ? max(turning, turned) : turning;

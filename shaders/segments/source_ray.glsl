@@ -15,7 +15,7 @@ layout(set = 0, binding = 0, std140) uniform core_frame_block {
 layout(set = 0, binding = CORE_RAYS_BINDING, std430) readonly buffer core_rays_block { elvis_vec4 core_rays[]; };
 #define CORE_CENTRE core_centre.xyz
 #else
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "picture/pixel_ray.glsl"
 #define CORE_CENTRE core_reference.xyz
 #endif

@@ -6,7 +6,7 @@ struct core_ray {
     vec3 box_origin;
     // Size of the coordinates that box_origin is made of.
     float far;
-    // Of points in front of the eye, or behind the last crossing, and by how many times a crossing's rounding they must be.
+    // Crossings count only if t > least_t + widths_behind x the crossing's error.
     elvis_real least_t, widths_behind;
     elvis_real error;
 };

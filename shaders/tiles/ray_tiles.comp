@@ -4,7 +4,7 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "tiles/hierarchy.glsl"
 #include "tiles/ray_tiles.glsl"
 #include "arithmetic/driver_limit.glsl"
@@ -43,18 +43,18 @@ layout(std430, set = 0, binding = 2) buffer core_has_starts_block { uint core_ha
 bool core_leaf_is_met(uint item, core_frustum frustum, vec2 span) { return true; }
 #endif
 
-// The tile's list, by ascending entry.
+// The tile's list, by ascending enter_t.
 uint core_words[CORE_TILE_CAPACITY];
-float core_entries[CORE_TILE_CAPACITY];
+float core_enter_t[CORE_TILE_CAPACITY];
 
-void core_insert(uint n_entries, uint word, float entry) {
+void core_insert(uint n_entries, uint word, float enter_t) {
     uint place = n_entries;
-    while (place > 0u && core_entries[max(place, 1u) - 1u] > entry) {
-        core_entries[place] = core_entries[place - 1u];
+    while (place > 0u && core_enter_t[max(place, 1u) - 1u] > enter_t) {
+        core_enter_t[place] = core_enter_t[place - 1u];
         core_words[place] = core_words[place - 1u];
         place -= 1u;
     }
-    core_entries[place] = entry;
+    core_enter_t[place] = enter_t;
     core_words[place] = word;
 }
 
@@ -69,7 +69,7 @@ void core_write_list(uint tile, bool is_wanted, uint n_entries, uint n_inner) {
     }
     for (uint i = 0u; i < n_entries; ++i) {
         core_tiles[first + 1u + 2u * i] = core_words[i];
-        core_tiles[first + 2u + 2u * i] = floatBitsToUint(core_entries[i]);
+        core_tiles[first + 2u + 2u * i] = floatBitsToUint(core_enter_t[i]);
     }
 #ifdef CORE_LISTS_TILES
     if (n_entries > 0u) {
@@ -119,6 +119,6 @@ void main() {
     // Then pixels descend from the root.
     const bool is_cut_short = is_wanted && (stack_size > 0u || core_has_driver_given_up(core_end_tile >> 31));
     core_words[0] = is_cut_short ? CORE_TILE_INNER : core_words[0];
-    core_entries[0] = is_cut_short ? -3e38 : core_entries[0];
+    core_enter_t[0] = is_cut_short ? -3e38 : core_enter_t[0];
     core_write_list(tile, is_wanted, is_cut_short ? 1u : n_entries, is_cut_short ? 1u : n_inner);
 }

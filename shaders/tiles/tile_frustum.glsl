@@ -1,4 +1,4 @@
-// The rays of a rectangle of pixels, all together. The kernel brings picture/cut_frame.glsl and tiles/hierarchy.glsl.
+// The rays of a rectangle of pixels, all together. The kernel brings picture/view.glsl and tiles/hierarchy.glsl.
 
 #ifndef CORE_TILE_FRUSTUM
 #define CORE_TILE_FRUSTUM

@@ -1,9 +1,9 @@
 // What is known of the field along a segment without evaluating it: bounds, from the element's linear model
-// (isosurface/linear_model.glsl) and the line that the ray is in reference coordinates but for the mapping's curvature.
+// (field/linear_model.glsl) and the line that the ray is in reference coordinates but for the mapping's curvature.
 //
 // The kernel brings segments/segment.glsl and volume/volume_light.glsl.
 
-#include "isosurface/linear_model.glsl"
+#include "field/linear_model.glsl"
 
 // Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `segment`: as it is when
 // the ray's end in it has been found.

@@ -6,7 +6,7 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "arithmetic/precision.glsl"
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 #include "tiles/hierarchy.glsl"
 #include "picture/samples.glsl"
 #include "picture/pixel_ray.glsl"

@@ -37,7 +37,7 @@ void add_pixel_kernels(std::vector<KernelUse>& uses) {
 
 void add_element_kernels(std::vector<KernelUse>& uses) {
     uses.push_back({.kernel = "field/derivative_bounds", .element = Element::snippet, .watches_loops = true});
-    uses.push_back({.kernel = "lines/edge_samples", .element = Element::snippet});
+    uses.push_back({.kernel = "boundary/edge_samples", .element = Element::snippet});
     uses.push_back(
         {.kernel = "segments/face_cones", .element = Element::snippet, .is_for_solids = true, .watches_loops = true});
     uses.push_back({.kernel = "boundary/face_samples", .element = Element::snippet, .buffers = {"core_faces"}});
@@ -140,7 +140,7 @@ void add_line_kernels(std::vector<KernelUse>& uses) {
 }
 
 void add_isosurface_kernels(std::vector<KernelUse>& uses) {
-    for (const char* kernel : {"isosurface/linear_models", "isosurface/octants"}) {
+    for (const char* kernel : {"field/linear_models", "isosurface/octants"}) {
         uses.push_back({.kernel = kernel,
                         .element = Element::model,
                         .is_for_solids = true,

@@ -4,7 +4,7 @@
  *
  * Rays are anchored near the plane instead of at the eye: the base of a pixel's ray lies on the plane across the view through a
  * reference point, and is linear in column and row. So single precision rounds numbers of the size of what is seen, not of
- * the distance to the eye or to the world's origin. See shaders/picture/cut_frame.glsl.
+ * the distance to the eye or to the world's origin. See shaders/picture/view.glsl.
  */
 #pragma once
 

@@ -12,7 +12,7 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t tile_height = 16;
-/** Nodes of a tile and their number: shaders/tiles/cut_tiles.glsl. */
+/** Nodes of a tile and their number: shaders/tiles/node_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;
 /**

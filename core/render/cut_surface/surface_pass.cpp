@@ -13,7 +13,7 @@ namespace elvis {
 
 namespace {
 
-/** Nodes of a tile and their number: shaders/tiles/cut_tiles.glsl. */
+/** Nodes of a tile and their number: shaders/tiles/node_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;
 /** Pixels of one dispatch: bounds its time, and the share of each thread of a software driver. */

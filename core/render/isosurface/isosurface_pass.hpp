@@ -37,7 +37,7 @@ public:
 
     /** An upper bound of the normal curvatures of what was drawn last, a number a pixel. */
     const Buffer& bending() const { return *m_bending; }
-    /** The rays of what was drawn last, as kernels read them (cut_frame.glsl). */
+    /** The rays of what was drawn last, as kernels read them (view.glsl). */
     const Buffer& frame() const { return m_frame; }
 
 private:

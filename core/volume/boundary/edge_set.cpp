@@ -81,7 +81,7 @@ std::vector<double> sample(const Device& device, const DeviceVolume& data, std::
     const std::uint32_t n_points = order + 1;
     KernelRequest request;
     request.name = "edge_samples of element class " + std::to_string(element_class);
-    request.kernel = "lines/edge_samples.comp";
+    request.kernel = "boundary/edge_samples.comp";
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};

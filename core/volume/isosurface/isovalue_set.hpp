@@ -20,7 +20,7 @@ namespace elvis {
 
 /**
  * For the field or expression that `data` has selected, with its derivative bounds: a linear model of it in every element
- * (shaders/isosurface/linear_model.glsl), and hierarchies over the elements that can hold an isovalue, one for each class, and
+ * (shaders/field/linear_model.glsl), and hierarchies over the elements that can hold an isovalue, one for each class, and
  * over the octants of these, or octants of octants, that can (shaders/isosurface/octant.glsl): as many as there is room
  * for. Elements of which the range is only estimated are kept, so that rays past them can be flagged, unless all are: see
  * rests_on_estimates().

@@ -33,7 +33,7 @@ LinearModels::LinearModels(const Device& device, const RuntimeVolume& volume, co
             std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, record_size);
         KernelRequest request;
         request.name = "linear models of element class " + std::to_string(index);
-        request.kernel = "isosurface/linear_models.comp";
+        request.kernel = "field/linear_models.comp";
         request.watches_loops = true;
         request.precision = data.precision();
         data.add_field(request, index, true);

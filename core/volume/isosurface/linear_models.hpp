@@ -30,7 +30,7 @@ struct ModelRange {
 
 /**
  * For the field or expression that `data` has selected, with its derivative bounds: a linear model of it in every element with
- * a bound of the remainder (shaders/isosurface/linear_model.glsl). No element is marked as estimated if all are.
+ * a bound of the remainder (shaders/field/linear_model.glsl). No element is marked as estimated if all are.
  */
 class LinearModels {
 public:

@@ -1,9 +1,9 @@
-// A linear model of the shown field over each whole element, and its range (isosurface/linear_model.glsl).
+// A linear model of the shown field over each whole element, and its range (field/linear_model.glsl).
 
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
-#include "isosurface/linear_model.glsl"
+#include "field/linear_model.glsl"
 
 layout(set = 0, binding = 0, std430) writeonly buffer core_output { float core_numbers[]; };
 layout(push_constant) uniform core_parameters {
@@ -13,7 +13,7 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
 };
 
-#include "isosurface/cube_model.glsl"
+#include "field/cube_model.glsl"
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;

@@ -4,7 +4,7 @@
 // The kernel brings core_tiles, and CORE_LISTED_BINDING.
 
 #include "tiles/hierarchy.glsl"
-#include "tiles/cut_tiles.glsl"
+#include "tiles/node_tiles.glsl"
 #include "arithmetic/driver_limit.glsl"
 #include "tiles/list_tile.glsl"
 

@@ -1,7 +1,6 @@
 // A linear model of a field over a whole element, from its centroid, in single precision: what can be told of the field along a ray
-// before anything is evaluated. From the host's buffer core_models: value, slope, remainder (arithmetic/model.glsl), and the range of
-// the field, which the host chooses elements by; and whether a ray that passes the element by, on the word of these, is to be flagged,
-// because they are estimates.
+// before anything is evaluated. From the host's buffer core_models: value, slope, remainder (arithmetic/model.glsl); the field's range, by
+// which the host selects elements; and whether the bounds are estimates, so that rays that skip the element are flagged.
 
 #define CORE_VALUE_UNKNOWN 3e38
 

@@ -1,7 +1,7 @@
 // What is found along a pixel's ray, and how it gets into the picture: the nearest surface wins; on one surface, the element on the
 // viewer's side, then the lowest number.
 //
-// The kernel brings picture/cut_frame.glsl, picture/samples.glsl, core_samples, core_marks, core_surface, core_first_component,
+// The kernel brings picture/view.glsl, picture/samples.glsl, core_samples, core_marks, core_surface_number, core_first_component,
 // core_end_component and core_is_discontinuous.
 
 #include "arithmetic/driver_limit.glsl"
@@ -31,14 +31,14 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
     const uint old_surface = old_owner >> CORE_OWNER_BITS;
     const uint old_number = core_samples[pixel].number;
     const bool has_found = found.element != CORE_NO_ELEMENT;
-    const bool is_same_surface = old_surface == core_surface;
+    const bool is_same_surface = old_surface == core_surface_number;
     const uint old_key = old_owner & CORE_OWNER_KEY;
     const bool is_nearer = old_surface == 0u || depth < core_samples[pixel].depth;
     const bool is_better = found.key < old_key || (found.key == old_key && found.number < old_number);
     const bool is_shown = has_found && (is_same_surface ? is_better : is_nearer);
 
     const bool is_ambiguous = found.is_on_crossing_face && core_is_discontinuous != 0u;
-    uint owner = is_shown ? (core_surface << CORE_OWNER_BITS) | found.key | (found.is_on_face ? CORE_OWNER_ON_FACE : 0u) |
+    uint owner = is_shown ? (core_surface_number << CORE_OWNER_BITS) | found.key | (found.is_on_face ? CORE_OWNER_ON_FACE : 0u) |
                                 (is_ambiguous ? CORE_OWNER_AMBIGUOUS : 0u)
                           : old_owner;
     const bool is_shared = has_found && (is_same_surface || (is_shown && found.n_candidates > 1u));

@@ -1,16 +1,17 @@
-// Geometry of one cut plane in one picture, prepared by the host in double precision (core/render/cut_surface/cut_plane_geometry.hpp).
+// Rays of the picture; and the cut plane, if there is one. The host prepares both in double precision
+// (core/render/cut_surface/cut_plane_geometry.hpp).
 //
-// Everything is relative to a reference point near what is seen of the plane, so that single precision spends its digits
+// Everything is relative to a reference point near what is seen, so that single precision spends its digits
 // on differences. Pixel (column, row) has the ray
 //     base + t * direction,   base = base0 + (column - column0) * base_column + (row - row0) * base_row,   direction likewise,
 // with (column0, row0) in the picture's middle, so that no large terms cancel, base on a plane across the view, and t the distance
 // along the view's axis. It meets the cut plane at t = -level / slope, where
 // level (signed distance of base from the plane) and slope are linear in column and row, too.
 
-#ifndef CORE_CUT_FRAME
-#define CORE_CUT_FRAME
+#ifndef CORE_VIEW
+#define CORE_VIEW
 
-layout(std140, set = 0, binding = 0) uniform core_cut_frame {
+layout(std140, set = 0, binding = 0) uniform core_view {
     // xyz: base; w: level
     elvis_vec4 core_base0, core_base_column, core_base_row;
     // xyz: direction; w: slope

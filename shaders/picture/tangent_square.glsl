@@ -3,7 +3,7 @@
 #ifndef CORE_TANGENT_SQUARE
 #define CORE_TANGENT_SQUARE
 
-#include "picture/cut_frame.glsl"
+#include "picture/view.glsl"
 
 // The tangent plane; relative to the reference point.
 struct core_tangent {
