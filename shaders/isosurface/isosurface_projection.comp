@@ -98,7 +98,7 @@ core_traced_ray core_projection_ray(core_ray ray, elvis_real stretch, out elvis_
     traced_ray.origin = ray.origin;
     traced_ray.direction = ray.direction;
     traced_ray.speed = stretch;
-    traced_ray.reach = elvis_real(4) * far / stretch;
+    traced_ray.longest = elvis_real(4) * far / stretch;
     traced_ray.tolerance = CORE_END_TOLERANCE * size;
     traced_ray.error = ray.error + elvis_real(2) * CORE_ROUNDOFF * far;
     return traced_ray;

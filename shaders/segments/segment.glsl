@@ -37,8 +37,8 @@
 #endif
 
 // Newton's method for where a ray enters: starts, and steps from each.
-#define CORE_ENTRY_STARTS 10u
-#define CORE_ENTRY_STEPS 12u
+#define CORE_ENTER_STARTS 10u
+#define CORE_ENTER_STEPS 12u
 // Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's
 // neighbourhood are taken for each other.
 #define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
@@ -62,8 +62,8 @@ struct core_traced_ray {
     elvis_real error;
     // Parameters closer than this are the same: the distance that ends may be off, over the direction's length.
     elvis_real tolerance, speed;
-    // Parameters within which the whole volume lies.
-    elvis_real reach;
+    // Longest way through the volume, as a parameter.
+    elvis_real longest;
 };
 
 struct core_segment {
@@ -110,13 +110,13 @@ bool core_segment_begin(core_traced_ray ray, uint element, elvis_real begin, elv
     const core_linearization linearization = core_fetch_linearization(element);
     const bool is_linearized = linearization.exponents != 0u;
     const elvis_vec3 first = core_segment_target(ray, element, begin);
-    const elvis_vec3 second = first + ray.reach * ray.direction;
+    const elvis_vec3 second = first + ray.longest * ray.direction;
     const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(first)));
     const elvis_vec3 there = elvis_vec3(core_linear_inverse(linearization, vec3(second)));
     const elvis_real curvature = CORE_SEGMENT_CURVATURE(element);
     core_ray_model model;
     model.at = here;
-    model.slope = (there - here) / ray.reach;
+    model.slope = (there - here) / ray.longest;
     model.anchor = begin;
     model.step = model.noise = elvis_vec3(0);
 #if ELVIS_HAS_INSIDE
@@ -188,7 +188,7 @@ bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segmen
     bool is_found = false;
     elvis_real x = segment.anchor.x, y = segment.anchor.y, z = segment.anchor.z;
     core_project(x, y, z);
-    while (!is_found && start < CORE_ENTRY_STARTS) {
+    while (!is_found && start < CORE_ENTER_STARTS) {
         const core_ray_evaluation here = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), segment.anchor.t);
         const elvis_vec3 at = here.model.at, slope = here.model.slope;
         const elvis_real noise = core_max_norm(here.model.noise), size = core_max_norm(here.model.step);
@@ -201,7 +201,7 @@ bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segmen
         is_found = is_there && is_in;
         segment.anchor = core_either(is_found, core_ray_point_at(segment.anchor.t, at, slope), segment.anchor);
         // From the centroid, then from near the corners.
-        const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTRY_STEPS;
+        const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTER_STEPS;
         const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
         x = is_failed ? CORE_CENTROID.x + ((start & 1u) == 0u ? out_to : -out_to) : at.x;
         y = is_failed ? CORE_CENTROID.y + ((start & 2u) == 0u ? out_to : -out_to) : at.y;
@@ -299,10 +299,10 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     segment.is_assumed = segment.is_assumed && is_kept_in && !is_confirmed;
     bool has_left = false;
     if (is_kept_in) {
-        has_left = core_seek_exit(ray, clip, is_exact, error.parameter, segment);
+        has_left = core_seek_leave(ray, clip, is_exact, error.parameter, segment);
     }
     if (!is_kept_in) {
-        core_seek_entry(ray, clip, is_exact, error.parameter, segment);
+        core_seek_enter(ray, clip, is_exact, error.parameter, segment);
     }
     segment.is_followed = segment.is_followed && !is_denied;
     core_predict_from(here, curvature, ray.tolerance, segment);

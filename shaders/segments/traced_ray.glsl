@@ -17,6 +17,6 @@ core_traced_ray core_traced_ray_of(core_ray pixel_ray, elvis_real extent) {
     ray.speed = length(pixel_ray.direction);
     ray.error = CORE_ROUNDING_SHARE * (pixel_ray.error + elvis_real(2) * CORE_ROUNDOFF * extent);
     ray.tolerance = CORE_END_TOLERANCE * extent / ray.speed;
-    ray.reach = elvis_real(4) * extent / ray.speed;
+    ray.longest = elvis_real(4) * extent / ray.speed;
     return ray;
 }
