@@ -70,11 +70,8 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 // Times that a segment may be halved. A field that is smooth needs few; that its derivatives jump is seen at the last.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_MOST_LEVELS 14u
-// Distance within which the ends of segments are wanted, over the volume's size.
-#define CORE_END_TOLERANCE elvis_real(2e-14LF)
 #else
 #define CORE_MOST_LEVELS 8u
-#define CORE_END_TOLERANCE elvis_real(2.5e-7LF)
 #endif
 
 #include "isosurface/nearest_crossing.glsl"

@@ -85,8 +85,8 @@ core_entered_face core_enter_face(core_traced_ray ray, uint element, elvis_real 
         const elvis_real near =
             dot(position - core_segment_target(ray, element, elvis_real(0)), ray.direction) / dot(ray.direction, ray.direction);
         model.anchor = near;
-        model.step = core_to_xi(frame, core_segment_target(ray, element, near) - position);
-        model.at = elvis_vec3(x, y, z) + model.step;
+        model.newton_step = core_to_xi(frame, core_segment_target(ray, element, near) - position);
+        model.at = elvis_vec3(x, y, z) + model.newton_step;
         model.noise = frame.xi_error;
         const elvis_real rate = dot(constraint.xyz, model.slope);
         const elvis_real root = near - (dot(constraint.xyz, model.at) + constraint.w) / rate;

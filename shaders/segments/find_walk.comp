@@ -41,7 +41,6 @@ layout(push_constant) uniform core_parameters {
 #include "segments/source_ray.glsl"
 #include "arithmetic/driver_limit.glsl"
 #include "segments/segment.glsl"
-#include "segments/traced_ray.glsl"
 #include "segments/start_bounds.glsl"
 #include "arithmetic/count.glsl"
 #if CORE_HAS_CURVED

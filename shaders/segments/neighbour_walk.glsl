@@ -48,10 +48,10 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
     bool is_over = false;
     while (!is_over) {
         const core_ray_evaluation here = core_evaluate_ray(ray, element, elvis_vec3(x, y, z), t);
-        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(here.model.step, elvis_vec3(-4), elvis_vec3(4));
+        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(here.model.newton_step, elvis_vec3(-4), elvis_vec3(4));
         const elvis_real noise = elvis_real(4) * core_max_norm(here.model.noise);
         steps += 1u;
-        const bool is_there = core_max_norm(here.model.step) <= noise || steps >= 8u;
+        const bool is_there = core_max_norm(here.model.newton_step) <= noise || steps >= 8u;
         elvis_real worst = elvis_real(-4);
         uint worst_face = 0u;
         for (int face = 0; face < CORE_N_FACES; ++face) {
@@ -111,7 +111,7 @@ void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment
     segment.enter_error = elvis_real(0);
     segment.leave = leave;
     segment.leave_face = leave_face;
-    segment.step = elvis_real(3e38LF);
+    segment.newton_step = elvis_real(3e38LF);
     segment.is_estimated = true;
 }
 

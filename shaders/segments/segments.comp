@@ -39,7 +39,6 @@ layout(push_constant) uniform core_parameters {
 #define CORE_CERTAIN_ITERATIONS 512u
 #define CORE_SEGMENT_ITERATIONS 640u
 #include "segments/segment.glsl"
-#include "segments/traced_ray.glsl"
 #include "segments/neighbour_walk.glsl"
 #include "arithmetic/count.glsl"
 

@@ -2,8 +2,8 @@
 // evaluation.
 //
 // A ray that surely enters through a face does so once: in elements that are nearly linear, because the way between two points of the
-// shape lies in it; in others, because a face whose directions all lie within an angle does not come back above itself, but as a spiral
-// staircase. Through other faces it can enter only where the face's constraint may be zero and the others may hold.
+// shape lies in it; in others, because a face whose normals lie within a cone cannot overlap itself as seen along the ray, except if it
+// winds like a spiral staircase. Through other faces it can enter only where the face's constraint may be zero and the others may hold.
 //
 // The kernel brings segments/segment.glsl and core_links.
 
