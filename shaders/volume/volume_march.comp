@@ -35,7 +35,7 @@ layout(push_constant) uniform core_parameters {
     // The diagonal of the volume's bounds.
     float core_extent;
     // Of a channel; of the field's density and light with its value, at most; world length of steps.
-    float core_tolerance, core_steepest, core_step;
+    float core_tolerance, core_steepest, core_step_length;
 };
 
 #define CORE_CENTRE core_reference.xyz
@@ -112,7 +112,7 @@ void main() {
     const core_traced_ray ray = core_traced_ray_of(core_pixel_ray(column, elvis_real(place.y)), elvis_real(core_extent));
     const core_ray_stop stop = core_stop_of(pixel, ray.speed, column.reference_distance);
     const core_volume_state state = core_states[pixel];
-    core_march march = core_march(core_walk_begin(state.walk, is_pixel, stop.t, stop.status), state.light, core_hold_piece(0u),
+    core_march march = core_march(core_walk_begin(state.walk, is_pixel, stop.t, stop.status), state.light, core_load_piece(0u),
                                   state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     core_segment segment = core_no_segment();
     bool goes = core_walk_goes_here(march.walk);
