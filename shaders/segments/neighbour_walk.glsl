@@ -34,10 +34,12 @@
 #define CORE_ROUGH_ITERATIONS 8u
 #define CORE_ALONG 1e-5
 
-bool core_is_of_class(uint number) { return number >= core_first_element && number - core_first_element < core_n_elements; }
+bool core_is_of_class(uint global_element) {
+    return global_element >= core_first_element && global_element - core_first_element < core_n_elements;
+}
 
-// Goes from element to element towards the point of the ray at t, until one holds it. Returns that element of the class; or
-// CORE_NO_ELEMENT, and in `other` the number of one in another class in which to go on, if there is one. `is_lost`: the search has failed.
+// Goes from element to element towards the point of the ray at t, until one holds it. Returns that element; or CORE_NO_ELEMENT, and in
+// `other` the global element of another class in which to go on, if there is one. `is_lost`: the search has failed.
 uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
     bool has_left = false;
@@ -115,26 +117,28 @@ void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment
     segment.is_estimated = true;
 }
 
-bool core_walk_goes_here(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_of_class(walk.number); }
+bool core_walk_goes_here(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_of_class(walk.global_element); }
 
 // Of a ray that ends at `to` and then has the status `status_at_end`. `is_ray`: false for lanes without a ray.
 core_walk core_walk_begin(core_walk_state state, bool is_ray, elvis_real to, uint status_at_end) {
     const uint status = is_ray ? state.status : CORE_RAY_ENDS;
-    const bool has_sought = status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && state.number == CORE_NO_ELEMENT;
-    const bool is_mine = is_without || ((has_sought || status == CORE_RAY_GOES) && core_is_of_class(state.number));
+    const bool has_sought = status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && state.global_element == CORE_NO_ELEMENT;
+    const bool is_mine = is_without || ((has_sought || status == CORE_RAY_GOES) && core_is_of_class(state.global_element));
     const bool begins = is_mine && has_sought && !is_without;
-    return core_walk(state.done, state.at, begins ? state.at : state.start, begins ? state.number : state.start_number, state.number,
+    return core_walk(state.done, state.at, begins ? state.at : state.start,
+                     begins ? state.global_element : state.global_start_element, state.global_element,
                      is_without ? CORE_RAY_ENDS : is_mine && state.at >= to ? status_at_end : begins ? CORE_RAY_GOES : status,
                      state.flags, is_mine, 0u, false, false, false, false);
 }
 
 core_walk_state core_walk_end(core_walk walk) {
     const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = walk.status == CORE_RAY_SEEKS;
-    return core_walk_state(walk.done, seeks ? CORE_FAR : walk.at, walk.start, walk.start_number, seeks ? CORE_NO_ELEMENT : walk.number,
+    return core_walk_state(walk.done, seeks ? CORE_FAR : walk.at, walk.start, walk.global_start_element,
+                           seeks ? CORE_NO_ELEMENT : walk.global_element,
                            is_cut_short ? CORE_RAY_ENDS : walk.status, walk.flags | (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u));
 }
 
-// A ray in the element that the walk is in (walk.number).
+// A ray in the element that the walk is in (walk.global_element).
 struct core_passage {
     bool is_met;
     // Where it leaves; walk.at if the element is not met.
@@ -144,7 +148,8 @@ struct core_passage {
 core_passage core_walk_pass(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
     uint ending = CORE_SEGMENT_FOUND;
     if (!walk.has_segment) {
-        const bool is_possible = core_segment_begin(ray, walk.number - core_first_element, walk.at, walk.at + ray.longest, true, segment);
+        const bool is_possible =
+            core_segment_begin(ray, walk.global_element - core_first_element, walk.at, walk.at + ray.longest, true, segment);
         ending = is_possible ? CORE_SEGMENT_OPEN : CORE_SEGMENT_NONE;
     }
 #if CORE_HAS_CURVED
@@ -175,14 +180,14 @@ void core_walk_go_on(core_traced_ray ray, core_segment segment, core_passage pas
     bool stays = walk.needs_roughly;
     walk.is_ahead = walk.is_ahead && stays;
     walk.at = stays ? walk.at : passage.leave;
-    const uint next = elvis_fetch_core_links(walk.number - core_first_element, uint(max(segment.leave_face, 0)));
+    const uint next = elvis_fetch_core_links(walk.global_element - core_first_element, uint(max(segment.leave_face, 0)));
     // Elements on both sides of a face that the ray grazes may hand it to and fro.
     const bool is_stuck = passage.leave - from <= elvis_real(4) * ray.tolerance;
     // The face did not tell, or rounding led past an edge.
     walk.needs_element = !stays && (!passage.is_met || segment.leave_face < 0 || (is_stuck && walk.n_lost >= CORE_MOST_GRAZES));
     walk.n_lost = stays ? walk.n_lost : walk.needs_element || is_stuck ? walk.n_lost + 1u : 0u;
     stays = stays || walk.needs_element;
-    walk.number = stays ? walk.number : next;
+    walk.global_element = stays ? walk.global_element : next;
     walk.status = !stays && next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
 }
 
@@ -198,12 +203,12 @@ void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segmen
         const elvis_real probe = walk.at + elvis_real(4) * exp2(float(min(walk.n_lost - 1u, 30u))) * ray.tolerance;
         uint other;
         bool is_lost;
-        const uint found = core_find_around(ray, walk.number - core_first_element, probe, other, is_lost);
+        const uint found = core_find_around(ray, walk.global_element - core_first_element, probe, other, is_lost);
         walk.flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
-        walk.number = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+        walk.global_element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
         walk.at = probe;
         walk.is_ahead = true;
-        walk.status = walk.number == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+        walk.status = walk.global_element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
     }
     walk.needs_roughly = walk.needs_element = false;
 }

@@ -13,7 +13,7 @@ layout(set = 0, binding = 1, std430) buffer core_states_block { core_segment_sta
 struct core_segment_record {
     elvis_real enter, leave, error;
     // With CORE_ESTIMATED_SEGMENT where its ends are estimated.
-    uint number;
+    uint global_element;
 };
 #define CORE_ESTIMATED_SEGMENT 0x80000000u
 // core_capacity of them a ray.
@@ -65,14 +65,15 @@ struct core_segment_list {
 // The end of the last segment.
 void core_mark_estimated(core_segment_list list) {
     if (list.n_segments > 0u && list.capacity > 0u) {
-        core_segments[list.ray * list.capacity + list.n_segments - 1u].number |= CORE_ESTIMATED_SEGMENT;
+        core_segments[list.ray * list.capacity + list.n_segments - 1u].global_element |= CORE_ESTIMATED_SEGMENT;
     }
 }
 
-void core_append(uint number, elvis_real from, elvis_real until, elvis_real error, bool is_estimated, inout core_segment_list list) {
+void core_append(uint global_element, elvis_real from, elvis_real until, elvis_real error, bool is_estimated,
+                 inout core_segment_list list) {
     if (list.capacity > 0u) {
         core_segments[list.ray * list.capacity + list.n_segments] =
-            core_segment_record(from, until, error, number | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u));
+            core_segment_record(from, until, error, global_element | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u));
     }
     list.sum += until - from;
     list.n_segments += 1u;
@@ -98,7 +99,7 @@ elvis_real core_list_segment(core_traced_ray ray, core_segment segment, core_pas
     }
     const bool is_end_estimated = segment.is_estimated || is_uncertain;
     if (is_segment) {
-        core_append(walk.number, from, until, max(is_joined ? list.done_error : list.at_error, leave_error),
+        core_append(walk.global_element, from, until, max(is_joined ? list.done_error : list.at_error, leave_error),
                     is_end_estimated || (is_joined && list.is_done_estimated), list);
     }
     walk.done = is_segment ? until : walk.done;

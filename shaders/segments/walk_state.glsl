@@ -24,7 +24,7 @@ struct core_walk_state {
     elvis_real done, at, start;
     // The element in which the walk began, and the one that it is in; of a ray that seeks, the one with the nearest start found so far,
     // which is then `at`.
-    uint start_number, number;
+    uint global_start_element, global_element;
     uint status;
     // CORE_FLAG_...
     uint flags;
@@ -33,7 +33,7 @@ struct core_walk_state {
 // In a dispatch.
 struct core_walk {
     elvis_real done, at, start;
-    uint start_number, number, status, flags;
+    uint global_start_element, global_element, status, flags;
     // It begins, goes on or ends in this dispatch's class.
     bool is_mine;
     // Counts elements in a row that were not met, or in which the ray hardly advanced.

@@ -42,10 +42,10 @@ void main() {
         const uint column = tile * CORE_TILE_WIDTH + lane;
         const bool is_pixel = column < core_size.x;
         const uint pixel = is_pixel ? row * core_size.x + column : 0u;
-        const uint status = core_states[pixel].walk.status, number = core_states[pixel].walk.number;
+        const uint status = core_states[pixel].walk.status, global_element = core_states[pixel].walk.global_element;
         const bool has_sought = status == CORE_RAY_HAS_SOUGHT;
-        const bool ends = core_seeks != 0u ? status == CORE_RAY_SEEKS && !has_starts : has_sought && number == CORE_NO_ELEMENT;
-        const bool is_of_class = number >= core_first_element && number - core_first_element < core_n_elements;
+        const bool ends = core_seeks != 0u ? status == CORE_RAY_SEEKS && !has_starts : has_sought && global_element == CORE_NO_ELEMENT;
+        const bool is_of_class = global_element >= core_first_element && global_element - core_first_element < core_n_elements;
         const bool goes = (status == CORE_RAY_GOES || has_sought) && is_of_class;
         const bool seeks = (status == CORE_RAY_SEEKS && has_starts) || has_sought;
         const bool is_live = is_pixel && (core_seeks != 0u ? seeks : goes && !ends);

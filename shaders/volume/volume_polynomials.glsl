@@ -204,15 +204,15 @@ void core_integral_add(inout core_integral integral, inout core_light light, cor
 // wants the sample that is missing.
 void core_choose_step(inout core_integral integral, bool is_good) {
     const bool is_shorter = !is_good && integral.has_inner;
-    const elvis_real width = integral.right - integral.left, reach = integral.right + elvis_real(1.5LF) * width;
+    const elvis_real width = integral.right - integral.left, farther = integral.right + elvis_real(1.5LF) * width;
     const elvis_real inner = integral.left + CORE_INNER_AT * width;
-    const bool is_last = reach >= integral.to, is_known = is_last && integral.has_end;
+    const bool is_last = farther >= integral.to, is_known = is_last && integral.has_end;
     // Scales the bound to the shortened step.
     integral.bend *= is_shorter ? CORE_INNER_AT * CORE_INNER_AT : elvis_real(1);
     if (is_good) {
         integral.left = integral.right;
         integral.left_sample = integral.right_sample;
-        integral.right = is_last ? integral.to : reach;
+        integral.right = is_last ? integral.to : farther;
     }
     if (is_shorter) {
         integral.right = inner;
