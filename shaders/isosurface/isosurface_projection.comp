@@ -70,11 +70,8 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 // Times that a segment may be halved. A field that is smooth needs few; that its derivatives jump is seen at the last.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_MOST_LEVELS 14u
-// Distance within which the ends of segments are wanted, over the volume's size.
-#define CORE_END_TOLERANCE elvis_real(2e-14LF)
 #else
 #define CORE_MOST_LEVELS 8u
-#define CORE_END_TOLERANCE elvis_real(2.5e-7LF)
 #endif
 
 #include "isosurface/nearest_crossing.glsl"
@@ -98,7 +95,7 @@ core_traced_ray core_projection_ray(core_ray ray, elvis_real stretch, out elvis_
     traced_ray.origin = ray.origin;
     traced_ray.direction = ray.direction;
     traced_ray.speed = stretch;
-    traced_ray.reach = elvis_real(4) * far / stretch;
+    traced_ray.longest = elvis_real(4) * far / stretch;
     traced_ray.tolerance = CORE_END_TOLERANCE * size;
     traced_ray.error = ray.error + elvis_real(2) * CORE_ROUNDOFF * far;
     return traced_ray;

@@ -62,7 +62,7 @@ void core_projection_judge(inout core_projection_search search) {
 
 // The next candidate of the polynomial, to be polished.
 void core_projection_solve(core_traced_ray traced_ray, inout core_projection_search search) {
-    search.candidate = core_next_candidate(search.fit, search.bernstein, search.fit.error, search.isolation);
+    search.candidate = core_next_root_candidate(search.fit, search.bernstein, search.fit.error, search.isolation);
     const bool is_none = search.candidate.kind == CORE_CROSSING_NONE;
     // Where the polynomial is this near, the field may cross more than once; the slope tells.
     const elvis_real lower_value = core_bernstein_value(search.bernstein, search.candidate.lower);

@@ -35,7 +35,7 @@ struct core_projection_search {
     elvis_real floor_error;
 
     core_isolation isolation;
-    core_candidate candidate;
+    core_root_candidate candidate;
     elvis_real isovalue;
     // Holds the crossing; whether the field rises in it.
     elvis_real bracket_from, bracket_to;
@@ -63,7 +63,7 @@ core_projection_search core_projection_begin() {
     search.bernstein = search.fit.chebyshev;
     search.floor_error = elvis_real(0);
     search.isolation = core_isolation_begin();
-    search.candidate = core_candidate(CORE_CROSSING_NONE, 0u, elvis_real(0), elvis_real(0), elvis_real(0));
+    search.candidate = core_root_candidate(CORE_CROSSING_NONE, 0u, elvis_real(0), elvis_real(0), elvis_real(0));
     search.isovalue = search.bracket_from = search.bracket_to = elvis_real(0);
     search.rises = search.is_seen_below = search.is_seen_above = false;
     search.polish_iterations = 0u;

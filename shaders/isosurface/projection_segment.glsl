@@ -33,7 +33,7 @@ void core_projection_element(core_ray ray, core_traced_ray traced_ray, uint elem
     search.bend = elvis_real(2) * elvis_real(model.remainder) / (CORE_EXTENT * CORE_EXTENT);
     search.span_end = elvis_real(span.y);
     search.n_segments = 0u;
-    const elvis_real span_from = elvis_real(span.x), reach_end = min(search.span_end, span_from + traced_ray.reach);
+    const elvis_real span_from = elvis_real(span.x), reach_end = min(search.span_end, span_from + traced_ray.longest);
     const bool is_begun =
         !is_missed && !is_excluded && core_segment_begin(traced_ray, search.element, span_from, reach_end, false, search.segment);
     search.sought_from = search.segment.begin;

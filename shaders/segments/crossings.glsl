@@ -1,4 +1,5 @@
-// Where a polynomial takes given values (isovalues, breakpoints), in order along the segment. Before it the kernel brings
+// Finds where a polynomial takes isovalues, in order along the segment. Volume rendering meets breakpoints in volume/volume_exact.glsl.
+// Before it the kernel brings
 //     elvis_real core_listed_value(uint i)     an ascending list.
 //
 // The segment is divided dyadically, depth first, without a stack: an interval is [index, index + 1] / 2^level, and its coefficients are
@@ -27,8 +28,8 @@
 #else
 #define CORE_ISOLATION_LEVELS 16u
 #endif
-// Regula falsi with the Illinois rule gains a digit and a half in two steps once near; more steps are a multiple root's.
-#define CORE_POLISH_STEPS 48u
+// Regula falsi with the Illinois rule gains a digit and a half in two iterations once near; more are a multiple root's.
+#define CORE_ROOT_ITERATIONS 48u
 
 // The interval at hand, and how many of its crossings have been found before.
 struct core_isolation {
@@ -57,7 +58,7 @@ void core_isolation_next(inout core_isolation isolation) {
     isolation.rank = 0u;
 }
 
-// Number of listed values below x (or not above it).
+// Number of listed values below x. `with_x`: counts values equal to x, too.
 uint core_count_below(elvis_real x, bool with_x, uint n_values) {
     uint first = 0u, last = n_values;
     while (first < last) {
@@ -71,12 +72,13 @@ uint core_count_below(elvis_real x, bool with_x, uint n_values) {
 }
 
 // Root of p - value in [0, 1], which has different signs at the ends (or zero at the second).
-elvis_real core_polish(core_polynomial p, elvis_real value) {
+elvis_real core_polynomial_root(core_polynomial p, elvis_real value) {
     elvis_real a = elvis_real(0), b = elvis_real(1);
     elvis_real fa = p.c[0] - value, fb = p.c[CORE_FIT_DEGREE] - value;
     elvis_real x = fa == elvis_real(0) ? a : b, fx = fa == elvis_real(0) ? fa : fb;
     elvis_real step = elvis_real(1);
-    for (uint iteration = 0u; iteration < CORE_POLISH_STEPS && fx != elvis_real(0) && step > elvis_real(4) * CORE_ROUNDOFF; ++iteration) {
+    for (uint iteration = 0u; iteration < CORE_ROOT_ITERATIONS && fx != elvis_real(0) && step > elvis_real(4) * CORE_ROUNDOFF;
+         ++iteration) {
         const elvis_real last = x;
         x = a + (b - a) * (fa / (fa - fb));
         fx = core_bernstein_value(p, x) - value;
@@ -92,7 +94,7 @@ elvis_real core_polish(core_polynomial p, elvis_real value) {
 }
 
 // The crossing that is next in isolation's interval, if there is one; moves isolation on. Its parameter is that in the interval; of a
-// verified or probable crossing it is found later (core_polish).
+// verified or probable crossing it is found later (core_polynomial_root).
 core_crossing core_look_at(core_polynomial restricted, elvis_real error, uint n_values, inout core_isolation isolation) {
     const uint level = isolation.level, place = isolation.index;
     const elvis_real first = restricted.c[0], last = restricted.c[CORE_FIT_DEGREE];
@@ -151,7 +153,7 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
     }
     const elvis_real size = crossing.kind == CORE_CROSSING_NONE ? elvis_real(0) : elvis_real(1) / elvis_real(1u << level);
     if (crossing.kind == CORE_CROSSING_VERIFIED || crossing.kind == CORE_CROSSING_PROBABLE) {
-        crossing.t = core_polish(core_restricted(bernstein, level, place), core_listed_value(crossing.index));
+        crossing.t = core_polynomial_root(core_restricted(bernstein, level, place), core_listed_value(crossing.index));
     }
     crossing.t = (elvis_real(place) + crossing.t) * size;
     crossing.lower = elvis_real(place) * size;

@@ -1,6 +1,6 @@
 // Where a ray enters an element through one of its faces, in elements so curved that a point outside of them may be taken for the ray's
-// (core_segment_enter): Newton's method for a point of the face and the parameter, from several points of the face. Some entries may not be
-// found; each one that is found is an entry.
+// (core_segment_enter): Newton's method for a point of the face and the parameter, from several points of the face. Not all places where it
+// enters need be found; at each that is found it does enter.
 //
 // The kernel brings segments/segment.glsl.
 
@@ -9,7 +9,7 @@
 #define CORE_FACE_STARTS (CORE_EXIT_START + 2u)
 #define CORE_FACE_STEPS 10u
 
-struct core_face_entry {
+struct core_entered_face {
     bool is_found;
     elvis_real t, error;
     uint n_evaluations;
@@ -60,8 +60,8 @@ elvis_vec3 core_end_of_face(core_face_exit face_exit, elvis_real sense) {
 
 // `start`: which of the points, below CORE_FACE_STARTS. The last two lie before and behind the point where the ray leaves through the face,
 // if an earlier start has found that: where the face is bent, the ray may have entered through it just before, or come back through it.
-core_face_entry core_enter_face(core_traced_ray ray, uint element, elvis_real curvature, int face, uint start,
-                                inout core_face_exit face_exit) {
+core_entered_face core_enter_face(core_traced_ray ray, uint element, elvis_real curvature, int face, uint start,
+                                  inout core_face_exit face_exit) {
     const elvis_vec4 constraint = core_face_constraint(face);
     const bool is_from_exit = start >= CORE_EXIT_START;
     elvis_vec3 first;
@@ -73,8 +73,8 @@ core_face_entry core_enter_face(core_traced_ray ray, uint element, elvis_real cu
     // A root far from a start is another start's; one far outside is another face's.
     const elvis_real first_reach = is_from_exit ? elvis_real(8) : elvis_real(1);
     elvis_real x = first.x, y = first.y, z = first.z;
-    core_face_entry entry = core_face_entry(false, elvis_real(0), elvis_real(0), 0u);
-    while (!is_over && entry.n_evaluations < CORE_FACE_STEPS) {
+    core_entered_face entered = core_entered_face(false, elvis_real(0), elvis_real(0), 0u);
+    while (!is_over && entered.n_evaluations < CORE_FACE_STEPS) {
         elvis_vec3 position;
         elvis_mat3 jacobian;
         elvis_mapping_jacobian(element, elvis_vec3(x, y, z), position, jacobian);
@@ -85,15 +85,15 @@ core_face_entry core_enter_face(core_traced_ray ray, uint element, elvis_real cu
         const elvis_real near =
             dot(position - core_segment_target(ray, element, elvis_real(0)), ray.direction) / dot(ray.direction, ray.direction);
         model.anchor = near;
-        model.step = core_to_xi(frame, core_segment_target(ray, element, near) - position);
-        model.at = elvis_vec3(x, y, z) + model.step;
+        model.newton_step = core_to_xi(frame, core_segment_target(ray, element, near) - position);
+        model.at = elvis_vec3(x, y, z) + model.newton_step;
         model.noise = frame.xi_error;
         const elvis_real rate = dot(constraint.xyz, model.slope);
         const elvis_real root = near - (dot(constraint.xyz, model.at) + constraint.w) / rate;
         const core_root_error error = core_root_error_at(model, frame, curvature, face, root);
         const elvis_real size = core_model_step(model, root);
         const elvis_vec3 next = model.at + (root - near) * model.slope;
-        entry.n_evaluations += 1u;
+        entered.n_evaluations += 1u;
         const bool is_there = frame.is_sound && core_is_near(curvature, size) && error.distance <= ray.tolerance * ray.speed;
         const elvis_real beyond = core_excess(next.x, next.y, next.z);
         const elvis_real slack = elvis_real(2) * core_prediction_error(curvature, size) + core_max_norm(frame.xi_error);
@@ -102,10 +102,11 @@ core_face_entry core_enter_face(core_traced_ray ray, uint element, elvis_real cu
             const elvis_vec3 along = model.slope - rate / dot(constraint.xyz, constraint.xyz) * constraint.xyz;
             face_exit = core_face_exit(true, next, along / core_max_norm(along));
         }
-        entry.is_found = is_on_face && rate < elvis_real(0);
-        entry.t = root;
-        entry.error = error.parameter;
-        is_over = is_there || !frame.is_sound || !core_is_finite(size) || size > (entry.n_evaluations == 1u ? first_reach : elvis_real(8));
+        entered.is_found = is_on_face && rate < elvis_real(0);
+        entered.t = root;
+        entered.error = error.parameter;
+        const elvis_real most = entered.n_evaluations == 1u ? first_reach : elvis_real(8);
+        is_over = is_there || !frame.is_sound || !core_is_finite(size) || size > most;
         x = next.x;
         y = next.y;
         z = next.z;
@@ -114,5 +115,5 @@ core_face_entry core_enter_face(core_traced_ray ray, uint element, elvis_real cu
             break;
         }
     }
-    return entry;
+    return entered;
 }

@@ -41,7 +41,6 @@ layout(push_constant) uniform core_parameters {
 #include "segments/source_ray.glsl"
 #include "arithmetic/driver_limit.glsl"
 #include "segments/segment.glsl"
-#include "segments/traced_ray.glsl"
 #include "segments/start_bounds.glsl"
 #include "arithmetic/count.glsl"
 #if CORE_HAS_CURVED
@@ -75,28 +74,28 @@ struct core_start_search {
 
 bool core_has_nodes(core_start_search search) { return search.stack_size > 0u || search.entry < search.n_entries; }
 
-// Of starts that are as near, that in the later element is behind.
-bool core_is_behind_last(core_traced_ray ray, elvis_real t, uint element, core_start_search search) {
+// If two starts are equally near, the one in the higher global element counts as behind.
+bool core_is_behind_last(core_traced_ray ray, elvis_real t, uint global_element, core_start_search search) {
     const bool is_tied = abs(t - search.walk.start) <= elvis_real(2) * ray.tolerance;
-    return is_tied ? element > search.walk.start_element : t > search.walk.start;
+    return is_tied ? global_element > search.walk.global_start_element : t > search.walk.start;
 }
 
-void core_take_start(bool is_start, elvis_real t, elvis_real error, uint element, inout core_start_search search) {
-    const bool is_better = is_start && (t < search.walk.at || (t == search.walk.at && element < search.walk.element));
+void core_take_start(bool is_start, elvis_real t, elvis_real error, uint global_element, inout core_start_search search) {
+    const bool is_better = is_start && (t < search.walk.at || (t == search.walk.at && global_element < search.walk.global_element));
     search.walk.at = is_better ? t : search.walk.at;
     search.at_error = is_better ? error : search.at_error;
-    search.walk.element = is_better ? element : search.walk.element;
+    search.walk.global_element = is_better ? global_element : search.walk.global_element;
 }
 
 // An element that the ray may meet between `from` and `to`.
-struct core_candidate {
+struct core_start_candidate {
     bool is_there;
     uint element;
     elvis_real from, to;
 };
 
 // Looks at one node, and puts those below it on the stack.
-core_candidate core_next_node(core_ray ray, inout core_start_search search) {
+core_start_candidate core_next_node(core_ray ray, inout core_start_search search) {
     search.work += 1u;
     const bool is_popped = search.stack_size > 0u;
 #if CORE_RAYS_ARE_GIVEN
@@ -117,17 +116,17 @@ core_candidate core_next_node(core_ray ray, inout core_start_search search) {
         core_stack[search.stack_size + 1u] = node.child;
         search.stack_size += 2u;
     }
-    return core_candidate(is_touched && node.is_leaf, node.child, elvis_real(span.x), elvis_real(span.y));
+    return core_start_candidate(is_touched && node.is_leaf, node.child, elvis_real(span.x), elvis_real(span.y));
 }
 
 // Starts with the ray's segments in the candidate, if it may hold a start.
-void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_candidate candidate, inout core_segment segment,
+void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_start_candidate candidate, inout core_segment segment,
                            inout core_start_search search) {
     const elvis_real begin = search.is_first ? max(candidate.from, search.from) : candidate.from;
-    const elvis_real end = min(candidate.to, begin + ray.reach);
+    const elvis_real end = min(candidate.to, begin + ray.longest);
     const bool is_around_eye = search.is_first && candidate.from <= search.from;
     const bool is_taken =
-        !search.is_first && core_first_element + candidate.element == search.walk.start_element && search.from > pixel_ray.least_t;
+        !search.is_first && core_first_element + candidate.element == search.walk.global_start_element && search.from > pixel_ray.least_t;
     const bool may_start =
         is_around_eye || core_may_start(ray, candidate.element, begin, end, search.is_first ? begin : search.from, is_taken);
     search.is_following = core_segment_begin(ray, candidate.element, begin, end, false, segment) && may_start;
@@ -135,9 +134,9 @@ void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_candida
 }
 
 // The next element that may hold a start.
-void core_next_candidate(core_ray pixel_ray, core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
+void core_next_start_candidate(core_ray pixel_ray, core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
     while (!search.is_following && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
-        core_candidate candidate = core_candidate(false, 0u, elvis_real(0), elvis_real(0));
+        core_start_candidate candidate = core_start_candidate(false, 0u, elvis_real(0), elvis_real(0));
         while (!candidate.is_there && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
             candidate = core_next_node(pixel_ray, search);
             if (candidate.is_there || !core_has_nodes(search)) {
@@ -156,28 +155,28 @@ void core_next_candidate(core_ray pixel_ray, core_traced_ray ray, inout core_seg
 #if CORE_HAS_CURVED
 // In an element so curved that bounds tell little: a start at the eye, and through each face by which the ray may come in.
 void core_start_in_curved(core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment, inout core_start_search search) {
-    const uint element = core_first_element + segment.element;
+    const uint global_element = core_first_element + segment.element;
     if (is_curved && search.is_first && segment.anchor.t <= search.from) {
         const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
         search.n_evaluations += segment.iterations;
-        core_take_start(is_in, search.from, search.at_error, element, search);
+        core_take_start(is_in, search.from, search.at_error, global_element, search);
     }
-    // Bits of the faces.
+    // Bits of the faces that are still to be tried.
     uint open = 0u, start = 0u;
     core_face_exit face_exit = core_face_exit(false, elvis_vec3(0), elvis_vec3(0));
     for (int face = 0; face < CORE_N_FACES; ++face) {
-        const bool is_open = elvis_fetch_core_links(segment.element, uint(face)) == CORE_NO_LINK;
-        open |= is_curved && is_open && !core_surely_crosses(segment.element, face, along, 1.0) ? 1u << face : 0u;
+        const bool is_unlinked = elvis_fetch_core_links(segment.element, uint(face)) == CORE_NO_LINK;
+        open |= is_curved && is_unlinked && !core_surely_crosses(segment.element, face, along, 1.0) ? 1u << face : 0u;
     }
     while (open != 0u) {
         const int face = findLSB(open);
-        const core_face_entry entry = core_enter_face(ray, segment.element, segment.curvature, face, start, face_exit);
-        search.n_evaluations += entry.n_evaluations;
+        const core_entered_face entered = core_enter_face(ray, segment.element, segment.curvature, face, start, face_exit);
+        search.n_evaluations += entered.n_evaluations;
         search.work += 1u;
-        const bool is_after = search.is_first ? entry.t >= search.from : core_is_behind_last(ray, entry.t, element, search);
-        core_take_start(entry.is_found && is_after, entry.t, entry.error, element, search);
-        // There is but one entry through a face with such directions (segments/start_bounds.glsl).
-        const bool is_only = entry.is_found && core_surely_crosses(segment.element, face, along, -1.0);
+        const bool is_after = search.is_first ? entered.t >= search.from : core_is_behind_last(ray, entered.t, global_element, search);
+        core_take_start(entered.is_found && is_after, entered.t, entered.error, global_element, search);
+        // The ray enters through a face with such directions once (segments/start_bounds.glsl).
+        const bool is_only = entered.is_found && core_surely_crosses(segment.element, face, along, -1.0);
         start = is_only ? CORE_FACE_STARTS : start + 1u;
         open = start < CORE_FACE_STARTS ? open : open & (open - 1u);
         face_exit.is_found = face_exit.is_found && start < CORE_FACE_STARTS;
@@ -197,9 +196,9 @@ bool core_enters_volume(core_segment segment, core_traced_ray ray) {
     bool enters = false;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
-        const bool is_open = elvis_fetch_core_links(segment.element, uint(face)) == CORE_NO_LINK;
+        const bool is_unlinked = elvis_fetch_core_links(segment.element, uint(face)) == CORE_NO_LINK;
         const bool is_near = face == segment.enter_face || dot(constraint.xyz, at) + constraint.w > -near;
-        enters = enters || (is_open && is_near);
+        enters = enters || (is_unlinked && is_near);
     }
 #if ELVIS_HAS_INSIDE
     const core_inside g = core_inside_at(segment.element, at);
@@ -208,25 +207,25 @@ bool core_enters_volume(core_segment segment, core_traced_ray ray) {
     return enters;
 }
 
-// One iteration of the search for the ray's segments in the element. One whose beginning is not the start wanted is followed to where the
-// ray leaves.
+// One iteration of the search for the ray's segments in the element. If a segment does not begin at a wanted start, the search follows it
+// to its end and looks behind it.
 void core_follow(core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
     const bool is_following = search.is_following;
     const uint ending = is_following ? core_segment_iterate(ray, is_following, segment) : CORE_SEGMENT_NONE;
     search.n_evaluations += is_following ? 1u : 0u;
     // What is behind in the element is then not looked for.
     search.walk.flags |= is_following && ending != CORE_SEGMENT_OPEN && segment.has_failed ? CORE_FLAG_UNDECIDED : 0u;
-    const uint element = core_first_element + segment.element;
-    const bool is_entry = is_following && segment.is_inside && !search.has_entered;
-    search.has_entered = search.has_entered || is_entry;
+    const uint global_element = core_first_element + segment.element;
+    const bool is_newly_inside = is_following && segment.is_inside && !search.has_entered;
+    search.has_entered = search.has_entered || is_newly_inside;
     const bool is_at_eye = segment.enter_face < 0 && search.is_first && segment.enter <= search.from;
     bool is_start = false;
-    if (is_entry && (search.is_first || core_is_behind_last(ray, segment.enter, element, search))) {
+    if (is_newly_inside && (search.is_first || core_is_behind_last(ray, segment.enter, global_element, search))) {
         is_start = is_at_eye || core_enters_volume(segment, ray);
     }
     // Where no face is met it was said too early, by estimates, that the ray is outside.
     const bool is_late = segment.enter_face < 0 && !is_at_eye;
-    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, element, search);
+    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, global_element, search);
     const bool goes_on = ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
     const elvis_real resume = max(segment.resume, segment.leave) + ray.tolerance;
     search.is_following = is_following && !is_start && ending == CORE_SEGMENT_OPEN;
@@ -244,7 +243,7 @@ core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 
 #else
     search.at_error = elvis_real(0);
 #endif
-    search.is_first = state.walk.start_element == CORE_NO_ELEMENT;
+    search.is_first = state.walk.global_start_element == CORE_NO_ELEMENT;
     search.from = search.is_first ? least_t : state.walk.start;
 #if CORE_RAYS_ARE_GIVEN
     search.list = 0u;
@@ -275,7 +274,7 @@ void main() {
     const vec3 along = vec3(ray.direction / ray.speed);
     while ((search.is_following || core_has_nodes(search)) && search.work < CORE_WORK_LIMIT) {
         search.work += 1u;
-        core_next_candidate(pixel_ray, ray, segment, search);
+        core_next_start_candidate(pixel_ray, ray, segment, search);
 #if CORE_HAS_CURVED
         core_start_in_curved(ray, along, search.is_following && segment.curvature > CORE_FOLLOWED_CURVATURE, segment, search);
 #endif

@@ -1,11 +1,11 @@
 // From element to element through shared faces (segments/walk_state.glsl):
 //
 //     walk = core_walk_begin(state.walk, ...)
-//     while (core_walk_goes(walk)) {
-//         while (core_walk_goes(walk)) {
-//             core_reach reach = core_walk_reach(ray, walk, segment): the ray is in the element from walk.at to reach.leave;
-//             what is settled already, up to walk.done, does not count
-//             core_walk_go_on(ray, segment, reach, from, ..., walk): to the next element
+//     while (core_walk_goes_here(walk)) {
+//         while (core_walk_goes_here(walk)) {
+//             core_passage passage = core_walk_pass(ray, walk, segment): the ray is in the element from walk.at to passage.leave;
+//             what is done already, up to walk.done, does not count
+//             core_walk_go_on(ray, segment, passage, from, walk): to the next element
 //             if (subgroupAny(core_walk_needs_help(walk))) break;
 //         }
 //         core_walk_help(ray, walk, segment)
@@ -23,7 +23,7 @@
 
 #include "segments/walk_state.glsl"
 
-// Segments on end that are too short to matter, before the element around the ray is looked for.
+// After this many very short segments in a row, the walk searches for the element around the ray.
 #define CORE_MOST_GRAZES 4u
 // Over the volume's size: gaps between elements of a walk that are rounding's.
 #define CORE_WIDEST_GAP 1e-6
@@ -34,10 +34,12 @@
 #define CORE_ROUGH_ITERATIONS 8u
 #define CORE_ALONG 1e-5
 
-bool core_is_own(uint element) { return element >= core_first_element && element - core_first_element < core_n_elements; }
+bool core_is_of_class(uint global_element) {
+    return global_element >= core_first_element && global_element - core_first_element < core_n_elements;
+}
 
-// Goes from element to element towards the point of the ray at t, until one holds it. Returns its number in the class; or CORE_NO_ELEMENT,
-// and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
+// Goes from element to element towards the point of the ray at t, until one holds it. Returns that element; or CORE_NO_ELEMENT, and in
+// `other` the global element of another class in which to go on, if there is one. `is_lost`: the search has failed.
 uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
     bool has_left = false;
@@ -48,10 +50,10 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
     bool is_over = false;
     while (!is_over) {
         const core_ray_evaluation here = core_evaluate_ray(ray, element, elvis_vec3(x, y, z), t);
-        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(here.model.step, elvis_vec3(-4), elvis_vec3(4));
+        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(here.model.newton_step, elvis_vec3(-4), elvis_vec3(4));
         const elvis_real noise = elvis_real(4) * core_max_norm(here.model.noise);
         steps += 1u;
-        const bool is_there = core_max_norm(here.model.step) <= noise || steps >= 8u;
+        const bool is_there = core_max_norm(here.model.newton_step) <= noise || steps >= 8u;
         elvis_real worst = elvis_real(-4);
         uint worst_face = 0u;
         for (int face = 0; face < CORE_N_FACES; ++face) {
@@ -63,12 +65,12 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
         is_found = is_there && worst <= noise;
         const bool leaves = is_there && !is_found;
         const uint link = elvis_fetch_core_links(element, worst_face);
-        const bool is_own = core_is_own(link);
+        const bool is_of_class = core_is_of_class(link);
         hops += leaves ? 1u : 0u;
-        other = leaves && !is_own ? link : other;
-        has_left = leaves && !is_own;
+        other = leaves && !is_of_class ? link : other;
+        has_left = leaves && !is_of_class;
         is_over = is_found || has_left || hops >= CORE_MOST_HOPS || !here.frame.is_sound;
-        element = leaves && is_own ? link - core_first_element : element;
+        element = leaves && is_of_class ? link - core_first_element : element;
         steps = leaves ? 0u : steps;
         elvis_real new_x = next.x, new_y = next.y, new_z = next.z;
         core_project(new_x, new_y, new_z);
@@ -94,7 +96,7 @@ void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment
         elvis_real x = predicted.x, y = predicted.y, z = predicted.z;
         core_project(x, y, z);
         const core_ray_model model = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), leave).model;
-        elvis_real first = from + ray.reach;
+        elvis_real first = from + ray.longest;
         for (int face = 0; face < CORE_N_FACES; ++face) {
             const elvis_vec4 constraint = core_face_constraint(face);
             const elvis_real value = dot(constraint.xyz, model.at) + constraint.w, rate = dot(constraint.xyz, model.slope);
@@ -111,40 +113,43 @@ void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment
     segment.enter_error = elvis_real(0);
     segment.leave = leave;
     segment.leave_face = leave_face;
-    segment.step = elvis_real(3e38LF);
+    segment.newton_step = elvis_real(3e38LF);
     segment.is_estimated = true;
 }
 
-bool core_walk_goes(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_own(walk.element); }
+bool core_walk_goes_here(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_of_class(walk.global_element); }
 
 // Of a ray that ends at `to` and then has the status `status_at_end`. `is_ray`: false for lanes without a ray.
 core_walk core_walk_begin(core_walk_state state, bool is_ray, elvis_real to, uint status_at_end) {
     const uint status = is_ray ? state.status : CORE_RAY_ENDS;
-    const bool has_sought = status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && state.element == CORE_NO_ELEMENT;
-    const bool is_mine = is_without || ((has_sought || status == CORE_RAY_GOES) && core_is_own(state.element));
+    const bool has_sought = status == CORE_RAY_HAS_SOUGHT, is_without = has_sought && state.global_element == CORE_NO_ELEMENT;
+    const bool is_mine = is_without || ((has_sought || status == CORE_RAY_GOES) && core_is_of_class(state.global_element));
     const bool begins = is_mine && has_sought && !is_without;
-    return core_walk(state.done, state.at, begins ? state.at : state.start, begins ? state.element : state.start_element, state.element,
+    return core_walk(state.done, state.at, begins ? state.at : state.start,
+                     begins ? state.global_element : state.global_start_element, state.global_element,
                      is_without ? CORE_RAY_ENDS : is_mine && state.at >= to ? status_at_end : begins ? CORE_RAY_GOES : status,
                      state.flags, is_mine, 0u, false, false, false, false);
 }
 
 core_walk_state core_walk_end(core_walk walk) {
     const bool is_cut_short = core_has_driver_given_up(core_zero), seeks = walk.status == CORE_RAY_SEEKS;
-    return core_walk_state(walk.done, seeks ? CORE_FAR : walk.at, walk.start, walk.start_element, seeks ? CORE_NO_ELEMENT : walk.element,
+    return core_walk_state(walk.done, seeks ? CORE_FAR : walk.at, walk.start, walk.global_start_element,
+                           seeks ? CORE_NO_ELEMENT : walk.global_element,
                            is_cut_short ? CORE_RAY_ENDS : walk.status, walk.flags | (is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u));
 }
 
-// A ray in the walk's next element.
-struct core_reach {
+// A ray in the element that the walk is in (walk.global_element).
+struct core_passage {
     bool is_met;
     // Where it leaves; walk.at if the element is not met.
     elvis_real leave;
 };
 
-core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
+core_passage core_walk_pass(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
     uint ending = CORE_SEGMENT_FOUND;
     if (!walk.has_segment) {
-        const bool is_possible = core_segment_begin(ray, walk.element - core_first_element, walk.at, walk.at + ray.reach, true, segment);
+        const bool is_possible =
+            core_segment_begin(ray, walk.global_element - core_first_element, walk.at, walk.at + ray.longest, true, segment);
         ending = is_possible ? CORE_SEGMENT_OPEN : CORE_SEGMENT_NONE;
     }
 #if CORE_HAS_CURVED
@@ -161,28 +166,28 @@ core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core
     }
     walk.needs_roughly = segment.has_failed && !walk.has_segment;
     walk.has_segment = false;
-    core_reach reach;
+    core_passage passage;
     // Where a ray grazes a face, elements on both sides find it at points farther apart than those of others.
     const elvis_real gap = segment.enter - walk.at - segment.enter_error;
-    reach.is_met = ending == CORE_SEGMENT_FOUND && !walk.needs_roughly && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
-    walk.flags |= reach.is_met && segment.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
-    reach.leave = reach.is_met ? max(segment.leave, walk.at) : walk.at;
-    return reach;
+    passage.is_met = ending == CORE_SEGMENT_FOUND && !walk.needs_roughly && gap <= elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed;
+    walk.flags |= passage.is_met && segment.is_estimated ? CORE_FLAG_ESTIMATED : 0u;
+    passage.leave = passage.is_met ? max(segment.leave, walk.at) : walk.at;
+    return passage;
 }
 
-// To the next element, where the ray has left this one. `from`: up to where it was settled when it came in.
-void core_walk_go_on(core_traced_ray ray, core_segment segment, core_reach reach, elvis_real from, inout core_walk walk) {
+// To the next element, where the ray has left this one. `from`: where its segment in this one begins.
+void core_walk_go_on(core_traced_ray ray, core_segment segment, core_passage passage, elvis_real from, inout core_walk walk) {
     bool stays = walk.needs_roughly;
     walk.is_ahead = walk.is_ahead && stays;
-    walk.at = stays ? walk.at : reach.leave;
-    const uint next = elvis_fetch_core_links(walk.element - core_first_element, uint(max(segment.leave_face, 0)));
+    walk.at = stays ? walk.at : passage.leave;
+    const uint next = elvis_fetch_core_links(walk.global_element - core_first_element, uint(max(segment.leave_face, 0)));
     // Elements on both sides of a face that the ray grazes may hand it to and fro.
-    const bool is_stuck = reach.leave - from <= elvis_real(4) * ray.tolerance;
+    const bool is_stuck = passage.leave - from <= elvis_real(4) * ray.tolerance;
     // The face did not tell, or rounding led past an edge.
-    walk.needs_element = !stays && (!reach.is_met || segment.leave_face < 0 || (is_stuck && walk.n_lost >= CORE_MOST_GRAZES));
+    walk.needs_element = !stays && (!passage.is_met || segment.leave_face < 0 || (is_stuck && walk.n_lost >= CORE_MOST_GRAZES));
     walk.n_lost = stays ? walk.n_lost : walk.needs_element || is_stuck ? walk.n_lost + 1u : 0u;
     stays = stays || walk.needs_element;
-    walk.element = stays ? walk.element : next;
+    walk.global_element = stays ? walk.global_element : next;
     walk.status = !stays && next == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
 }
 
@@ -198,12 +203,12 @@ void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segmen
         const elvis_real probe = walk.at + elvis_real(4) * exp2(float(min(walk.n_lost - 1u, 30u))) * ray.tolerance;
         uint other;
         bool is_lost;
-        const uint found = core_find_around(ray, walk.element - core_first_element, probe, other, is_lost);
+        const uint found = core_find_around(ray, walk.global_element - core_first_element, probe, other, is_lost);
         walk.flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
-        walk.element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+        walk.global_element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
         walk.at = probe;
         walk.is_ahead = true;
-        walk.status = walk.element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
+        walk.status = walk.global_element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
     }
     walk.needs_roughly = walk.needs_element = false;
 }

@@ -3,7 +3,7 @@
 //
 //   bernstein.glsl   the Bernstein form: range, restriction, values
 //   fit.glsl         samples to Chebyshev coefficients, one sample at a time, and the error estimate
-//   crossings.glsl   where the polynomial takes given values, in order
+//   crossings.glsl   where the polynomial takes isovalues, in order
 //
 // Before it stand the tables of a plan, as literals: segment_glsl(plan) of core/segment/tables.hpp. The CPU's twin is core/segment.
 //

@@ -31,12 +31,12 @@ struct core_ray_model {
     elvis_vec3 at, slope;
     elvis_real anchor;
     // From the point that the prediction was made from.
-    elvis_vec3 step;
+    elvis_vec3 newton_step;
     // Rounding of the coordinates.
     elvis_vec3 noise;
 #if ELVIS_HAS_INSIDE
-    // The element's own boundary (element/inside.glsl), its tangent as a constraint, and how far from where the prediction was made from
-    // the interval's points in the element are at most.
+    // The element's own boundary (element/inside.glsl); its tangent as a constraint; how far from the point that the
+    // prediction was made from the interval's points in the element are at most.
     core_inside own;
     elvis_vec4 own_tangent;
     elvis_real own_reach;
@@ -63,14 +63,14 @@ elvis_real core_own_blur(core_ray_model model) {
 }
 
 // As if there were none.
-void core_take_no_inside(inout core_ray_model model) {
+void core_set_no_inside(inout core_ray_model model) {
     model.own = core_inside(elvis_real(-1), elvis_vec3(0), elvis_real(0), elvis_real(0), elvis_real(0));
     model.own_tangent = elvis_vec4(0, 0, 0, -1);
     model.own_reach = elvis_real(0);
 }
 
 // At xi, where the mapping was evaluated.
-void core_take_inside(inout core_ray_model model, uint element, elvis_vec3 xi, elvis_real reach) {
+void core_evaluate_inside(inout core_ray_model model, uint element, elvis_vec3 xi, elvis_real reach) {
     model.own = core_inside_at(element, xi);
     model.own_tangent = elvis_vec4(model.own.slope, model.own.value - dot(model.own.slope, xi));
     model.own_reach = reach;
@@ -82,9 +82,9 @@ void core_take_inside(inout core_ray_model model, uint element, elvis_vec3 xi, e
 #define core_side_noise(model, side) dot(abs(core_face_constraint(side).xyz), model.noise)
 #endif
 
-// Length of the step that leads to the prediction at t.
+// Length of the Newton step that leads to the prediction at t.
 elvis_real core_model_step(core_ray_model model, elvis_real t) {
-    const elvis_vec3 step = abs(model.step + (t - model.anchor) * model.slope);
+    const elvis_vec3 step = abs(model.newton_step + (t - model.anchor) * model.slope);
     return max(max(step.x, step.y), step.z);
 }
 
@@ -111,10 +111,10 @@ elvis_real core_slope_change(core_ray_model model, elvis_real curvature, elvis_r
 }
 
 // Within [begin, end], where predictions are off by at most `error`, and slopes by `slope_change`. `is_inside`: the ray is inside at
-// `begin`, so that a face of the shape by which it surely enters does not bound what is sure. `is_settled`: nor does that face bound what
-// is possible, where rounding may say that the ray is not yet inside. A face that the ray runs along within rounding bounds nothing: rays
-// in a face that two elements share lie in both.
-core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real slope_change, bool is_inside, bool is_settled,
+// `begin`, so that a face of the shape by which it surely enters does not bound what is sure. `is_confirmed`: then such a face does not
+// limit the possible interval either, because rounding could place the ray just outside. A face that the ray runs along within rounding
+// bounds nothing: rays in a face that two elements share lie in both.
+core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real slope_change, bool is_inside, bool is_confirmed,
                             elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;
     const elvis_real tiny = elvis_real(1e-30LF);
@@ -151,7 +151,7 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real s
         clip.possible_to = is_leaving ? min(clip.possible_to, outer) : clip.possible_to;
         clip.sure_to = is_leaving ? min(clip.sure_to, inner) : clip.sure_to;
         const bool is_kept = is_inside && face < CORE_N_FACES && slope < -(size.x + size.y + size.z) * slope_change;
-        clip.possible_from = is_leaving || (is_kept && is_settled) ? clip.possible_from : max(clip.possible_from, outer);
+        clip.possible_from = is_leaving || (is_kept && is_confirmed) ? clip.possible_from : max(clip.possible_from, outer);
         clip.sure_from = is_leaving || is_kept ? clip.sure_from : max(clip.sure_from, inner);
     }
     // The interval's ends themselves without rounding, so that they can be told.

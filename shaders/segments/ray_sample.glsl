@@ -52,7 +52,7 @@ core_follower core_follow_from(core_ray_point known) {
 
 // By the cubic through the last two points and their slopes, between them or not much farther beyond the last one than they are apart; else
 // along the last one's slope.
-void core_predict(inout core_follower follower, elvis_real at) {
+void core_predict_point(inout core_follower follower, elvis_real at) {
     const core_ray_point known = follower.known, before = follower.before;
     const elvis_real since = at - known.t, width = before.t - known.t;
     const bool is_near = (since - width) * (since + elvis_real(1.5LF) * width) < elvis_real(0);
@@ -74,7 +74,7 @@ void core_follow_to(inout core_follower follower, elvis_real goal) {
     follower.goal = goal;
     follower.span = follower.enough = elvis_real(0);
     follower.all_steps = 0u;
-    core_predict(follower, goal);
+    core_predict_point(follower, goal);
 }
 
 // The field at a point of the ray that is off by result.beyond at most, and how far it may be from a line over the span. `step`: of
@@ -163,7 +163,7 @@ core_ray_sample core_sample_step(core_traced_ray ray, uint element, elvis_real c
     follower.y = is_sound ? clamp(found.y, -limit, limit) : follower.y;
     follower.z = is_sound ? clamp(found.z, -limit, limit) : follower.z;
     if (is_stuck || (is_found && !is_there)) {
-        core_predict(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known.t + follower.at));
+        core_predict_point(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known.t + follower.at));
     }
     const bool is_given_up = follower.all_steps >= CORE_SAMPLE_MOST_STEPS;
     result.status = is_there ? CORE_SAMPLE_FOUND : is_given_up ? CORE_SAMPLE_FAILED : CORE_SAMPLE_RUNNING;
@@ -175,7 +175,7 @@ core_ray_sample core_sample_step(core_traced_ray ray, uint element, elvis_real c
 core_ray_sample core_sample_predicted(core_segment segment, elvis_real at, elvis_real span, elvis_real enough) {
     core_ray_sample result;
     result.w = core_slope_of(segment.anchor);
-    const elvis_real speed = core_max_norm(result.w), step = segment.step + abs(at - segment.anchor.t) * speed;
+    const elvis_real speed = core_max_norm(result.w), step = segment.newton_step + abs(at - segment.anchor.t) * speed;
     const elvis_real off = core_prediction_error(segment.curvature, step);
     result.rounding = segment.noise;
     result.beyond = off + segment.noise;

@@ -1,7 +1,7 @@
 // Where a polynomial on an interval of a ray may cross an isovalue, one place after the other: by Bernstein coefficients
 // (segments/polynomial.glsl) or, with CORE_USES_COLLEAGUE, by eigenvalues (segments/colleague.glsl).
 
-struct core_candidate {
+struct core_root_candidate {
     uint kind, index;
     // In the interval.
     elvis_real t, lower, upper;
@@ -9,8 +9,8 @@ struct core_candidate {
 
 #if CORE_USES_COLLEAGUE
 // The first root that is an eigenvalue. If there is none: where the polynomial comes within E of an isovalue, no better than a touch.
-core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_isolation isolation) {
-    core_candidate candidate = core_candidate(CORE_CROSSING_NONE, 0u, elvis_real(2), elvis_real(0), elvis_real(1));
+core_root_candidate core_next_root_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_isolation isolation) {
+    core_root_candidate candidate = core_root_candidate(CORE_CROSSING_NONE, 0u, elvis_real(2), elvis_real(0), elvis_real(1));
     const bool is_over = core_isolation_is_over(isolation);
     const uint first = core_isovalue_from(core_least(bernstein) - error), end = core_isovalues_end(first, core_most(bernstein) + error);
     const uint n = is_over ? 0u : end - first;
@@ -36,8 +36,8 @@ core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvi
     return candidate;
 }
 #else
-core_candidate core_next_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_isolation isolation) {
+core_root_candidate core_next_root_candidate(core_fit fit, core_polynomial bernstein, elvis_real error, inout core_isolation isolation) {
     const core_crossing crossing = core_next_crossing(bernstein, error, core_n_isovalues, isolation);
-    return core_candidate(crossing.kind, crossing.index, crossing.t, crossing.lower, crossing.upper);
+    return core_root_candidate(crossing.kind, crossing.index, crossing.t, crossing.lower, crossing.upper);
 }
 #endif

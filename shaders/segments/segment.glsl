@@ -10,18 +10,19 @@
 // The first split comes from the linearized mapping without any evaluation (element/linearization.glsl); it dismisses most elements
 // that are missed.
 //
-// The kernel brings CORE_CENTRE, the world's coordinates of the hierarchies' origin, and the buffers core_elements and core_links.
+// The kernel brings core_ray; CORE_CENTRE, the world's coordinates of the hierarchies' origin; and the buffers core_elements and
+// core_links.
 
 #include "element/linearization.glsl"
 #include "segments/ray_model.glsl"
 #include "segments/ray_point.glsl"
+#include "segments/traced_ray.glsl"
 
 // The linearized mapping keeps this many digits of coordinates in the element.
 #define CORE_START_ERROR elvis_real(1e-2LF)
 
-// Taken as the curvature of elements with a larger or unknown one. Elements that take too many iterations are taken to have a share of
-// their curvature. Segments in both are estimated. A kernel may bring other numbers: larger ones are right for more elements, and take more
-// iterations.
+// The search uses this curvature where the true one is larger or unknown, and a share of the curvature after too many iterations. Segments
+// are estimated in both cases. A kernel may bring other numbers: a larger one is valid for more elements, but needs more iterations.
 #ifndef CORE_ASSUMED_CURVATURE
 #define CORE_ASSUMED_CURVATURE elvis_real(4)
 #define CORE_CERTAIN_ITERATIONS 64u
@@ -37,8 +38,8 @@
 #endif
 
 // Newton's method for where a ray enters: starts, and steps from each.
-#define CORE_ENTRY_STARTS 10u
-#define CORE_ENTRY_STEPS 12u
+#define CORE_ENTER_STARTS 10u
+#define CORE_ENTER_STEPS 12u
 // Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's
 // neighbourhood are taken for each other.
 #define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
@@ -54,17 +55,6 @@
 #define CORE_SEGMENT_OPEN 0u
 #define CORE_SEGMENT_FOUND 1u
 #define CORE_SEGMENT_NONE 2u
-
-struct core_traced_ray {
-    // Relative to the hierarchies' origin; any length.
-    elvis_vec3 origin, direction;
-    // Bound of the rounding of its points' coordinates.
-    elvis_real error;
-    // Parameters closer than this are the same: the distance that ends may be off, over the direction's length.
-    elvis_real tolerance, speed;
-    // Parameters within which the whole volume lies.
-    elvis_real reach;
-};
 
 struct core_segment {
     uint element;
@@ -85,7 +75,7 @@ struct core_segment {
     // The last prediction, from which the next point comes.
     core_ray_point anchor;
     // Length of the step that led to it, and rounding of its coordinates.
-    elvis_real step, noise;
+    elvis_real newton_step, noise;
     elvis_real curvature;
     uint iterations;
 };
@@ -104,23 +94,23 @@ elvis_vec3 core_segment_target(core_traced_ray ray, uint element, elvis_real t) 
     return (CORE_CENTRE - elvis_origin(element)) + (ray.origin + t * ray.direction);
 }
 
-// Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
-// at `begin`, if it is in it after that at all: it is taken to be inside until a bound denies that.
+// Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the caller says that the ray
+// enters at `begin`. The search assumes so until a bound contradicts it.
 bool core_segment_begin(core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_segment segment) {
     const core_linearization linearization = core_fetch_linearization(element);
     const bool is_linearized = linearization.exponents != 0u;
     const elvis_vec3 first = core_segment_target(ray, element, begin);
-    const elvis_vec3 second = first + ray.reach * ray.direction;
+    const elvis_vec3 second = first + ray.longest * ray.direction;
     const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(first)));
     const elvis_vec3 there = elvis_vec3(core_linear_inverse(linearization, vec3(second)));
     const elvis_real curvature = CORE_SEGMENT_CURVATURE(element);
     core_ray_model model;
     model.at = here;
-    model.slope = (there - here) / ray.reach;
+    model.slope = (there - here) / ray.longest;
     model.anchor = begin;
-    model.step = model.noise = elvis_vec3(0);
+    model.newton_step = model.noise = elvis_vec3(0);
 #if ELVIS_HAS_INSIDE
-    core_take_no_inside(model);
+    core_set_no_inside(model);
 #endif
     // Points of the shape are no farther away than its radius, wherever they are predicted.
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
@@ -148,7 +138,7 @@ bool core_segment_begin(core_traced_ray ray, uint element, elvis_real begin, elv
     segment.enter_error = segment.leave = segment.leave_error = segment.resume = elvis_real(0);
     segment.anchor = core_either(is_linearized, core_ray_point_at(begin, here, model.slope),
                                  core_ray_point_at(begin, CORE_CENTROID, elvis_vec3(0)));
-    segment.step = elvis_real(3e38LF);
+    segment.newton_step = elvis_real(3e38LF);
     segment.noise = elvis_real(0);
     segment.iterations = 0u;
     return is_possible;
@@ -167,12 +157,12 @@ core_ray_evaluation core_evaluate_ray(core_traced_ray ray, uint element, elvis_v
     elvis_mat3 jacobian;
     elvis_mapping_jacobian(element, xi, position, jacobian);
     here.frame = core_frame_at(position, jacobian, ray.error);
-    here.model.step = core_to_xi(here.frame, core_segment_target(ray, element, t) - position);
-    here.model.at = xi + here.model.step;
+    here.model.newton_step = core_to_xi(here.frame, core_segment_target(ray, element, t) - position);
+    here.model.at = xi + here.model.newton_step;
     here.model.slope = core_to_xi(here.frame, ray.direction);
     here.model.anchor = t;
     here.model.noise = here.frame.xi_error;
-    here.is_sound = here.frame.is_sound && core_is_finite(here.model.step.x + here.model.step.y + here.model.step.z);
+    here.is_sound = here.frame.is_sound && core_is_finite(here.model.newton_step.x + here.model.newton_step.y + here.model.newton_step.z);
     return here;
 }
 
@@ -188,10 +178,10 @@ bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segmen
     bool is_found = false;
     elvis_real x = segment.anchor.x, y = segment.anchor.y, z = segment.anchor.z;
     core_project(x, y, z);
-    while (!is_found && start < CORE_ENTRY_STARTS) {
+    while (!is_found && start < CORE_ENTER_STARTS) {
         const core_ray_evaluation here = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), segment.anchor.t);
         const elvis_vec3 at = here.model.at, slope = here.model.slope;
-        const elvis_real noise = core_max_norm(here.model.noise), size = core_max_norm(here.model.step);
+        const elvis_real noise = core_max_norm(here.model.noise), size = core_max_norm(here.model.newton_step);
         const elvis_real beyond = core_excess(at.x, at.y, at.z);
         const bool is_there = here.frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
         const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope) +
@@ -201,7 +191,7 @@ bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segmen
         is_found = is_there && is_in;
         segment.anchor = core_either(is_found, core_ray_point_at(segment.anchor.t, at, slope), segment.anchor);
         // From the centroid, then from near the corners.
-        const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTRY_STEPS;
+        const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTER_STEPS;
         const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
         x = is_failed ? CORE_CENTROID.x + ((start & 1u) == 0u ? out_to : -out_to) : at.x;
         y = is_failed ? CORE_CENTROID.y + ((start & 2u) == 0u ? out_to : -out_to) : at.y;
@@ -224,7 +214,7 @@ bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segmen
 #include "segments/segment_ends.glsl"
 
 // After too many iterations a share of the bound is taken for it: the segment is then estimated.
-elvis_real core_taken_curvature(inout core_segment segment) {
+elvis_real core_assumed_curvature(inout core_segment segment) {
     const bool is_certain = segment.iterations <= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
     const bool is_late = segment.iterations >= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u;
     segment.is_estimated = segment.is_estimated || !is_certain;
@@ -240,7 +230,7 @@ core_ray_clip core_clip_interval(uint element, elvis_real curvature, elvis_vec3 
     const elvis_real agreed = elvis_real(8) * core_max_norm(here.model.at - predicted) + curvature * along * along;
     const elvis_real bound = core_prediction_error(curvature, step);
 #if ELVIS_HAS_INSIDE
-    core_take_inside(here.model, element, xi, step + bound);
+    core_evaluate_inside(here.model, element, xi, step + bound);
 #endif
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
     const bool is_agreed = xi != predicted && !segment.is_inside && segment.iterations > 1u;
@@ -254,12 +244,13 @@ core_ray_clip core_clip_interval(uint element, elvis_real curvature, elvis_vec3 
     return clip;
 }
 
-// The next point is predicted from here, unless that is another one's. The interval is no longer than it can be followed.
+// Uses this evaluation for the next prediction, unless its point may belong to another solution. The interval is no longer than it can be
+// followed.
 void core_predict_from(core_ray_evaluation here, elvis_real curvature, elvis_real tolerance, inout core_segment segment) {
     const core_ray_model model = here.model;
-    const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.step)));
+    const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.newton_step)));
     segment.anchor = core_either(is_anchor, core_ray_point_at(model.anchor, model.at, model.slope), segment.anchor);
-    segment.step = is_anchor ? core_model_step(model, model.anchor) : segment.step;
+    segment.newton_step = is_anchor ? core_model_step(model, model.anchor) : segment.newton_step;
     segment.noise = is_anchor ? core_max_norm(model.noise) : segment.noise;
     const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
     const elvis_real follow_end = max(segment.anchor.t + core_follow_span(segment.curvature) / rate, segment.begin + tolerance);
@@ -277,7 +268,7 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     const elvis_vec3 xi = elvis_vec3(x, y, z);
     core_ray_evaluation here = core_evaluate_ray(ray, element, xi, segment.next);
     segment.iterations += 1u;
-    const elvis_real curvature = core_taken_curvature(segment);
+    const elvis_real curvature = core_assumed_curvature(segment);
     const core_ray_clip clip = core_clip_interval(element, curvature, predicted, xi, segment, here);
 
     const bool was_inside = segment.is_inside;
@@ -299,10 +290,10 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     segment.is_assumed = segment.is_assumed && is_kept_in && !is_confirmed;
     bool has_left = false;
     if (is_kept_in) {
-        has_left = core_seek_exit(ray, clip, is_exact, error.parameter, segment);
+        has_left = core_seek_leave(ray, clip, is_exact, error.parameter, segment);
     }
     if (!is_kept_in) {
-        core_seek_entry(ray, clip, is_exact, error.parameter, segment);
+        core_seek_enter(ray, clip, is_exact, error.parameter, segment);
     }
     segment.is_followed = segment.is_followed && !is_denied;
     core_predict_from(here, curvature, ray.tolerance, segment);

@@ -12,8 +12,8 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 layout(set = 0, binding = 1, std430) buffer core_states_block { core_segment_state core_states[]; };
 struct core_segment_record {
     elvis_real enter, leave, error;
-    // CORE_ESTIMATED_SEGMENT where its ends are.
-    uint element;
+    // With CORE_ESTIMATED_SEGMENT where its ends are estimated.
+    uint global_element;
 };
 #define CORE_ESTIMATED_SEGMENT 0x80000000u
 // core_capacity of them a ray.
@@ -39,7 +39,6 @@ layout(push_constant) uniform core_parameters {
 #define CORE_CERTAIN_ITERATIONS 512u
 #define CORE_SEGMENT_ITERATIONS 640u
 #include "segments/segment.glsl"
-#include "segments/traced_ray.glsl"
 #include "segments/neighbour_walk.glsl"
 #include "arithmetic/count.glsl"
 
@@ -66,14 +65,15 @@ struct core_segment_list {
 // The end of the last segment.
 void core_mark_estimated(core_segment_list list) {
     if (list.n_segments > 0u && list.capacity > 0u) {
-        core_segments[list.ray * list.capacity + list.n_segments - 1u].element |= CORE_ESTIMATED_SEGMENT;
+        core_segments[list.ray * list.capacity + list.n_segments - 1u].global_element |= CORE_ESTIMATED_SEGMENT;
     }
 }
 
-void core_append(uint element, elvis_real from, elvis_real until, elvis_real error, bool is_estimated, inout core_segment_list list) {
+void core_append(uint global_element, elvis_real from, elvis_real until, elvis_real error, bool is_estimated,
+                 inout core_segment_list list) {
     if (list.capacity > 0u) {
         core_segments[list.ray * list.capacity + list.n_segments] =
-            core_segment_record(from, until, error, element | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u));
+            core_segment_record(from, until, error, global_element | (is_estimated ? CORE_ESTIMATED_SEGMENT : 0u));
     }
     list.sum += until - from;
     list.n_segments += 1u;
@@ -81,17 +81,17 @@ void core_append(uint element, elvis_real from, elvis_real until, elvis_real err
     list.n_estimated += is_estimated ? 1u : 0u;
 }
 
-// The ray's segment in the walk's next element, up to `to`. Returns where it begins.
-elvis_real core_list_segment(core_traced_ray ray, core_segment segment, core_reach reach, elvis_real to, inout core_walk walk,
+// The ray's segment in the element that the walk is in, up to `to`. Returns where it begins.
+elvis_real core_list_segment(core_traced_ray ray, core_segment segment, core_passage passage, elvis_real to, inout core_walk walk,
                              inout core_segment_list list) {
-    const elvis_real leave_error = reach.is_met ? segment.leave_error : list.at_error, errors = list.done_error + leave_error;
+    const elvis_real leave_error = passage.is_met ? segment.leave_error : list.at_error, errors = list.done_error + leave_error;
     // A walk that begins may begin behind a gap. On its way there is none, but where an edge hid the next element.
     const elvis_real rounding = elvis_real(2) * (list.done_error + list.at_error), gap = walk.at - walk.done;
     const bool is_joined = gap <= max(rounding, (list.is_first ? elvis_real(1) : elvis_real(CORE_WIDEST_BREAK)) * ray.tolerance);
-    list.n_overlaps += reach.is_met && gap < -rounding && reach.leave - walk.at > errors ? 1u : 0u;
-    const elvis_real from = is_joined ? walk.done : walk.at, until = min(reach.leave, to);
-    // What was settled before but for rounding does not count.
-    const bool is_segment = reach.is_met && until - from > (gap < elvis_real(0) ? errors : elvis_real(0));
+    list.n_overlaps += passage.is_met && gap < -rounding && passage.leave - walk.at > errors ? 1u : 0u;
+    const elvis_real from = is_joined ? walk.done : walk.at, until = min(passage.leave, to);
+    // What was done before but for rounding does not count.
+    const bool is_segment = passage.is_met && until - from > (gap < elvis_real(0) ? errors : elvis_real(0));
     // Where the ray has left the element before is somewhere on the way to here.
     const bool is_uncertain = walk.is_ahead && (walk.n_lost > 1u || segment.leave <= walk.at + ray.tolerance);
     if (is_uncertain) {
@@ -99,12 +99,12 @@ elvis_real core_list_segment(core_traced_ray ray, core_segment segment, core_rea
     }
     const bool is_end_estimated = segment.is_estimated || is_uncertain;
     if (is_segment) {
-        core_append(walk.element, from, until, max(is_joined ? list.done_error : list.at_error, leave_error),
+        core_append(walk.global_element, from, until, max(is_joined ? list.done_error : list.at_error, leave_error),
                     is_end_estimated || (is_joined && list.is_done_estimated), list);
     }
     walk.done = is_segment ? until : walk.done;
     list.is_done_estimated =
-        is_segment ? is_end_estimated : list.is_done_estimated || is_uncertain || (reach.is_met && segment.is_estimated);
+        is_segment ? is_end_estimated : list.is_done_estimated || is_uncertain || (passage.is_met && segment.is_estimated);
     list.done_error = is_segment ? leave_error : list.done_error;
     list.at_error = leave_error;
     list.is_first = list.is_first && walk.needs_roughly;
@@ -125,27 +125,27 @@ void main() {
     uint n_elements = 0u, n_evaluations = 0u, n_failures = 0u, n_breaks = 0u;
     core_segment segment = core_no_segment();
     const uint most = core_capacity > 0u ? core_capacity : 0xffffffffu;
-    bool goes = core_walk_goes(walk);
+    bool goes = core_walk_goes_here(walk);
     while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && list.n_segments < most) {
         while (goes && n_elements < CORE_MOST_ELEMENTS && n_evaluations < CORE_WORK_LIMIT && list.n_segments < most) {
             n_elements += 1u;
-            const core_reach reach = core_walk_reach(ray, walk, segment);
+            const core_passage passage = core_walk_pass(ray, walk, segment);
             n_evaluations += segment.iterations;
             n_failures += walk.needs_roughly ? 1u : 0u;
-            const elvis_real from = core_list_segment(ray, segment, reach, to, walk, list);
-            const bool is_over = reach.is_met && reach.leave >= to;
+            const elvis_real from = core_list_segment(ray, segment, passage, to, walk, list);
+            const bool is_over = passage.is_met && passage.leave >= to;
             if (!is_over) {
-                core_walk_go_on(ray, segment, reach, from, walk);
+                core_walk_go_on(ray, segment, passage, from, walk);
             }
             n_breaks += walk.needs_element ? 1u : 0u;
             walk.status = is_over ? CORE_RAY_ENDS : walk.status;
-            goes = core_walk_goes(walk);
+            goes = core_walk_goes_here(walk);
             if (!goes || subgroupAny(core_walk_needs_help(walk))) {
                 break;
             }
         }
         core_walk_help(ray, walk, segment);
-        goes = core_walk_goes(walk);
+        goes = core_walk_goes_here(walk);
         if (!goes) {
             break;
         }

@@ -2,8 +2,8 @@
 // evaluation.
 //
 // A ray that surely enters through a face does so once: in elements that are nearly linear, because the way between two points of the
-// shape lies in it; in others, because a face whose directions all lie within an angle does not come back above itself, but as a spiral
-// staircase. Through other faces it can enter only where the face's constraint may be zero and the others may hold.
+// shape lies in it; in others, because a face whose normals lie within a cone cannot overlap itself as seen along the ray, except if it
+// winds like a spiral staircase. Through other faces it can enter only where the face's constraint may be zero and the others may hold.
 //
 // The kernel brings segments/segment.glsl and core_links.
 
@@ -17,10 +17,10 @@ bool core_may_start(core_traced_ray ray, uint element, elvis_real begin, elvis_r
     const core_ray_motion motion = core_motion_along(linearization, curvature, ray.direction);
     const elvis_vec3 here = elvis_vec3(core_linear_inverse(linearization, vec3(core_segment_target(ray, element, begin))));
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
-    // Where all constraints may hold; where the ray may meet the faces without neighbour.
+    // Where all constraints may hold; where the ray may meet the faces without neighbour through which it may enter.
     elvis_real possible_from = max(begin, from - elvis_real(2) * ray.tolerance) - begin, possible_to = end - begin;
-    elvis_real open_from = elvis_real(3e38LF), open_to = elvis_real(-3e38LF);
-    uint n_open = 0u, n_once = 0u;
+    elvis_real face_from = elvis_real(3e38LF), face_to = elvis_real(-3e38LF);
+    uint n_faces = 0u, n_once = 0u;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
         const elvis_real norm = dot(abs(constraint.xyz), elvis_vec3(1));
@@ -29,13 +29,13 @@ bool core_may_start(core_traced_ray ray, uint element, elvis_real begin, elvis_r
         const elvis_real middle = (rate < elvis_real(0) ? value : -value) / steepness, reach = norm * error / steepness;
         possible_to = rate > elvis_real(0) ? min(possible_to, middle + reach) : possible_to;
         possible_from = rate < elvis_real(0) ? max(possible_from, middle - reach) : possible_from;
-        const bool is_open = elvis_fetch_core_links(element, uint(face)) == CORE_NO_LINK && !core_surely_leaves(motion, element, face);
-        open_from = is_open ? min(open_from, middle - reach) : open_from;
-        open_to = is_open ? max(open_to, middle + reach) : open_to;
-        n_open += is_open ? 1u : 0u;
-        n_once += is_open && core_surely_enters(motion, element, face) ? 1u : 0u;
+        const bool may_enter = elvis_fetch_core_links(element, uint(face)) == CORE_NO_LINK && !core_surely_leaves(motion, element, face);
+        face_from = may_enter ? min(face_from, middle - reach) : face_from;
+        face_to = may_enter ? max(face_to, middle + reach) : face_to;
+        n_faces += may_enter ? 1u : 0u;
+        n_once += may_enter && core_surely_enters(motion, element, face) ? 1u : 0u;
     }
-    const bool is_met = max(possible_from, open_from) <= min(possible_to, open_to);
+    const bool is_met = max(possible_from, face_from) <= min(possible_to, face_to);
     // The element's own boundary (element/inside.glsl) is anywhere in it.
-    return ELVIS_HAS_INSIDE == 1 || linearization.exponents == 0u || (is_met && !(is_taken && n_open == 1u && n_once == 1u));
+    return ELVIS_HAS_INSIDE == 1 || linearization.exponents == 0u || (is_met && !(is_taken && n_faces == 1u && n_once == 1u));
 }

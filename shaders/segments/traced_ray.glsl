@@ -1,4 +1,7 @@
-// A pixel's ray as segments/segment.glsl wants it. The kernel brings both and picture/pixel_ray.glsl.
+// The ray of a pixel, or one that is given, as segments/segment.glsl wants it. The kernel brings core_ray.
+
+#ifndef CORE_TRACED_RAY
+#define CORE_TRACED_RAY
 
 // Distance within which the ends of segments are wanted, over the volume's size.
 #if ELVIS_REAL_IS_DOUBLE
@@ -9,6 +12,17 @@
 // Share of the bound of rounding that is met at worst: segments that are shorter than what it makes of them are not found.
 #define CORE_ROUNDING_SHARE elvis_real(0.125LF)
 
+struct core_traced_ray {
+    // Relative to the hierarchies' origin; any length.
+    elvis_vec3 origin, direction;
+    // Bound of the rounding of its points' coordinates.
+    elvis_real error;
+    // Parameters closer than this are the same: the distance that ends may be off, over the direction's length.
+    elvis_real tolerance, speed;
+    // Longest way through the volume, as a parameter.
+    elvis_real longest;
+};
+
 // `extent`: the diagonal of the volume's bounds.
 core_traced_ray core_traced_ray_of(core_ray pixel_ray, elvis_real extent) {
     core_traced_ray ray;
@@ -17,6 +31,8 @@ core_traced_ray core_traced_ray_of(core_ray pixel_ray, elvis_real extent) {
     ray.speed = length(pixel_ray.direction);
     ray.error = CORE_ROUNDING_SHARE * (pixel_ray.error + elvis_real(2) * CORE_ROUNDOFF * extent);
     ray.tolerance = CORE_END_TOLERANCE * extent / ray.speed;
-    ray.reach = elvis_real(4) * extent / ray.speed;
+    ray.longest = elvis_real(4) * extent / ray.speed;
     return ray;
 }
+
+#endif

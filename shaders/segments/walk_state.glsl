@@ -1,6 +1,6 @@
 // Rays go through a volume in walks: into it through a face without known neighbour (or where the eye is), then through shared faces
 // from element to element, until they leave through a face without neighbour. Then the next walk is looked for, in the order of where
-// they begin. Intervals that another walk has settled before do not count again.
+// they begin. What an earlier walk has been through does not count again.
 //
 // So a ray's way is a state that goes from dispatch to dispatch, and from one element class to another.
 
@@ -20,11 +20,11 @@
 
 // Between dispatches.
 struct core_walk_state {
-    // Up to here everything is settled; where the walk has got to; where it began.
+    // Up to here everything is done; where the walk has got to; where it began.
     elvis_real done, at, start;
-    // Of all elements of the volume: the one in which the walk began, and its next one; of a ray that seeks, the one with the nearest start
-    // found so far, which is then `at`.
-    uint start_element, element;
+    // The element in which the walk began, and the one that it is in; of a ray that seeks, the one with the nearest start found so far,
+    // which is then `at`.
+    uint global_start_element, global_element;
     uint status;
     // CORE_FLAG_...
     uint flags;
@@ -33,10 +33,10 @@ struct core_walk_state {
 // In a dispatch.
 struct core_walk {
     elvis_real done, at, start;
-    uint start_element, element, status, flags;
+    uint global_start_element, global_element, status, flags;
     // It begins, goes on or ends in this dispatch's class.
     bool is_mine;
-    // How often on end the element was not met where it was to be.
+    // Counts elements in a row that were not met, or in which the ray hardly advanced.
     uint n_lost;
     // What few rays need (core_walk_help): where it leaves an element without bounds, and the element around it.
     bool needs_roughly, needs_element;

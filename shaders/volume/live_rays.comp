@@ -18,8 +18,8 @@ layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     // Of the list.
     uint core_first, core_n_groups;
-    // Rays that look for a start, and those that can find none end; else those that go on in these elements, and rays that found no start
-    // end.
+    // If 1: lists rays that seek, and ends those that cannot find a start. If 0: lists rays that walk in this class, and ends those that
+    // found none.
     uint core_seeks;
     uint core_first_element;
     uint core_n_elements;
@@ -42,11 +42,11 @@ void main() {
         const uint column = tile * CORE_TILE_WIDTH + lane;
         const bool is_pixel = column < core_size.x;
         const uint pixel = is_pixel ? row * core_size.x + column : 0u;
-        const uint status = core_states[pixel].walk.status, element = core_states[pixel].walk.element;
+        const uint status = core_states[pixel].walk.status, global_element = core_states[pixel].walk.global_element;
         const bool has_sought = status == CORE_RAY_HAS_SOUGHT;
-        const bool ends = core_seeks != 0u ? status == CORE_RAY_SEEKS && !has_starts : has_sought && element == CORE_NO_ELEMENT;
-        const bool is_own = element >= core_first_element && element - core_first_element < core_n_elements;
-        const bool goes = (status == CORE_RAY_GOES || has_sought) && is_own;
+        const bool ends = core_seeks != 0u ? status == CORE_RAY_SEEKS && !has_starts : has_sought && global_element == CORE_NO_ELEMENT;
+        const bool is_of_class = global_element >= core_first_element && global_element - core_first_element < core_n_elements;
+        const bool goes = (status == CORE_RAY_GOES || has_sought) && is_of_class;
         const bool seeks = (status == CORE_RAY_SEEKS && has_starts) || has_sought;
         const bool is_live = is_pixel && (core_seeks != 0u ? seeks : goes && !ends);
         if (is_live) {

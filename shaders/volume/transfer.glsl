@@ -1,5 +1,6 @@
-// A transfer function cut at its breakpoints (core/render/volume/transfer_function.hpp): between two of them, or beyond the last, density
-// and colour are linear in the field's value less the value that the piece starts from. Values lack the field's offset.
+// Stores the transfer function (core/render/volume/transfer_function.hpp) as pieces between breakpoints of the field's value.
+// volume/volume_exact.glsl cuts the ray at them. In a piece density and colour are linear in the field's value less the value that the piece
+// starts from. Values lack the field's offset.
 //
 // The kernel brings core_n_breakpoints; core_breakpoints, ascending; and core_pieces, one more than those: (from, density, its slope,
 // steepness), (colour, breakpoint below), (the colour's slope, breakpoint above). Steepness: how much density and light per length change
@@ -39,7 +40,7 @@ struct core_held_piece {
     elvis_real red, green, blue, red_slope, green_slope, blue_slope;
 };
 
-core_held_piece core_hold_piece(uint index) {
+core_held_piece core_load_piece(uint index) {
     const elvis_vec4 first = core_pieces[3u * index], color = core_pieces[3u * index + 1u], slope = core_pieces[3u * index + 2u];
     core_held_piece held;
     held.index = index;
@@ -66,7 +67,7 @@ core_transfer_piece core_piece_of(core_held_piece held) {
 void core_hold_value(inout core_held_piece held, elvis_real value) {
     const bool is_held = value >= held.lower && value < held.upper;
     if (!is_held) {
-        held = core_hold_piece(core_piece_index(value));
+        held = core_load_piece(core_piece_index(value));
     }
 }
 

@@ -97,7 +97,7 @@ elvis_real core_hidden_error(core_optics_sample first, core_optics_sample second
 }
 
 // The next step: half of this one; or, if this one `is_taken`, one of its length, or twice as long if `may_be_longer` and that is dyadic.
-void core_choose_step(inout core_integral integral, bool is_taken, bool may_be_longer) {
+void core_choose_dyadic_step(inout core_integral integral, bool is_taken, bool may_be_longer) {
     const uint next = integral.index + 1u;
     const bool is_over = is_taken && next >= (1u << integral.level);
     const bool is_longer = is_taken && !is_over && (next & 1u) == 0u && may_be_longer;
@@ -138,7 +138,7 @@ void core_try_step(inout core_integral integral, inout core_light light, elvis_r
     integral.n_steps += is_taken ? 1u : 0u;
     integral.n_breakpoints += is_taken ? n_breakpoints : 0u;
     // Twice as far where the rule's error, which goes with the cube, is likely to allow it, or no samples remain.
-    core_choose_step(integral, is_taken, elvis_real(4) * step_error <= allowed || !has_room);
+    core_choose_dyadic_step(integral, is_taken, elvis_real(4) * step_error <= allowed || !has_room);
 }
 
 void core_integral_add(inout core_integral integral, inout core_light light, core_ray_sample found, core_accuracy wanted,

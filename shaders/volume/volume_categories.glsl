@@ -15,7 +15,7 @@
 // which is less than 3/8 + 3 e^2 for every e; and the sample's error has e^2 of it.
 //
 // The segment has panels of equal length: of one step for the trapezoidal rule, else of the points of Kronrod's rule and the
-// panel's end, or of fewer where core_step does not ask for as many. All go by the same sum: with s the place in the panel, W its
+// panel's end, or of fewer where core_step_length does not ask for as many. All go by the same sum: with s the place in the panel, W its
 // length and D the depth from its beginning,
 //
 //     light += W w(s) color(s) density(s) exp(-D(s)),      D(s) = D(s') + W (s - s') (density(s') + density(s)) / 2,
@@ -100,7 +100,7 @@ elvis_real core_integral_at(core_integral integral) {
 bool core_is_zero(elvis_vec3 v) { return core_max_norm(v) == elvis_real(0); }
 
 // Whether a linear function goes on as another at a breakpoint: its values there and slopes, alike but for rounding.
-bool core_goes_on(elvis_real below, elvis_real below_slope, elvis_real above, elvis_real above_slope, elvis_real width) {
+bool core_continues_smoothly(elvis_real below, elvis_real below_slope, elvis_real above, elvis_real above_slope, elvis_real width) {
     const elvis_real rounding = elvis_real(16) * CORE_ROUNDOFF;
     return abs(below_slope - above_slope) <= rounding * max(abs(below_slope), abs(above_slope)) &&
            abs(below - above) <= rounding * (abs(below) + abs(above) + abs(below_slope) * width);
@@ -116,11 +116,12 @@ core_categories core_categorize(elvis_real low, elvis_real high) {
         const elvis_real at = core_breakpoints[index], width = at - piece.from;
         const core_transfer_piece above = core_fetch_piece(index + 1u);
         const elvis_vec3 color = core_color_at(piece, at);
-        is_density_smooth = is_density_smooth && core_goes_on(piece.density + piece.density_slope * width, piece.density_slope,
-                                                              above.density, above.density_slope, width);
-        is_color_smooth = is_color_smooth && core_goes_on(color.x, piece.color_slope.x, above.color.x, above.color_slope.x, width) &&
-                          core_goes_on(color.y, piece.color_slope.y, above.color.y, above.color_slope.y, width) &&
-                          core_goes_on(color.z, piece.color_slope.z, above.color.z, above.color_slope.z, width);
+        is_density_smooth = is_density_smooth && core_continues_smoothly(piece.density + piece.density_slope * width, piece.density_slope,
+                                                                         above.density, above.density_slope, width);
+        is_color_smooth = is_color_smooth &&
+                          core_continues_smoothly(color.x, piece.color_slope.x, above.color.x, above.color_slope.x, width) &&
+                          core_continues_smoothly(color.y, piece.color_slope.y, above.color.y, above.color_slope.y, width) &&
+                          core_continues_smoothly(color.z, piece.color_slope.z, above.color.z, above.color_slope.z, width);
         has_density = has_density || above.density != elvis_real(0) || above.density_slope != elvis_real(0);
         has_color = has_color || !core_is_zero(above.color) || !core_is_zero(above.color_slope);
         piece = above;

@@ -13,9 +13,9 @@
 // Of what the kernel does in one dispatch.
 #define CORE_WORK_A_STEP 3u
 #define CORE_WORK_AN_ITERATION 6u
-// Breakpoints met and intervals halved in one step, beyond which it is not to be good.
+// Breakpoints met and intervals halved in one step. After this many, the step is given up and counts as inexact.
 #define CORE_MOST_ITERATIONS 256u
-#define CORE_MEETING_ITERATIONS 48u
+#define CORE_BREAKPOINT_ITERATIONS 48u
 // Of the parameter: intervals are not halved further.
 #define CORE_SMALLEST_INTERVAL elvis_real(1.52587890625e-5LF)
 // Share of what a step may be off that quadrature may be off in a section: little, as its estimate may be far too small where both rules
@@ -113,11 +113,11 @@ core_attenuation core_attenuate(core_polynomial powers, core_held_piece held, el
 // The parameter at which a polynomial takes the value, within `error` of it. It lies between `from` and `to`, where the polynomial is on
 // different sides of the value: below at `from` if it `rises`. By Newton's method, or by halves where that leads out. `bend`:
 // core_power_bend.
-elvis_real core_meet(core_polynomial powers, elvis_real value, elvis_real from, elvis_real to, bool rises, elvis_real bend,
-                     elvis_real error) {
+elvis_real core_breakpoint_parameter(core_polynomial powers, elvis_real value, elvis_real from, elvis_real to, bool rises, elvis_real bend,
+                                     elvis_real error) {
     elvis_real low = from, high = to, x = from;
     bool is_found = false;
-    for (uint iteration = 0u; iteration < CORE_MEETING_ITERATIONS && !is_found; ++iteration) {
+    for (uint iteration = 0u; iteration < CORE_BREAKPOINT_ITERATIONS && !is_found; ++iteration) {
         const elvis_real f = core_power_value(powers, x) - value, slope = core_power_slope(powers, x);
         const bool is_before = rises ? f < elvis_real(0) : f > elvis_real(0), is_there = abs(f) <= error;
         low = is_before ? x : low;
@@ -168,7 +168,7 @@ struct core_step_interval {
     // Of the polynomial in the interval: values at both ends, and bounds.
     elvis_real first, last, least, greatest;
     bool is_monotone;
-    // All but `first` are those of another interval; the last section has ended at a breakpoint.
+    // The values except `first` must be recomputed; the previous section ended at a breakpoint.
     bool is_new, has_crossed;
 };
 
@@ -207,7 +207,7 @@ core_section core_next_section(core_polynomial powers, core_step_interval interv
     section.meets = section.is_simple && !section.is_whole && (section.rises ? last >= section.next : last < section.next);
     section.until = interval.to;
     if (section.meets) {
-        section.until = core_meet(powers, section.next, from, interval.to, section.rises, bend, elvis_real(0.25LF) * error);
+        section.until = core_breakpoint_parameter(powers, section.next, from, interval.to, section.rises, bend, elvis_real(0.25LF) * error);
     }
     const bool is_limited = section.until - from > interval.limit;
     section.until = is_limited ? from + interval.limit : section.until;
@@ -238,9 +238,9 @@ bool core_add_section(inout core_light light, core_attenuation attenuation, core
     return is_done;
 }
 
-// Where the polynomial comes so near to a breakpoint that the field may be on the other side: near the ends of a section that does not end
-// at the breakpoint for as long as the field likes, else on its way across. `before`: the transmittance up to the section; `length`: of
-// the step.
+// Where the polynomial comes so near to a breakpoint that the field may be on the other side. If the section touches a breakpoint without
+// crossing, the whole section may be on the wrong side; if it crosses, only the crossing width may be. `before`: the transmittance up to
+// the section; `length`: of the step.
 void core_add_breakpoint_error(inout core_light light, core_polynomial powers, core_step_interval interval, core_section section,
                                core_held_piece held, elvis_real before, elvis_real length, elvis_real error, bool is_done, bool crosses) {
     const elvis_real first = interval.first, end = section.end;
@@ -305,7 +305,7 @@ void core_add_polynomial(inout core_light light, core_fitted fitted, elvis_real 
         const bool crosses = is_done && section.meets;
         core_add_breakpoint_error(light, fitted.powers, interval, section, held, before, length, error, is_done, crosses);
         if (crosses) {
-            held = core_hold_piece(section.rises ? held.index + 1u : held.index - 1u);
+            held = core_load_piece(section.rises ? held.index + 1u : held.index - 1u);
         }
         n_breakpoints += crosses ? 1u : 0u;
         core_choose_interval(section, is_done, crosses, interval);

@@ -6,7 +6,7 @@
 //             (take a sample at core_integral_at(integral), for a line over core_integral_span(integral));
 //             core_integral_add(integral, ...);
 //         }
-//         core_integral_settle(integral, ...);
+//         core_integrate_step(integral, ...);
 //     }
 //
 // `step`: how long the first one may be, in the ray's parameter.

@@ -35,7 +35,7 @@ layout(push_constant) uniform core_parameters {
     // The diagonal of the volume's bounds.
     float core_extent;
     // Of a channel; of the field's density and light with its value, at most; world length of steps.
-    float core_tolerance, core_steepest, core_step;
+    float core_tolerance, core_steepest, core_step_length;
 };
 
 #define CORE_CENTRE core_reference.xyz
@@ -78,25 +78,25 @@ core_ray_stop core_stop_of(uint pixel, elvis_real speed, elvis_real reference_di
 }
 
 // Where the segment begins in the walk's next element. What is too short to matter is the next one's.
-elvis_real core_segment_from(core_traced_ray ray, core_reach reach, inout core_walk walk) {
+elvis_real core_segment_from(core_traced_ray ray, core_passage passage, inout core_walk walk) {
     const elvis_real gap = max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
     const bool is_joined = walk.at - walk.done <= gap;
-    walk.flags |= reach.is_met && !is_joined && walk.done > walk.start ? CORE_FLAG_UNDECIDED : 0u;
+    walk.flags |= passage.is_met && !is_joined && walk.done > walk.start ? CORE_FLAG_UNDECIDED : 0u;
     return is_joined ? walk.done : walk.at;
 }
 
 // The walk's next element: the segment in it, its light, and on, unless the ray stops or nothing behind can be seen.
 void core_march_through(core_traced_ray ray, core_ray_stop stop, inout core_segment segment, inout core_march march) {
     const uint work_before = march.work;
-    const core_reach reach = core_walk_reach(ray, march.walk, segment);
+    const core_passage passage = core_walk_pass(ray, march.walk, segment);
     march.n_mappings += segment.iterations;
     march.work += segment.iterations;
-    const elvis_real from = core_segment_from(ray, reach, march.walk), until = min(reach.leave, stop.t);
-    const bool is_left_open = core_add_segment(ray, segment, from, until, reach.is_met && from < until, march);
+    const elvis_real from = core_segment_from(ray, passage, march.walk), until = min(passage.leave, stop.t);
+    const bool is_left_open = core_add_segment(ray, segment, from, until, passage.is_met && from < until, march);
     const bool is_opaque = march.light.transmittance <= elvis_real(CORE_OPAQUE) * elvis_real(core_tolerance);
-    const bool is_stopped = reach.is_met && reach.leave >= stop.t;
+    const bool is_stopped = passage.is_met && passage.leave >= stop.t;
     if (!is_opaque && !is_stopped && !is_left_open) {
-        core_walk_go_on(ray, segment, reach, from, march.walk);
+        core_walk_go_on(ray, segment, passage, from, march.walk);
     }
     march.walk.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? stop.status : march.walk.status;
     march.n_elements += 1u;
@@ -112,20 +112,20 @@ void main() {
     const core_traced_ray ray = core_traced_ray_of(core_pixel_ray(column, elvis_real(place.y)), elvis_real(core_extent));
     const core_ray_stop stop = core_stop_of(pixel, ray.speed, column.reference_distance);
     const core_volume_state state = core_states[pixel];
-    core_march march = core_march(core_walk_begin(state.walk, is_pixel, stop.t, stop.status), state.light, core_hold_piece(0u),
+    core_march march = core_march(core_walk_begin(state.walk, is_pixel, stop.t, stop.status), state.light, core_load_piece(0u),
                                   state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     core_segment segment = core_no_segment();
-    bool goes = core_walk_goes(march.walk);
+    bool goes = core_walk_goes_here(march.walk);
     while (goes && march.n_elements < CORE_MOST_ELEMENTS && march.work < CORE_WORK_LIMIT) {
         while (goes && march.n_elements < CORE_MOST_ELEMENTS && march.work < CORE_WORK_LIMIT) {
             core_march_through(ray, stop, segment, march);
-            goes = core_walk_goes(march.walk);
+            goes = core_walk_goes_here(march.walk);
             if (!goes || subgroupAny(core_walk_needs_help(march.walk))) {
                 break;
             }
         }
         core_walk_help(ray, march.walk, segment);
-        goes = core_walk_goes(march.walk);
+        goes = core_walk_goes_here(march.walk);
         if (!goes) {
             break;
         }

@@ -1,6 +1,6 @@
 // What quadrature by samples along a ray takes of the transfer function: density, and light per length, where the field has a value.
 //
-// The kernel brings volume/transfer.glsl and core_step.
+// The kernel brings volume/transfer.glsl and core_step_length.
 
 #ifndef CORE_VOLUME_OPTICS
 #define CORE_VOLUME_OPTICS
@@ -24,8 +24,8 @@ core_optics core_optics_at(elvis_real value) { return core_optics_of(core_fetch_
 
 elvis_vec3 core_light_of(core_optics optics) { return elvis_vec3(optics.red, optics.green, optics.blue); }
 
-// Steps of equal length, none longer than core_step, along this length of a ray.
-elvis_real core_wanted_steps(elvis_real length) { return max(ceil(length / elvis_real(core_step)), elvis_real(1)); }
+// Steps of equal length, none longer than core_step_length, along this length of a ray.
+elvis_real core_wanted_steps(elvis_real length) { return max(ceil(length / elvis_real(core_step_length)), elvis_real(1)); }
 
 uint core_n_steps(elvis_real length) { return uint(min(core_wanted_steps(length), elvis_real(CORE_MOST_STEPS))); }
 

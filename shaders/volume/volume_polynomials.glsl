@@ -15,7 +15,7 @@
 #define CORE_WANTS_LEFT 2u
 #define CORE_WANTS_INNER 3u
 // No sample.
-#define CORE_WANTS_TO_SETTLE 4u
+#define CORE_WANTS_TO_INTEGRATE 4u
 
 #define CORE_INNER_AT elvis_real(0.4375LF)
 // Over the length of the segment: steps are not made shorter.
@@ -44,7 +44,7 @@ struct core_integral {
     elvis_real left, right;
     core_step_sample left_sample, right_sample, inner_sample, end_sample;
     bool has_end, has_left;
-    // What the next polynomial is: a quintic; a line from the right, which bounds tell how far the field may be from.
+    // What the next polynomial is: a quintic; a line through the right sample, with `bend` for how far the field may be from it.
     bool has_inner, is_line;
     uint wants;
     // Largest error of a sample, and deviation from a line over the step.
@@ -68,14 +68,14 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
 }
 
 bool core_integral_wants_sample(core_integral integral) {
-    return integral.wants != CORE_WANTS_NOTHING && integral.wants != CORE_WANTS_TO_SETTLE;
+    return integral.wants != CORE_WANTS_NOTHING && integral.wants != CORE_WANTS_TO_INTEGRATE;
 }
 
 bool core_is_shortest(core_integral integral) {
     return integral.right - integral.left <= CORE_SHORTEST_STEP * (integral.to - integral.from);
 }
 
-// Up to where light is settled, and how long the step from there is.
+// Up to where light is done, and how long the step from there is.
 bool core_integral_may_stop(core_integral integral) { return true; }
 elvis_real core_integral_done(core_integral integral) { return integral.left; }
 elvis_real core_integral_step(core_integral integral) { return integral.right - integral.left; }
@@ -95,7 +95,9 @@ elvis_real core_integral_span(core_integral integral) {
 #define CORE_ONE_THIRD elvis_real(0.33333333333333333333LF)
 #define CORE_ONE_FIFTH elvis_real(0.2LF)
 
-core_fitted core_fit_step(core_integral integral) {
+// The cubic or quintic of a step: of degree CORE_FIT_DEGREE, as the tables have it (core/segment/tables.hpp), but no fit of
+// segments/fit.glsl.
+core_fitted core_step_polynomial(core_integral integral) {
     const bool with_inner = integral.has_inner;
     const core_step_sample left = integral.left_sample, right = integral.right_sample;
     const elvis_real width = integral.right - integral.left, c0 = left.value, c3 = right.value;
@@ -194,22 +196,23 @@ void core_integral_add(inout core_integral integral, inout core_light light, cor
         const core_step_sample right = integral.right_sample;
         integral.left_sample = core_step_sample(right.value - (integral.right - integral.left) * right.slope, right.slope);
     }
-    const core_judgement judgement = core_judge_step(integral, core_fit_step(integral), light, wanted, held);
-    integral.wants = judgement.is_tried || is_inner ? CORE_WANTS_TO_SETTLE : integral.is_line ? CORE_WANTS_LEFT : CORE_WANTS_INNER;
+    const core_judgement judgement = core_judge_step(integral, core_step_polynomial(integral), light, wanted, held);
+    integral.wants = judgement.is_tried || is_inner ? CORE_WANTS_TO_INTEGRATE : integral.is_line ? CORE_WANTS_LEFT : CORE_WANTS_INNER;
 }
 
-// On to the next step: to the end, or as far again and a little more. Or back: to the sample inside, without a new one.
+// On to the next step: to the end, or as far again and a little more. Otherwise shortens the step to the inner sample, or
+// wants the sample that is missing.
 void core_choose_step(inout core_integral integral, bool is_good) {
     const bool is_shorter = !is_good && integral.has_inner;
-    const elvis_real width = integral.right - integral.left, reach = integral.right + elvis_real(1.5LF) * width;
+    const elvis_real width = integral.right - integral.left, farther = integral.right + elvis_real(1.5LF) * width;
     const elvis_real inner = integral.left + CORE_INNER_AT * width;
-    const bool is_last = reach >= integral.to, is_known = is_last && integral.has_end;
-    // Of half a step, or of one about as long.
+    const bool is_last = farther >= integral.to, is_known = is_last && integral.has_end;
+    // Scales the bound to the shortened step.
     integral.bend *= is_shorter ? CORE_INNER_AT * CORE_INNER_AT : elvis_real(1);
     if (is_good) {
         integral.left = integral.right;
         integral.left_sample = integral.right_sample;
-        integral.right = is_last ? integral.to : reach;
+        integral.right = is_last ? integral.to : farther;
     }
     if (is_shorter) {
         integral.right = inner;
@@ -217,21 +220,20 @@ void core_choose_step(inout core_integral integral, bool is_good) {
     } else if (is_good && is_known) {
         integral.right_sample = integral.end_sample;
     }
-    integral.wants = is_good ? (integral.left >= integral.to ? CORE_WANTS_NOTHING : is_known ? CORE_WANTS_TO_SETTLE : CORE_WANTS_RIGHT)
+    integral.wants = is_good ? (integral.left >= integral.to ? CORE_WANTS_NOTHING : is_known ? CORE_WANTS_TO_INTEGRATE : CORE_WANTS_RIGHT)
                      : integral.is_line ? CORE_WANTS_LEFT
-                     : is_shorter       ? CORE_WANTS_TO_SETTLE
+                     : is_shorter       ? CORE_WANTS_TO_INTEGRATE
                                         : CORE_WANTS_INNER;
     integral.has_left = integral.has_left || is_good;
     integral.has_inner = integral.is_line = false;
 }
 
-// As much of the integral as samples allow, where it wants to settle. `work` grows by what loops have done. Up to integral.left light is
-// settled.
-void core_integral_settle(inout core_integral integral, inout core_light light, core_accuracy wanted, inout core_held_piece held,
+// As much of the integral as samples allow. `work` grows by what loops have done. Up to integral.left light is done.
+void core_integrate_step(inout core_integral integral, inout core_light light, core_accuracy wanted, inout core_held_piece held,
                           inout uint work) {
-    while (integral.wants == CORE_WANTS_TO_SETTLE) {
+    while (integral.wants == CORE_WANTS_TO_INTEGRATE) {
         const elvis_real length = (integral.right - integral.left) * wanted.per_parameter;
-        const core_fitted fitted = core_fit_step(integral);
+        const core_fitted fitted = core_step_polynomial(integral);
         core_hold_value(held, fitted.p.c[0]);
         const core_held_piece beginning = held;
         const core_judgement judgement = core_judge_step(integral, fitted, light, wanted, held);
@@ -256,7 +258,7 @@ void core_integral_settle(inout core_integral integral, inout core_light light, 
             held = beginning;
         }
         core_choose_step(integral, is_good);
-        if (integral.wants != CORE_WANTS_TO_SETTLE) {
+        if (integral.wants != CORE_WANTS_TO_INTEGRATE) {
             break;
         }
     }

@@ -118,7 +118,7 @@ void core_integrate(core_traced_ray ray, core_segment segment, core_accuracy wan
         core_take_samples(ray, segment, wanted, along, march);
 #if CORE_IS_EXACT
         if (core_is_open(along)) {
-            core_integral_settle(along.integral, march.light, wanted, march.held, march.work);
+            core_integrate_step(along.integral, march.light, wanted, march.held, march.work);
             core_aim(wanted, along);
         }
 #endif

@@ -1,4 +1,4 @@
-// The volume rendering integral along a segment by steps of equal length, no longer than core_step: as it is done
+// The volume rendering integral along a segment by steps of equal length, no longer than core_step_length: as it is done
 // where the breakpoints of the transfer function are not known (B. Nelson, 2012, chapter 6). Riemann's sums take both integrals to
 // first order, the trapezoidal rule to second, where no step has more than one breakpoint.
 //

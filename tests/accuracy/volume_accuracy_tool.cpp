@@ -30,8 +30,6 @@ const std::map<std::string, Integrator> integrators{{"riemann", Integrator::riem
                                                     {"adaptive_trapezoid", Integrator::adaptive_trapezoid},
                                                     {"exact", Integrator::exact}};
 
-const char* name_of(Precision precision) { return precision == Precision::float64 ? "float64" : "float32"; }
-
 nlohmann::json to_json(const VolumeComparison& c, const FrameCounts& counts, double milliseconds) {
     return {{"pixels", c.n_pixels},
             {"touched", c.n_touched},

@@ -37,9 +37,9 @@ double length_of(const std::vector<Segment>& segments) {
 TEST_CASE("the parts of rays in a cut ball are its chords") {
     const RuntimeVolume volume = open(ball);
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
-    DeviceVolume data(device(), volume, precision, nullptr);
+    DeviceVolume data(test::device(), volume, precision, nullptr);
     data.select(0, 0, {0.0});
-    SegmentPass pass(device(), volume, data);
+    SegmentPass pass(test::device(), volume, data);
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> uniform(-1, 1);
     std::vector<SegmentRay> rays;
@@ -80,7 +80,7 @@ TEST_CASE("a cut ball of constant density keeps exp(-density chord) of the light
     view.request.background = {0, 0, 0, 1};
     constexpr double density = 1.7;
     view.request.volume = constant_density(volume, "u", density);
-    const Frame frame = Renderer(device(), volume, precision).render(view.request);
+    const Frame frame = Renderer(test::device(), volume, precision).render(view.request);
     double worst = 0;
     int n_hit = 0;
     for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
@@ -109,7 +109,7 @@ TEST_CASE("light begins at the eye inside of a cut cell, on either side of the c
     request.camera.field_of_view = 90;
     constexpr double density = 1.2;
     request.volume = constant_density(volume, "u", density);
-    const Frame frame = Renderer(device(), volume, precision).render(request);
+    const Frame frame = Renderer(test::device(), volume, precision).render(request);
     Vector3 axis{};
     for (std::size_t i = 0; i < 3; ++i) {
         axis[i] = request.camera.look_at[i] - place;
@@ -144,7 +144,7 @@ TEST_CASE("volumes of a cut gyroid are those of its parts of rays") {
     view.request.background = {0, 0, 0, 1};
     constexpr double density = 0.3;
     view.request.volume = constant_density(volume, "p", density);
-    DeviceVolume data(device(), volume, Precision::float64, nullptr);
+    DeviceVolume data(test::device(), volume, Precision::float64, nullptr);
     data.select(0, 0, {0.0});
     std::vector<SegmentRay> rays;
     for (std::size_t pixel = 0; pixel < std::size_t{view.request.width} * view.request.height; ++pixel) {
@@ -155,9 +155,9 @@ TEST_CASE("volumes of a cut gyroid are those of its parts of rays") {
         rays.push_back(near_centre(from, to, data.centre(), Precision::float64));
     }
     SegmentCounts counts;
-    const auto lists = SegmentPass(device(), volume, data).lists(rays, counts);
+    const auto lists = SegmentPass(test::device(), volume, data).lists(rays, counts);
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
-    const Frame frame = Renderer(device(), volume, precision).render(view.request);
+    const Frame frame = Renderer(test::device(), volume, precision).render(view.request);
     std::size_t n_wrong = 0;
     for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
         const double length = length_of(lists[pixel].segments);
@@ -171,9 +171,9 @@ TEST_CASE("volumes of a cut gyroid are those of its parts of rays") {
 
 TEST_CASE("parts of rays in a cut gyroid are where its level set is not positive") {
     const RuntimeVolume volume = open(gyroid);
-    DeviceVolume data(device(), volume, Precision::float64, nullptr);
+    DeviceVolume data(test::device(), volume, Precision::float64, nullptr);
     data.select(0, 0, {0.0});
-    SegmentPass pass(device(), volume, data);
+    SegmentPass pass(test::device(), volume, data);
     const LevelSet level(volume, 5);
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> uniform(-3, 3);

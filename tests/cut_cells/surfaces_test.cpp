@@ -32,7 +32,7 @@ TEST_CASE("isosurfaces show where they lie in the part of the element that is th
         isosurfaces.method = method;
         surface.geometry = isosurfaces;
         view.request.surfaces = {surface};
-        return Renderer(device(), volume, precision).render(view.request);
+        return Renderer(test::device(), volume, precision).render(view.request);
     };
     for (const auto& [name, values, r] :
          {std::tuple("q", std::vector{0.36, 0.7}, 0.6), std::tuple("level_set", std::vector{0.0}, radius)}) {
@@ -68,7 +68,7 @@ TEST_CASE("a cut plane shows the disc in which it meets the ball, and the disc's
     // q = r^2: a circle inside of the disc, and one that lies in cells of the disc, but where they are cut away.
     surface.contours = Contours{{0.4, 0.68}, {}};
     view.request.surfaces = {surface};
-    const Frame frame = Renderer(device(), volume, precision).render(view.request);
+    const Frame frame = Renderer(test::device(), volume, precision).render(view.request);
     const double pixel_size = view.request.camera.height / view.request.height;
     std::size_t n_wrong = 0, n_edge = 0, n_edge_missed = 0, n_false_contours = 0;
     double worst = 0;
@@ -115,7 +115,7 @@ TEST_CASE("the boundary is that of the box where there is something, and where e
     surface.colors.points = {{-3, {0, 0, 1}}, {3, {1, 0, 0}}};
     surface.mesh_lines = MeshLines{};
     view.request.surfaces = {surface};
-    const Frame frame = Renderer(device(), volume, Precision::float64).render(view.request);
+    const Frame frame = Renderer(test::device(), volume, Precision::float64).render(view.request);
     std::size_t n_wrong = 0, n_on_box = 0, n_on_cut = 0;
     for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
         if (std::isnan(frame.depth[pixel])) {
@@ -146,10 +146,10 @@ TEST_CASE("the boundary is that of the box where there is something, and where e
     // Faces of chosen elements come without it, and the frame says so.
     surface.geometry = ElementFaces{};
     view.request.surfaces = {surface};
-    CHECK(Renderer(device(), volume, Precision::float64).render(view.request).counts.half_drawn_elements == 122);
+    CHECK(Renderer(test::device(), volume, Precision::float64).render(view.request).counts.half_drawn_elements == 122);
     surface.geometry = WireFrame{BoundaryFaces{}, 1};
     view.request.surfaces = {surface};
-    CHECK_THAT(test::error_of([&] { Renderer(device(), volume, Precision::float64).render(view.request); }),
+    CHECK_THAT(test::error_of([&] { Renderer(test::device(), volume, Precision::float64).render(view.request); }),
                Contains("edges cannot"));
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("the boundary of a cut ball is a sphere in both precisions") {
     surface.field.field = field_of(volume, "q");
     surface.colors.points = {{0, {0, 0, 1}}, {1, {1, 0, 0}}};
     view.request.surfaces = {surface};
-    const Frame frame = Renderer(device(), volume, precision).render(view.request);
+    const Frame frame = Renderer(test::device(), volume, precision).render(view.request);
     double worst = 0, worst_value = 0;
     std::size_t n_wrong = 0;
     for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {

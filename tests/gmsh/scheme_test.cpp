@@ -80,7 +80,7 @@ TEST_CASE("interpolation schemes are exact on all shapes", "[gmsh]") {
         for (const bool is_binary : {false, true}) {
             const TemporaryFolder folder;
             run_gmsh(folder, boxes_script,
-                     std::string(dimension == 3 ? "-3" : "-2") + " -order 2 -format msh41 -o mesh.msh -setnumber curved 1");
+                     "-" + std::to_string(dimension) + " -order 2 -format msh41 -o mesh.msh -setnumber curved 1");
             const MshMesh mesh = read_mesh(folder.path("mesh.msh"));
             const Variant variant{.is_binary = is_binary};
             std::map<int, TopologyScheme> schemes;
