@@ -79,8 +79,8 @@ TEST_CASE("interpolation schemes are exact on all shapes", "[gmsh]") {
     for (const int dimension : {3, 2}) {
         for (const bool is_binary : {false, true}) {
             const TemporaryFolder folder;
-            run_gmsh(folder, boxes_script,
-                     "-" + std::to_string(dimension) + " -order 2 -format msh41 -o mesh.msh -setnumber curved 1");
+            const std::string options = "-order 2 -format msh41 -o mesh.msh -setnumber curved 1";
+            run_gmsh(folder, boxes_script, options + (dimension == 3 ? " -3" : " -2"));
             const MshMesh mesh = read_mesh(folder.path("mesh.msh"));
             const Variant variant{.is_binary = is_binary};
             std::map<int, TopologyScheme> schemes;
