@@ -134,23 +134,16 @@ void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_candida
     search.has_entered = false;
 }
 
-// The next element that may hold a start.
-void core_next_candidate(core_ray pixel_ray, core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
-    while (!search.is_following && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
-        core_candidate candidate = core_candidate(false, 0u, elvis_real(0), elvis_real(0));
-        while (!candidate.is_there && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
-            candidate = core_next_node(pixel_ray, search);
-            if (candidate.is_there || !core_has_nodes(search)) {
-                break;
-            }
-        }
-        if (candidate.is_there) {
-            core_follow_candidate(pixel_ray, ray, candidate, segment, search);
-        }
-        if (search.is_following || !core_has_nodes(search)) {
+// The next element on the way through the hierarchy, if there is one.
+core_candidate core_next_candidate(core_ray pixel_ray, inout core_start_search search) {
+    core_candidate candidate = core_candidate(false, 0u, elvis_real(0), elvis_real(0));
+    while (!candidate.is_there && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
+        candidate = core_next_node(pixel_ray, search);
+        if (candidate.is_there || !core_has_nodes(search)) {
             break;
         }
     }
+    return candidate;
 }
 
 #if CORE_HAS_CURVED
@@ -208,11 +201,10 @@ bool core_enters_volume(core_segment segment, core_traced_ray ray) {
     return enters;
 }
 
-// One iteration of the search for the ray's segments in the element. One whose beginning is not the start wanted is followed to where the
-// ray leaves.
-void core_follow(core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
+// What an iteration of the search for the ray's segments in the element tells. One whose beginning is not the start wanted is followed to
+// where the ray leaves.
+void core_follow(core_traced_ray ray, uint ending, inout core_segment segment, inout core_start_search search) {
     const bool is_following = search.is_following;
-    const uint ending = is_following ? core_segment_iterate(ray, is_following, segment) : CORE_SEGMENT_NONE;
     search.n_evaluations += is_following ? 1u : 0u;
     // What is behind in the element is then not looked for.
     search.walk.flags |= is_following && ending != CORE_SEGMENT_OPEN && segment.has_failed ? CORE_FLAG_UNDECIDED : 0u;
@@ -275,11 +267,21 @@ void main() {
     const vec3 along = vec3(ray.direction / ray.speed);
     while ((search.is_following || core_has_nodes(search)) && search.work < CORE_WORK_LIMIT) {
         search.work += 1u;
-        core_next_candidate(pixel_ray, ray, segment, search);
+        // The next element that may hold a start.
+        while (!search.is_following && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
+            const core_candidate candidate = core_next_candidate(pixel_ray, search);
+            if (candidate.is_there) {
+                core_follow_candidate(pixel_ray, ray, candidate, segment, search);
+            }
+            if (search.is_following || !core_has_nodes(search)) {
+                break;
+            }
+        }
 #if CORE_HAS_CURVED
         core_start_in_curved(ray, along, search.is_following && segment.curvature > CORE_FOLLOWED_CURVATURE, segment, search);
 #endif
-        core_follow(ray, segment, search);
+        const uint ending = search.is_following ? core_segment_iterate(ray, search.is_following, segment) : CORE_SEGMENT_NONE;
+        core_follow(ray, ending, segment, search);
         if (!search.is_following && !core_has_nodes(search)) {
             break;
         }
