@@ -5,7 +5,7 @@
 //         while (core_walk_goes(walk)) {
 //             core_reach reach = core_walk_reach(ray, walk, segment): the ray is in the element from walk.at to reach.leave;
 //             what is settled already, up to walk.done, does not count
-//             core_walk_go_on(ray, segment, reach, from, ..., walk): to the next element
+//             core_walk_go_on(ray, segment.leave_face, reach, from, walk): to the next element
 //             if (subgroupAny(core_walk_needs_help(walk))) break;
 //         }
 //         core_walk_help(ray, walk, segment)
@@ -171,15 +171,15 @@ core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core
 }
 
 // To the next element, where the ray has left this one. `from`: up to where it was settled when it came in.
-void core_walk_go_on(core_traced_ray ray, core_segment segment, core_reach reach, elvis_real from, inout core_walk walk) {
+void core_walk_go_on(core_traced_ray ray, int leave_face, core_reach reach, elvis_real from, inout core_walk walk) {
     bool stays = walk.needs_roughly;
     walk.is_ahead = walk.is_ahead && stays;
     walk.at = stays ? walk.at : reach.leave;
-    const uint next = elvis_fetch_core_links(walk.element - core_first_element, uint(max(segment.leave_face, 0)));
+    const uint next = elvis_fetch_core_links(walk.element - core_first_element, uint(max(leave_face, 0)));
     // Elements on both sides of a face that the ray grazes may hand it to and fro.
     const bool is_stuck = reach.leave - from <= elvis_real(4) * ray.tolerance;
     // The face did not tell, or rounding led past an edge.
-    walk.needs_element = !stays && (!reach.is_met || segment.leave_face < 0 || (is_stuck && walk.n_lost >= CORE_MOST_GRAZES));
+    walk.needs_element = !stays && (!reach.is_met || leave_face < 0 || (is_stuck && walk.n_lost >= CORE_MOST_GRAZES));
     walk.n_lost = stays ? walk.n_lost : walk.needs_element || is_stuck ? walk.n_lost + 1u : 0u;
     stays = stays || walk.needs_element;
     walk.element = stays ? walk.element : next;

@@ -70,9 +70,10 @@ void core_predict(inout core_follower follower, elvis_real at) {
     follower.steps = 0u;
 }
 
-void core_follow_to(inout core_follower follower, elvis_real goal) {
+void core_follow_to(inout core_follower follower, elvis_real goal, elvis_real span, elvis_real enough) {
     follower.goal = goal;
-    follower.span = follower.enough = elvis_real(0);
+    follower.span = span;
+    follower.enough = enough;
     follower.all_steps = 0u;
     core_predict(follower, goal);
 }

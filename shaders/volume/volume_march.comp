@@ -85,7 +85,7 @@ elvis_real core_segment_from(core_traced_ray ray, bool is_met, inout core_walk w
     return is_joined ? walk.done : walk.at;
 }
 
-bool core_has_time(uint n_elements, uint work) { return n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT; }
+bool core_has_time(core_march march) { return march.n_elements < CORE_MOST_ELEMENTS && march.work < CORE_WORK_LIMIT; }
 
 void main() {
     const uvec2 place = core_group_pixel(core_first_group, core_size.x);
@@ -94,96 +94,32 @@ void main() {
     const core_cut_column column = core_cut_begin(elvis_real(place.x));
     const core_traced_ray ray = core_traced_ray_of(core_pixel_ray(column, elvis_real(place.y)), elvis_real(core_extent));
     const core_ray_stop stop = core_stop_of(pixel, ray.speed, column.reference_distance);
-    core_volume_state state = core_states[pixel];
+    const core_volume_state state = core_states[pixel];
     core_walk walk = core_walk_begin(state.walk, is_pixel, stop.t, stop.status);
-    core_light light = state.light;
-    core_held_piece held = core_hold_piece(0u);
+    core_march march = core_march(state.light, core_hold_piece(0u), state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     core_segment segment = core_no_segment();
-    core_march_counts counts = core_march_counts(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
-    uint work = 0u;
     bool goes = core_walk_goes(walk);
-    while (goes && core_has_time(counts.n_elements, work)) {
-        while (goes && core_has_time(counts.n_elements, work)) {
-            const uint work_before = work;
+    while (goes && core_has_time(march)) {
+        while (goes && core_has_time(march)) {
+            const uint work_before = march.work;
             const core_reach reach = core_walk_reach(ray, walk, segment);
-            counts.n_mappings += segment.iterations;
-            work += segment.iterations;
+            march.n_elements += 1u;
+            march.n_mappings += segment.iterations;
+            march.work += segment.iterations;
             const elvis_real from = core_segment_from(ray, reach.is_met, walk), until = min(reach.leave, stop.t);
-            const bool has_segment = reach.is_met && from < until;
-            const bool is_bounded =
-                core_is_constant(core_range_along(segment, from, until), held) && has_segment && core_skips_by_range != 0u;
-            core_findings findings = core_findings(is_bounded, true, false, false);
-            const core_accuracy wanted = core_accuracy_along(ray.speed, walk.start, from, until, light);
-            core_integral integral = core_integral_begin(from, has_segment && !is_bounded ? until : from, ray.speed, state.step);
-            core_follower follower = core_follow_from(segment.anchor);
-            core_aim(integral, wanted.enough, follower);
-#if CORE_IS_EXACT
-            // Where the ray leaves the mapping has been evaluated.
-            if (core_is_open(integral.wants, findings)) {
-                const core_ray_sample found =
-                    core_sample_predicted(segment, core_integral_at(integral), follower.span, wanted.enough);
-                counts.n_evaluations += 1u;
-                findings.is_constant = core_tells_constant(found, follower.span, until - from, held);
-                if (core_is_taken(found.status, findings)) {
-                    core_integral_add(integral, light, found, wanted, held, work);
-                    core_aim(integral, wanted.enough, follower);
-                }
-            }
-#endif
-            while (core_is_open(integral.wants, findings) && (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral))) {
-                // Until all lanes have what they need, so that what follows is done for all of them together.
-                bool is_running = core_integral_wants_sample(integral);
-                while (is_running) {
-                    const core_ray_sample found = core_sample_step(ray, segment.element, segment.curvature, follower);
-                    core_judge(found, findings, counts, walk.flags);
-                    work += CORE_WORK_A_SAMPLE;
-#if !CORE_IS_EXACT
-                    if (findings.is_fresh && !findings.is_broken) {
-                        findings.is_constant = core_tells_constant(found, follower.span, until - from, held);
-                    }
-#endif
-                    if (core_is_taken(found.status, findings)) {
-                        findings.is_fresh = false;
-                        core_integral_add(integral, light, found, wanted, held, work);
-                        core_aim(integral, wanted.enough, follower);
-                    }
-                    is_running = core_is_open(integral.wants, findings) && core_integral_wants_sample(integral) &&
-                                 (work < CORE_WORK_LIMIT || !core_integral_may_stop(integral));
-                    if (!is_running) {
-                        break;
-                    }
-                }
-                work = subgroupMax(work);
-#if CORE_IS_EXACT
-                if (core_is_open(integral.wants, findings)) {
-                    core_integral_settle(integral, light, wanted, held, work);
-                    core_aim(integral, wanted.enough, follower);
-                }
-#endif
-                if (!core_is_open(integral.wants, findings)) {
-                    break;
-                }
-            }
-            core_add_simple(light, findings, held, (until - from) * ray.speed);
-            counts.n_elements += 1u;
-            counts.n_segments += has_segment ? 1u : 0u;
-            counts.n_empty += findings.is_constant ? 1u : 0u;
-            counts.n_steps += integral.n_steps;
-            counts.n_breakpoints += integral.n_breakpoints;
-            walk.flags |= has_segment && core_is_model_estimated(segment.element) ? CORE_FLAG_ESTIMATED : 0u;
+            const core_settled settled =
+                core_add_segment(ray, segment, walk.start, from, until, reach.is_met && from < until, march);
+            walk.done = walk.needs_roughly ? walk.done : max(walk.done, settled.until);
 
-            // On, in the same element if there was no time for all of it, unless the ray stops or nothing behind can be seen.
-            const bool is_left_open = core_is_open(integral.wants, findings);
-            state.step = is_left_open ? core_integral_step(integral) : CORE_FAR;
-            walk.done = walk.needs_roughly ? walk.done : max(walk.done, is_left_open ? core_integral_done(integral) : until);
-            const bool is_opaque = light.transmittance <= elvis_real(CORE_OPAQUE) * elvis_real(core_tolerance);
+            // On, unless the ray stops or nothing behind can be seen; in the same element if there was no time for all of it.
+            const bool is_opaque = march.light.transmittance <= elvis_real(CORE_OPAQUE) * elvis_real(core_tolerance);
             const bool is_stopped = reach.is_met && reach.leave >= stop.t;
-            if (!is_opaque && !is_stopped && !is_left_open) {
-                core_walk_go_on(ray, segment, reach, from, walk);
+            if (!is_opaque && !is_stopped && !settled.is_left_open) {
+                core_walk_go_on(ray, segment.leave_face, reach, from, walk);
             }
-            walk.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? stop.status : walk.status;
+            walk.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !settled.is_left_open ? stop.status : walk.status;
             // Lanes wait for each other.
-            work = work_before + subgroupMax(work - work_before);
+            march.work = work_before + subgroupMax(march.work - work_before);
             goes = core_walk_goes(walk);
             if (!goes || subgroupAny(core_walk_needs_help(walk))) {
                 break;
@@ -195,10 +131,11 @@ void main() {
             break;
         }
     }
+    walk.flags |= march.flags;
     const core_walk_state end = core_walk_end(walk);
     if (walk.is_mine) {
-        core_states[pixel] = core_volume_state(end, state.step, light);
+        core_states[pixel] = core_volume_state(end, march.step, march.light);
     }
-    core_count(0u, uvec4(walk.is_mine ? 1u : 0u, counts.n_evaluations, counts.n_mappings, counts.n_segments));
-    core_count(4u, uvec4(counts.n_empty, counts.n_steps, counts.n_breakpoints, counts.n_failures));
+    core_count(0u, uvec4(walk.is_mine ? 1u : 0u, march.n_evaluations, march.n_mappings, march.n_segments));
+    core_count(4u, uvec4(march.n_empty, march.n_steps, march.n_breakpoints, march.n_failures));
 }
