@@ -85,7 +85,7 @@ elvis_real core_segment_from(core_traced_ray ray, bool is_met, inout core_walk w
     return is_joined ? walk.done : walk.at;
 }
 
-bool core_has_time(core_march march) { return march.n_elements < CORE_MOST_ELEMENTS && march.work < CORE_WORK_LIMIT; }
+bool core_has_time(uint n_elements, uint work) { return n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT; }
 
 void main() {
     const uvec2 place = core_group_pixel(core_first_group, core_size.x);
@@ -99,8 +99,8 @@ void main() {
     core_march march = core_march(state.light, core_hold_piece(0u), state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     core_segment segment = core_no_segment();
     bool goes = core_walk_goes(walk);
-    while (goes && core_has_time(march)) {
-        while (goes && core_has_time(march)) {
+    while (goes && core_has_time(march.n_elements, march.work)) {
+        while (goes && core_has_time(march.n_elements, march.work)) {
             const uint work_before = march.work;
             const core_reach reach = core_walk_reach(ray, walk, segment);
             march.n_elements += 1u;

@@ -46,7 +46,7 @@ core_accuracy core_accuracy_along(elvis_real speed, elvis_real start, elvis_real
 }
 
 // Whether an evaluation at an end of the segment of this length tells that one piece, in which nothing changes, holds all of it.
-bool core_tells_constant(core_ray_sample found, elvis_real span, elvis_real length, inout core_held_piece held) {
+bool core_tells_constant(const core_ray_sample found, elvis_real span, elvis_real length, inout core_held_piece held) {
     if (abs(span) < length || !found.is_known || core_skips_by_range == 0u) {
         return false;
     }
