@@ -73,10 +73,10 @@ struct core_start_search {
     bool is_following, has_entered;
 };
 
-bool core_has_nodes(core_start_search search) { return search.stack_size > 0u || search.entry < search.n_entries; }
+bool core_has_nodes(const core_start_search search) { return search.stack_size > 0u || search.entry < search.n_entries; }
 
 // Of starts that are as near, that in the later element is behind.
-bool core_is_behind_last(core_traced_ray ray, elvis_real t, uint element, core_start_search search) {
+bool core_is_behind_last(const core_traced_ray ray, elvis_real t, uint element, const core_start_search search) {
     const bool is_tied = abs(t - search.walk.start) <= elvis_real(2) * ray.tolerance;
     return is_tied ? element > search.walk.start_element : t > search.walk.start;
 }
@@ -121,7 +121,7 @@ core_candidate core_next_node(core_ray ray, inout core_start_search search) {
 }
 
 // Starts with the ray's segments in the candidate, if it may hold a start.
-void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_candidate candidate, inout core_segment segment,
+void core_follow_candidate(core_ray pixel_ray, const core_traced_ray ray, core_candidate candidate, inout core_segment segment,
                            inout core_start_search search) {
     const elvis_real begin = search.is_first ? max(candidate.from, search.from) : candidate.from;
     const elvis_real end = min(candidate.to, begin + ray.reach);
@@ -148,7 +148,7 @@ core_candidate core_next_candidate(core_ray pixel_ray, inout core_start_search s
 
 #if CORE_HAS_CURVED
 // In an element so curved that bounds tell little: a start at the eye, and through each face by which the ray may come in.
-void core_start_in_curved(core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment, inout core_start_search search) {
+void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment, inout core_start_search search) {
     const uint element = core_first_element + segment.element;
     if (is_curved && search.is_first && segment.anchor.t <= search.from) {
         const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
@@ -184,7 +184,7 @@ void core_start_in_curved(core_traced_ray ray, vec3 along, bool is_curved, inout
 #endif
 
 // Whether the ray enters the element through a face without neighbour, or through one that is as near within rounding.
-bool core_enters_volume(core_segment segment, core_traced_ray ray) {
+bool core_enters_volume(const core_segment segment, const core_traced_ray ray) {
     const elvis_vec3 at = core_predicted(segment.anchor, segment.enter), slope = abs(core_slope_of(segment.anchor));
     const elvis_real near = elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF;
     bool enters = false;
@@ -203,7 +203,7 @@ bool core_enters_volume(core_segment segment, core_traced_ray ray) {
 
 // What an iteration of the search for the ray's segments in the element tells. One whose beginning is not the start wanted is followed to
 // where the ray leaves.
-void core_follow(core_traced_ray ray, uint ending, inout core_segment segment, inout core_start_search search) {
+void core_follow(const core_traced_ray ray, uint ending, inout core_segment segment, inout core_start_search search) {
     const bool is_following = search.is_following;
     search.n_evaluations += is_following ? 1u : 0u;
     // What is behind in the element is then not looked for.

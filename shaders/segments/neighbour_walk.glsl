@@ -38,7 +38,7 @@ bool core_is_own(uint element) { return element >= core_first_element && element
 
 // Goes from element to element towards the point of the ray at t, until one holds it. Returns its number in the class; or CORE_NO_ELEMENT,
 // and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
-uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
+uint core_find_around(const core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
     bool has_left = false;
     uint hops = 0u;
@@ -86,7 +86,7 @@ uint core_find_around(core_traced_ray ray, uint element, elvis_real t, out uint 
 
 // Where the ray leaves the element as Newton's method predicts it, without bounds: for rays that run along a curved face within
 // rounding. That face does not count. The segment is an estimate.
-void core_leave_roughly(core_traced_ray ray, elvis_real from, inout core_segment segment) {
+void core_leave_roughly(const core_traced_ray ray, elvis_real from, inout core_segment segment) {
     elvis_real leave = from;
     int leave_face = CORE_NO_FACE;
     for (uint iteration = 0u; iteration < CORE_ROUGH_ITERATIONS; ++iteration) {
@@ -141,7 +141,7 @@ struct core_reach {
     elvis_real leave;
 };
 
-core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
+core_reach core_walk_reach(const core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
     uint ending = CORE_SEGMENT_FOUND;
     if (!walk.has_segment) {
         const bool is_possible = core_segment_begin(ray, walk.element - core_first_element, walk.at, walk.at + ray.reach, true, segment);
@@ -171,7 +171,7 @@ core_reach core_walk_reach(core_traced_ray ray, inout core_walk walk, inout core
 }
 
 // To the next element, where the ray has left this one. `from`: up to where it was settled when it came in.
-void core_walk_go_on(core_traced_ray ray, int leave_face, core_reach reach, elvis_real from, inout core_walk walk) {
+void core_walk_go_on(const core_traced_ray ray, int leave_face, core_reach reach, elvis_real from, inout core_walk walk) {
     bool stays = walk.needs_roughly;
     walk.is_ahead = walk.is_ahead && stays;
     walk.at = stays ? walk.at : reach.leave;
@@ -188,7 +188,7 @@ void core_walk_go_on(core_traced_ray ray, int leave_face, core_reach reach, elvi
 
 bool core_walk_needs_help(core_walk walk) { return walk.needs_roughly || walk.needs_element; }
 
-void core_walk_help(core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
+void core_walk_help(const core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
     if (walk.needs_roughly) {
         core_leave_roughly(ray, walk.at, segment);
         walk.flags |= CORE_FLAG_UNDECIDED;

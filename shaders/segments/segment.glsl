@@ -99,14 +99,14 @@ core_segment core_no_segment() {
     return segment;
 }
 
-elvis_vec3 core_segment_target(core_traced_ray ray, uint element, elvis_real t) {
+elvis_vec3 core_segment_target(const core_traced_ray ray, uint element, elvis_real t) {
     // elvis_origin is zero where the snippet's coordinates are the world's.
     return (CORE_CENTRE - elvis_origin(element)) + (ray.origin + t * ray.direction);
 }
 
 // Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
 // at `begin`, if it is in it after that at all: it is taken to be inside until a bound denies that.
-bool core_segment_begin(core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_segment segment) {
+bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_segment segment) {
     const core_linearization linearization = core_fetch_linearization(element);
     const bool is_linearized = linearization.exponents != 0u;
     const elvis_vec3 first = core_segment_target(ray, element, begin);
@@ -161,7 +161,7 @@ struct core_ray_evaluation {
     bool is_sound;
 };
 
-core_ray_evaluation core_evaluate_ray(core_traced_ray ray, uint element, elvis_vec3 xi, elvis_real t) {
+core_ray_evaluation core_evaluate_ray(const core_traced_ray ray, uint element, elvis_vec3 xi, elvis_real t) {
     core_ray_evaluation here;
     elvis_vec3 position;
     elvis_mat3 jacobian;
@@ -183,7 +183,7 @@ elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / c
 // In elements so curved that a point outside of them may be taken for the ray's, the ray is followed from where it enters: there its
 // point lies in the element, and is found by Newton's method from one start after the other. False if it is not. `slack`: by how much of
 // the parameter it may be off.
-bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segment segment) {
+bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_segment segment) {
     uint start = 0u, steps = 0u;
     bool is_found = false;
     elvis_real x = segment.anchor.x, y = segment.anchor.y, z = segment.anchor.z;

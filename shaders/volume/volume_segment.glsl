@@ -37,7 +37,7 @@ bool core_is_taken(uint status, core_findings findings) {
 }
 
 // Of the segment from `from` to `until`, of a walk that began at `start`.
-core_accuracy core_accuracy_along(elvis_real speed, elvis_real start, elvis_real from, elvis_real until, core_light light) {
+core_accuracy core_accuracy_along(elvis_real speed, elvis_real start, elvis_real from, elvis_real until, const core_light light) {
     const elvis_real tolerance = elvis_real(core_tolerance);
     const elvis_real ahead = max(elvis_real(core_extent) / speed - (from - start), until - from);
     const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
@@ -55,7 +55,7 @@ bool core_tells_constant(const core_ray_sample found, elvis_real span, elvis_rea
 }
 
 // Light of a segment that needs no quadrature.
-void core_add_simple(inout core_light light, core_findings findings, core_held_piece held, elvis_real length) {
+void core_add_simple(inout core_light light, core_findings findings, const core_held_piece held, elvis_real length) {
     if (findings.is_constant) {
         core_add_constant(light, core_piece_of(held), length);
     }
@@ -66,7 +66,7 @@ void core_add_simple(inout core_light light, core_findings findings, core_held_p
 }
 
 // `has_segment`: whether anything lies between. `start`: where the walk began.
-core_settled core_add_segment(core_traced_ray ray, core_segment segment, elvis_real start, elvis_real from, elvis_real until,
+core_settled core_add_segment(const core_traced_ray ray, const core_segment segment, elvis_real start, elvis_real from, elvis_real until,
                               bool has_segment, inout core_march march) {
     const bool is_bounded =
         core_is_constant(core_range_along(segment, from, until), march.held) && has_segment && core_skips_by_range != 0u;
