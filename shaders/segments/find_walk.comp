@@ -202,8 +202,8 @@ bool core_enters_volume(const core_segment segment, const core_traced_ray ray) {
 }
 
 // What an iteration of the search for the ray's segments in the element tells. One whose beginning is not the start wanted is followed to
-// where the ray leaves.
-void core_follow(const core_traced_ray ray, uint ending, inout core_segment segment, inout core_start_search search) {
+// where the ray leaves. True if the next one in the element is to be looked for.
+bool core_follow(const core_traced_ray ray, uint ending, const core_segment segment, inout core_start_search search) {
     const bool is_following = search.is_following;
     search.n_evaluations += is_following ? 1u : 0u;
     // What is behind in the element is then not looked for.
@@ -219,13 +219,8 @@ void core_follow(const core_traced_ray ray, uint ending, inout core_segment segm
     // Where no face is met it was said too early, by estimates, that the ray is outside.
     const bool is_late = segment.enter_face < 0 && !is_at_eye;
     core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, element, search);
-    const bool goes_on = ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
-    const elvis_real resume = max(segment.resume, segment.leave) + ray.tolerance;
     search.is_following = is_following && !is_start && ending == CORE_SEGMENT_OPEN;
-    if (goes_on) {
-        search.is_following = core_segment_begin(ray, segment.element, resume, segment.last, false, segment);
-        search.has_entered = false;
-    }
+    return ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
 }
 
 core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 place, bool is_mine) {
@@ -281,7 +276,11 @@ void main() {
         core_start_in_curved(ray, along, search.is_following && segment.curvature > CORE_FOLLOWED_CURVATURE, segment, search);
 #endif
         const uint ending = search.is_following ? core_segment_iterate(ray, search.is_following, segment) : CORE_SEGMENT_NONE;
-        core_follow(ray, ending, segment, search);
+        if (core_follow(ray, ending, segment, search)) {
+            const elvis_real resume = max(segment.resume, segment.leave) + ray.tolerance;
+            search.is_following = core_segment_begin(ray, segment.element, resume, segment.last, false, segment);
+            search.has_entered = false;
+        }
         if (!search.is_following && !core_has_nodes(search)) {
             break;
         }
