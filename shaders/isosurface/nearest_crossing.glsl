@@ -60,7 +60,8 @@ void core_nearest_take(bool is_hit, const core_nearest_crossing found, inout cor
 }
 
 // Flags of a pixel that has it, and puts it into the picture.
-uint core_nearest_store(const core_nearest_crossing nearest, uint pixel, const core_ray ray, elvis_real stretch, elvis_real reference_distance) {
+uint core_nearest_store(const core_nearest_crossing nearest, uint pixel, const core_ray ray, elvis_real stretch,
+                        elvis_real reference_distance) {
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     if (is_hit) {
         core_store_crossing(pixel, core_surface, nearest.isovalue, (nearest.t + reference_distance) * stretch, nearest.number,

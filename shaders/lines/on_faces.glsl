@@ -79,7 +79,8 @@ void core_enter(const core_surface surface, uint patch_index, inout core_line_se
     core_begin_element(search, start);
 }
 
-core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image, core_picture_square place) {
+core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
+                                 core_picture_square place) {
     core_shown_square square = core_own_square_at(image, max(search.own_face, 0), place);
     // A line is met on faces that face the viewer as the one that the pixel shows; both sides of an element of two dimensions do.
     const bool is_facing = CORE_HAS_TWO_DIMENSIONS || square.enters == surface.enters;

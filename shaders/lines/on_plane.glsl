@@ -42,7 +42,8 @@ void core_enter(const core_surface surface, uint element, inout core_line_search
     core_enter_element(element, corners, middle, elvis_real(1), search);
 }
 
-core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image, core_picture_square place) {
+core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
+                                 core_picture_square place) {
     const core_cut_square corners = core_cut_corners(place);
     const elvis_vec3 direction = core_cut_ray_at(place.column, place.row).direction;
     core_shown_square square = core_shown_square_at(image, corners, core_plane_normal.xyz, direction, CORE_NO_FACE);

@@ -36,7 +36,8 @@ void core_enter(const core_surface surface, uint element, inout core_line_search
     core_enter_element(element, surface.corners, middle, elvis_real(0), search);
 }
 
-core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image, core_picture_square place) {
+core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
+                                 core_picture_square place) {
     const core_quadric_span quadric_span = core_quadric_span_at(place, surface.is_front);
     const core_front front = core_quadric_front(place, quadric_span);
     core_cut_square corners = core_span_corners(quadric_span);

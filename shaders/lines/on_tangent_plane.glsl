@@ -60,7 +60,8 @@ void core_enter(const core_surface surface, uint element, inout core_line_search
     core_enter_element(element, surface.corners, surface.listed.tangent.point, room, search);
 }
 
-core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image, core_picture_square place) {
+core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
+                                 core_picture_square place) {
     const bool is_first = search.level == 0u, is_smooth = surface.listed.around.is_smooth;
     const core_tangent tangent = surface.listed.tangent;
     core_picture_square asked = place;

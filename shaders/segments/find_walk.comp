@@ -148,7 +148,8 @@ core_candidate core_next_candidate(core_ray pixel_ray, inout core_start_search s
 
 #if CORE_HAS_CURVED
 // In an element so curved that bounds tell little: a start at the eye, and through each face by which the ray may come in.
-void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment, inout core_start_search search) {
+void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment,
+                          inout core_start_search search) {
     const uint element = core_first_element + segment.element;
     if (is_curved && search.is_first && segment.anchor.t <= search.from) {
         const bool is_in = core_segment_enter(ray, elvis_real(0), segment);

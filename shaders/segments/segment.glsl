@@ -106,7 +106,8 @@ elvis_vec3 core_segment_target(const core_traced_ray ray, uint element, elvis_re
 
 // Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
 // at `begin`, if it is in it after that at all: it is taken to be inside until a bound denies that.
-bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_segment segment) {
+bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered,
+                        out core_segment segment) {
     const core_linearization linearization = core_fetch_linearization(element);
     const bool is_linearized = linearization.exponents != 0u;
     const elvis_vec3 first = core_segment_target(ray, element, begin);

@@ -87,8 +87,8 @@ struct core_attenuation {
 // The error is estimated from Simpson's rule, which needs but the ends besides. With h the section's length Simpson's error is about
 // h^5 / 2880 times the fourth derivative, Gauss' h^7 / 2016000 times the sixth: for exp(h) that is 0.08 of the 3/2th power of the other.
 // A few hundred times as much is taken.
-core_attenuation core_attenuate(const core_polynomial powers, const core_held_piece held, elvis_real from, elvis_real width, elvis_real first,
-                               elvis_real last, elvis_real length) {
+core_attenuation core_attenuate(const core_polynomial powers, const core_held_piece held, elvis_real from, elvis_real width,
+                                elvis_real first, elvis_real last, elvis_real length) {
     const elvis_vec3 at = from + width * CORE_GAUSS_AT;
     const elvis_vec3 q = elvis_vec3(core_power_value(powers, at.x), core_power_value(powers, at.y), core_power_value(powers, at.z)) -
                          held.from;
@@ -193,8 +193,8 @@ struct core_section {
     bool is_whole, is_small, is_smallest, is_simple;
 };
 
-core_section core_next_section(const core_polynomial powers, const core_step_interval interval, const core_held_piece held, elvis_real bend,
-                               elvis_real error, elvis_real length) {
+core_section core_next_section(const core_polynomial powers, const core_step_interval interval, const core_held_piece held,
+                               elvis_real bend, elvis_real error, elvis_real length) {
     const elvis_real from = interval.from, first = interval.first, last = interval.last;
     core_section section;
     section.rises = last > first;
@@ -219,8 +219,8 @@ core_section core_next_section(const core_polynomial powers, const core_step_int
 }
 
 // Light of the section, if quadrature is good enough, which is returned. `missed`: the sum of what it is off; `allowed`: in this section.
-bool core_add_section(inout core_light light, const core_attenuation attenuation, const core_section section, const core_held_piece held, elvis_real error,
-                      elvis_real allowed, inout elvis_real missed) {
+bool core_add_section(inout core_light light, const core_attenuation attenuation, const core_section section,
+                      const core_held_piece held, elvis_real error, elvis_real allowed, inout elvis_real missed) {
     const elvis_real color_slope = max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
     const elvis_real before = light.transmittance, miss = before * color_slope * attenuation.missed;
     const elvis_real of_field = before * section.ray_length * held.steepness * error;
@@ -241,8 +241,9 @@ bool core_add_section(inout core_light light, const core_attenuation attenuation
 // Where the polynomial comes so near to a breakpoint that the field may be on the other side: near the ends of a section that does not end
 // at the breakpoint for as long as the field likes, else on its way across. `before`: the transmittance up to the section; `length`: of
 // the step.
-void core_add_breakpoint_error(inout core_light light, const core_polynomial powers, const core_step_interval interval, const core_section section,
-                               const core_held_piece held, elvis_real before, elvis_real length, elvis_real error, bool is_done, bool crosses) {
+void core_add_breakpoint_error(inout core_light light, const core_polynomial powers, const core_step_interval interval,
+                               const core_section section, const core_held_piece held, elvis_real before, elvis_real length,
+                               elvis_real error, bool is_done, bool crosses) {
     const elvis_real first = interval.first, end = section.end;
     const elvis_real reach = (section.is_small ? elvis_real(3) : elvis_real(1.25LF)) * error;
     const elvis_real across = min(elvis_real(4) * reach / max(abs((crosses ? section.next : end) - first), reach), elvis_real(1));

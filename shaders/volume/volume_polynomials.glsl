@@ -149,7 +149,8 @@ struct core_judgement {
 };
 
 // `held`: the piece that holds the step's beginning, or another one.
-core_judgement core_judge_step(const core_integral integral, const core_fitted fitted, const core_light light, core_accuracy wanted, const core_held_piece held) {
+core_judgement core_judge_step(const core_integral integral, const core_fitted fitted, const core_light light, core_accuracy wanted,
+                               const core_held_piece held) {
     const elvis_real width = integral.right - integral.left, tolerance = wanted.tolerance;
     // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
     const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
