@@ -231,8 +231,8 @@ elvis_real core_taken_curvature(elvis_real curvature, uint iterations) {
     return is_certain ? curvature : curvature * (is_late ? elvis_real(0.015625LF) : elvis_real(0.125LF));
 }
 
-// What of the interval is outside, inside and open. `predicted`: the point of the shape next to it, xi, has been evaluated. `bound`: how far
-// points of the interval may be from where they are predicted, at most `step` away.
+// What of the interval is outside, inside and open. `predicted`: the point of the shape next to it, xi, has been evaluated. `bound`: how
+// far points of the interval may be from where they are predicted, at most `step` away.
 core_ray_clip core_clip_interval(const core_ray_evaluation here, elvis_real curvature, elvis_real step, elvis_real bound,
                                  elvis_vec3 predicted, elvis_vec3 xi, const core_segment segment) {
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
