@@ -60,7 +60,7 @@ struct core_evaluation {
 // From here on the remainder of a model tells second derivatives, not rounding.
 #define CORE_WIDE_ENOUGH (elvis_real(8) * CORE_NARROW)
 
-core_evaluation core_evaluate_at(core_ray ray, inout core_interval_search search) {
+core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search search) {
     core_evaluation evaluation;
     evaluation.element = search.element != CORE_NO_ELEMENT ? search.element : 0u;
     evaluation.xi = elvis_vec3(search.x, search.y, search.z);

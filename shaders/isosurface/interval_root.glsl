@@ -29,7 +29,7 @@ struct core_root {
     elvis_real bend;
 };
 
-core_root core_root_of(core_evaluation evaluation, core_interval_search search) {
+core_root core_root_of(const core_evaluation evaluation, const core_interval_search search) {
     const core_ray_interval interval = evaluation.interval;
     const core_linear_root candidate = evaluation.candidate;
     const core_frame frame = evaluation.frame;

@@ -66,15 +66,15 @@ layout(push_constant) uniform core_parameters {
 #define CORE_WORK_LIMIT 1500u
 
 // The root, as a crossing of the ray.
-core_nearest_crossing core_found_at(core_evaluation evaluation, core_root root) {
-    const core_linear_root candidate = evaluation.candidate;
-    return core_nearest_crossing(evaluation.middle + candidate.s, candidate.half_width, root.xi.x, root.xi.y, root.xi.z, candidate.isovalue,
+core_nearest_crossing core_found_at(const core_evaluation evaluation, const core_root root) {
+    const core_linear_root crossing = evaluation.crossing;
+    return core_nearest_crossing(evaluation.middle + crossing.s, crossing.half_width, root.xi.x, root.xi.y, root.xi.z, crossing.isovalue,
                                  root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
                                  elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
 }
 
 // Flag of a pixel in which rounding may have led the crossing away.
-uint core_blur_of(core_nearest_crossing nearest, core_ray ray, elvis_real stretch) {
+uint core_blur_of(const core_nearest_crossing nearest, const core_ray ray, elvis_real stretch) {
 #if ELVIS_REAL_IS_DOUBLE
     // Rounding alone: the crossing's own width is that of the interval in which it was found. In single precision bounds of rounding say
     // too little: projection would be as uncertain, and less exact.

@@ -37,10 +37,10 @@ core_nearest_crossing core_nearest_begin(uint pixel, elvis_real stretch, elvis_r
 }
 
 // Where rays need not be looked at any more.
-elvis_real core_nearest_end(core_nearest_crossing nearest) { return nearest.t + nearest.slack; }
+elvis_real core_nearest_end(const core_nearest_crossing nearest) { return nearest.t + nearest.slack; }
 
 // Takes what was found, if it is a crossing (`is_hit`), into account. `found` as above, certain if it surely lies in its element.
-void core_nearest_take(bool is_hit, core_nearest_crossing found, inout core_nearest_crossing nearest) {
+void core_nearest_take(bool is_hit, const core_nearest_crossing found, inout core_nearest_crossing nearest) {
     const bool is_same = abs(found.t - nearest.t) <= max(found.slack, nearest.slack);
     const bool is_better = is_hit && (is_same ? found.number < nearest.number : found.t < nearest.t);
     const bool is_shared = is_same && nearest.element != found.element;
@@ -60,7 +60,8 @@ void core_nearest_take(bool is_hit, core_nearest_crossing found, inout core_near
 }
 
 // Flags of a pixel that has it, and puts it into the picture.
-uint core_nearest_store(core_nearest_crossing nearest, uint pixel, core_ray ray, elvis_real stretch, elvis_real reference_distance) {
+uint core_nearest_store(const core_nearest_crossing nearest, uint pixel, const core_ray ray, elvis_real stretch,
+                        elvis_real reference_distance) {
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     if (is_hit) {
         core_store_crossing(pixel, core_surface_number, nearest.isovalue, (nearest.t + reference_distance) * stretch, nearest.number,

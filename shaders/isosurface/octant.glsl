@@ -66,16 +66,16 @@ core_octant core_fetch_octant(uint index) {
     return octant;
 }
 
-vec3 core_octant_rotate(core_octant octant, vec3 v) { return vec3(dot(octant.row0, v), dot(octant.row1, v), dot(octant.row2, v)); }
+vec3 core_octant_rotate(const core_octant octant, vec3 v) { return vec3(dot(octant.row0, v), dot(octant.row1, v), dot(octant.row2, v)); }
 
 // How wrong y is for points given by coordinates of this size, beyond what the octant itself allows for.
-float core_octant_tolerance(core_octant octant, float far) {
+float core_octant_tolerance(const core_octant octant, float far) {
     const vec3 ones = vec3(1);
     const float norm = max(max(dot(abs(octant.row0), ones), dot(abs(octant.row1), ones)), dot(abs(octant.row2), ones));
     return CORE_OCTANT_ROUNDING * far * norm;
 }
 
-float core_octant_error(core_octant octant, float tolerance) {
+float core_octant_error(const core_octant octant, float tolerance) {
     return octant.error + tolerance * dot(abs(octant.slope), vec3(1));
 }
 

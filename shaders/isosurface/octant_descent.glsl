@@ -22,17 +22,17 @@ uint core_stack[CORE_STACK_SIZE];
 #define CORE_TOP 0u
 #endif
 
-void core_look_ahead(core_ray ray, float end_t, inout core_octant_descent descent) {
+void core_look_ahead(const core_ray ray, float end_t, inout core_octant_descent descent) {
     descent.first = descent.entry;
     descent.entry = min(descent.first + CORE_OCTANTS_AHEAD, descent.n_entries);
     descent.ahead = core_octants_ahead(ray, descent.first, descent.entry, end_t);
 }
 
-bool core_has_octants_ahead(core_octant_descent descent) { return descent.stack_size > 0u || descent.ahead != 0u; }
+bool core_has_octants_ahead(const core_octant_descent descent) { return descent.stack_size > 0u || descent.ahead != 0u; }
 
 #if CORE_DESCENDS
 // The octant of a node that the ray meets before `end_t`; CORE_NO_NODE if there are two children, which then wait.
-uint core_octant_below(uint index, core_ray ray, float end_t, inout core_octant_descent descent) {
+uint core_octant_below(uint index, const core_ray ray, float end_t, inout core_octant_descent descent) {
     const core_node node = core_fetch_node(index);
     const vec2 in_box = core_box_span(node, ray);
     const bool is_met = max(in_box.x, float(ray.least_t)) <= min(in_box.y, end_t);

@@ -13,7 +13,7 @@
 elvis_real core_wider(core_linear_root candidate) { return elvis_real(4) * candidate.half_width; }
 
 // Starts with the ray's span in an octant. Returns flags of the pixel.
-uint core_interval_search_begin(core_octant octant, core_octant_span reached, out core_interval_search search) {
+uint core_interval_search_begin(const core_octant octant, core_octant_span reached, out core_interval_search search) {
     search.x = elvis_real(reached.xi.x);
     search.y = elvis_real(reached.xi.y);
     search.z = elvis_real(reached.xi.z);
@@ -45,7 +45,7 @@ struct core_verdict {
     elvis_real cut_low, cut_high;
 };
 
-core_verdict core_judge_interval(core_evaluation evaluation, core_root root, core_interval_search search) {
+core_verdict core_judge_interval(const core_evaluation evaluation, const core_root root, const core_interval_search search) {
     const core_ray_interval interval = evaluation.interval;
     const core_linear_root candidate = evaluation.candidate;
     const bool is_active = search.element != CORE_NO_ELEMENT;
@@ -94,7 +94,7 @@ core_verdict core_judge_interval(core_evaluation evaluation, core_root root, cor
 
 // To the next interval, or to none. `ends`: a crossing was found, before which there is none; behind `nearest_end` nothing need be
 // looked at. Returns whether something stays undecided.
-bool core_interval_search_next(core_evaluation evaluation, core_verdict verdict, bool ends, elvis_real nearest_end,
+bool core_interval_search_next(const core_evaluation evaluation, const core_verdict verdict, bool ends, elvis_real nearest_end,
                                inout core_interval_search search) {
     const core_ray_interval interval = evaluation.interval;
     const bool is_done_with = verdict.is_empty || verdict.is_excluded;

@@ -5,7 +5,7 @@
 #include "isosurface/value_interval.glsl"
 
 // What of `span` lies in the octant. `start` + t `motion`: the ray in the octant's coordinates.
-vec2 core_octant_inside(core_octant octant, vec3 start, vec3 motion, float tolerance, vec2 span) {
+vec2 core_octant_inside(const core_octant octant, vec3 start, vec3 motion, float tolerance, vec2 span) {
     const vec3 inverse = 1.0 / mix(motion, vec3(1e-30), lessThan(abs(motion), vec3(1e-30)));
     const vec3 a = (-1.0 - tolerance - start) * inverse, b = (1.0 + tolerance - start) * inverse;
     const vec3 low = min(a, b), high = max(a, b);
@@ -28,7 +28,7 @@ vec2 core_octant_inside(core_octant octant, vec3 start, vec3 motion, float toler
 }
 
 // What of that leaves room for an isovalue.
-vec2 core_octant_value_span(core_octant octant, vec3 start, vec3 motion, float tolerance, vec2 span) {
+vec2 core_octant_value_span(const core_octant octant, vec3 start, vec3 motion, float tolerance, vec2 span) {
     return core_value_interval(octant.value + dot(octant.slope, start), dot(octant.slope, motion), core_octant_error(octant, tolerance),
                                span);
 }
@@ -41,7 +41,7 @@ struct core_octant_span {
     vec3 xi;
 };
 
-core_octant_span core_octant_span_of(core_octant octant, core_ray ray, float end_t) {
+core_octant_span core_octant_span_of(const core_octant octant, const core_ray ray, float end_t) {
     const vec3 start = core_octant_rotate(octant, ray.box_origin - octant.middle);
     const vec3 motion = core_octant_rotate(octant, vec3(ray.direction));
     const float tolerance = core_octant_tolerance(octant, ray.far);

@@ -82,7 +82,7 @@ void core_projection_solve(core_traced_ray traced_ray, inout core_projection_sea
     search.bracket_to = search.from + search.candidate.upper * extent + margin;
     search.polish_iterations = 0u;
     search.last_step = CORE_FAR;
-    core_follow_to(search.follower, search.from + search.candidate.t * extent);
+    core_follow_to(search.follower, search.from + search.candidate.t * extent, elvis_real(0), elvis_real(0));
     const bool is_ignored = CORE_PLAIN == 1 && search.candidate.kind == CORE_CROSSING_TOUCH;
     search.phase = is_none ? CORE_PHASE_INTERVAL_DONE : is_ignored ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
     if (refines && (halves || !is_full)) {

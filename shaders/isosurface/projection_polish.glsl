@@ -75,5 +75,6 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const bool is_estimated = core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1;
     search.flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     search.phase = is_hit ? CORE_PHASE_SEEK : is_settled || is_last ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
-    core_follow_to(search.follower, is_within ? next : elvis_real(0.5LF) * (search.bracket_from + search.bracket_to));
+    core_follow_to(search.follower, is_within ? next : elvis_real(0.5LF) * (search.bracket_from + search.bracket_to),
+                   elvis_real(0), elvis_real(0));
 }

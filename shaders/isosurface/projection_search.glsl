@@ -75,7 +75,8 @@ core_projection_search core_projection_begin() {
 
 // The next sample that the interval's polynomial needs.
 void core_want_sample(inout core_projection_search search) {
-    core_follow_to(search.follower, search.from + core_fit_parameter(search.interval.values) * (search.to - search.from));
+    core_follow_to(search.follower, search.from + core_fit_parameter(search.interval.values) * (search.to - search.from),
+                   elvis_real(0), elvis_real(0));
 }
 
 // To the first half of the interval.

@@ -61,7 +61,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     search.to = search.segment_to;
     search.interval.values = search.interval.slopes = core_fit_begin();
     search.follower = core_follow_from(search.segment.anchor);
-    core_follow_to(search.follower, search.from);
+    core_follow_to(search.follower, search.from, elvis_real(0), elvis_real(0));
 }
 
 // Behind a segment: on in the element, or to the next one. `nearest_end`: nothing need be looked at behind.

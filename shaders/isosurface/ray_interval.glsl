@@ -32,8 +32,8 @@ elvis_real core_interval_radius(core_ray_interval interval) {
 }
 
 // The interval from -half_width to half_width, cut by the faces. `offset`: of the middle from the image of xi.
-core_ray_interval core_interval_in_element(elvis_vec3 xi, core_frame frame, elvis_vec3 offset, elvis_vec3 direction, elvis_real half_width,
-                                 elvis_real curvature) {
+core_ray_interval core_interval_in_element(elvis_vec3 xi, const core_frame frame, elvis_vec3 offset, elvis_vec3 direction,
+                                           elvis_real half_width, elvis_real curvature) {
     core_ray_interval interval;
     interval.q = core_to_xi(frame, offset);
     interval.w = core_to_xi(frame, direction);

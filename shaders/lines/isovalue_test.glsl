@@ -17,7 +17,7 @@ struct core_isovalue_test {
     bool is_estimated;
 };
 
-core_isovalue_test core_isovalues_in(core_element_image image, core_region square) {
+core_isovalue_test core_isovalues_in(const core_element_image image, core_region square) {
     core_isovalue_test test = core_isovalue_test(elvis_real(0), true, false, false);
 #if CORE_WITH_CONTOURS
     const core_model f = core_shown_model(image.element, image.xi, square, test.value);

@@ -28,7 +28,7 @@ core_line_marks core_no_lines_yet(bool wants_contour, bool wants_mesh) {
     return core_line_marks(wants_contour, wants_mesh, false, false, false, false, false);
 }
 
-bool core_is_looking(core_line_marks lines) { return lines.wants_contour || lines.wants_mesh; }
+bool core_wants_lines(const core_line_marks lines) { return lines.wants_contour || lines.wants_mesh; }
 
 void core_record_lines(inout core_line_marks lines, bool finds_contour, bool finds_mesh) {
     lines.has_contour = lines.has_contour || finds_contour;
@@ -43,14 +43,14 @@ void core_leave_open(inout core_line_marks lines, bool leaves_contour, bool leav
 }
 
 // What is not decided, as bits of a list's word. `is_cut_short`: more would have been looked at.
-uint core_undecided_lines(core_line_marks lines, bool is_cut_short) {
+uint core_undecided_lines(const core_line_marks lines, bool is_cut_short) {
     const bool is_contour_undecided = !lines.has_contour && (lines.is_contour_open || (lines.wants_contour && is_cut_short));
     const bool is_mesh_undecided = !lines.has_mesh_line && (lines.is_mesh_open || (lines.wants_mesh && is_cut_short));
     return (is_contour_undecided ? CORE_LIST_CONTOUR : 0u) | (is_mesh_undecided ? CORE_LIST_MESH_LINE : 0u);
 }
 
 // `undecided`: what stays so for good.
-void core_mark_lines(uint pixel, core_line_marks lines, uint undecided) {
+void core_mark_lines(uint pixel, const core_line_marks lines, uint undecided) {
     const uint flags = (lines.has_contour ? CORE_FLAG_CONTOUR : 0u) | (lines.has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) |
                        ((undecided & CORE_LIST_CONTOUR) != 0u ? CORE_FLAG_CONTOUR_UNDECIDED : 0u) |
                        ((undecided & CORE_LIST_MESH_LINE) != 0u ? CORE_FLAG_MESH_UNDECIDED : 0u) |

@@ -47,7 +47,7 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return search;
 }
 
-bool core_is_shown_face(core_surface surface, uint element, int face) {
+bool core_is_shown_face(const core_surface surface, uint element, int face) {
     return surface.is_shown_class && element == surface.place.element && face == core_face_of(surface.place);
 }
 
@@ -67,7 +67,7 @@ bool core_patch_reaches(uint index, core_box box, core_face face, out elvis_vec3
     return !is_beside && abs(s) <= bounds.y + dot(abs(to_s.xyz), half_size);
 }
 
-void core_select_item(core_surface surface, uint patch_index, inout core_line_search search) {
+void core_enter(const core_surface surface, uint patch_index, inout core_line_search search) {
     const uint face = elvis_fetch4_core_patches(patch_index, 4u).z;
     const uvec4 of_face = elvis_fetch4_core_faces(face, 0u);
     search.own_face = int(of_face.y);
@@ -79,7 +79,8 @@ void core_select_item(core_surface surface, uint patch_index, inout core_line_se
     core_begin_element(search, start);
 }
 
-core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
+core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
+                                 core_picture_square place) {
     core_shown_square square = core_own_square_at(image, max(search.own_face, 0), place);
     // A line is met on faces that face the viewer as the one that the pixel shows; both sides of an element of two dimensions do.
     const bool is_facing = CORE_HAS_TWO_DIMENSIONS || square.enters == surface.enters;
@@ -93,7 +94,7 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     return square;
 }
 
-elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {
+elvis_vec3 core_expected_point(const core_surface surface, const core_shown_square square, core_picture_square place, out bool is_met) {
     elvis_real t;
     const elvis_vec3 point = core_tangent_point(square.tangent, place.column, place.row, t);
     is_met = t < CORE_FAR;

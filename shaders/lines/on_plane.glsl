@@ -36,13 +36,14 @@ core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind)
     return surface;
 }
 
-void core_select_item(core_surface surface, uint element, inout core_line_search search) {
+void core_enter(const core_surface surface, uint element, inout core_line_search search) {
     const core_cut_square corners = surface.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
     core_select_element(element, corners, middle, elvis_real(1), search);
 }
 
-core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
+core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
+                                 core_picture_square place) {
     const core_cut_square corners = core_cut_corners(place);
     const elvis_vec3 direction = core_cut_ray_at(place.column, place.row).direction;
     core_shown_square square = core_shown_square_at(image, corners, core_plane_normal.xyz, direction, CORE_NO_FACE);
@@ -51,7 +52,7 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     return square;
 }
 
-elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {
+elvis_vec3 core_expected_point(const core_surface surface, const core_shown_square square, core_picture_square place, out bool is_met) {
     const core_cut_point point = core_cut_pixel(core_cut_begin(place.column), place.row);
     is_met = point.is_hit;
     return point.position;

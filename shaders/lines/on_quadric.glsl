@@ -31,12 +31,13 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return core_begin_listed(listed, core_subdivisions, surface.corners.all_hit, surface.corners.all_hit);
 }
 
-void core_select_item(core_surface surface, uint element, inout core_line_search search) {
+void core_enter(const core_surface surface, uint element, inout core_line_search search) {
     const elvis_vec3 middle = elvis_real(0.5LF) * (surface.corners.corner0 + surface.corners.corner1);
     core_select_element(element, surface.corners, middle, elvis_real(0), search);
 }
 
-core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
+core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
+                                 core_picture_square place) {
     const core_quadric_span quadric_span = core_quadric_span_at(place, surface.is_front);
     const core_front front = core_quadric_front(place, quadric_span);
     core_cut_square corners = core_span_corners(quadric_span);
@@ -55,7 +56,7 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     return square;
 }
 
-elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {
+elvis_vec3 core_expected_point(const core_surface surface, const core_shown_square square, core_picture_square place, out bool is_met) {
     const core_quadric_span expected = core_quadric_span_at(place, surface.is_front);
     is_met = true;
     return elvis_real(0.5LF) * (expected.from + expected.to);

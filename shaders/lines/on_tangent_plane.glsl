@@ -54,13 +54,14 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return search;
 }
 
-void core_select_item(core_surface surface, uint element, inout core_line_search search) {
+void core_enter(const core_surface surface, uint element, inout core_line_search search) {
     // What the surface departs from its tangent plane is less than the pixel's size where it is smooth.
     const elvis_real room = surface.listed.around.is_smooth ? elvis_real(2) : elvis_real(0);
     core_select_element(element, surface.corners, surface.listed.tangent.point, room, search);
 }
 
-core_shown_square core_square_on(core_surface surface, core_line_search search, core_element_image image, core_picture_square place) {
+core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
+                                 core_picture_square place) {
     const bool is_first = search.level == 0u, is_smooth = surface.listed.around.is_smooth;
     const core_tangent tangent = surface.listed.tangent;
     core_picture_square asked = place;
@@ -77,7 +78,7 @@ core_shown_square core_square_on(core_surface surface, core_line_search search, 
     return square;
 }
 
-elvis_vec3 core_expected_point(core_surface surface, core_shown_square square, core_picture_square place, out bool is_met) {
+elvis_vec3 core_expected_point(const core_surface surface, const core_shown_square square, core_picture_square place, out bool is_met) {
     elvis_real t;
     is_met = true;
     return core_tangent_point(surface.listed.tangent, place.column, place.row, t);

@@ -14,7 +14,7 @@
 
 #include "lines/shown_square.glsl"
 
-core_shown_square core_own_square_at(core_element_image image, int own_face, core_picture_square place) {
+core_shown_square core_own_square_at(const core_element_image image, int own_face, core_picture_square place) {
     const elvis_real shift_error = elvis_real(2) * image.shift_error;
     const elvis_vec3 direction = core_cut_ray_at(place.column, place.row).direction, origin = image.shift - image.position;
     core_shown_square square;

@@ -37,14 +37,14 @@ struct core_line_search {
 };
 
 // From the root of the hierarchy on, if there is anything to be looked for.
-core_line_search core_begin_search(elvis_real column, elvis_real row, uint most_level, core_line_marks lines, bool has_nodes) {
+core_line_search core_begin_search(elvis_real column, elvis_real row, uint most_level, const core_line_marks lines, bool has_nodes) {
     core_stack[0] = 0u;
     const elvis_real zero = elvis_real(0);
     return core_line_search(lines, core_is_looking(lines), has_nodes ? 1u : 0u, CORE_NO_ITEM, 0, CORE_NO_ITEM, column, row, 0u, 0u,
                             0u, most_level, zero, zero, zero, 0u, 0u, 0u, 0u);
 }
 
-bool core_is_unfinished(core_line_search search) {
+bool core_is_unfinished(const core_line_search search) {
     return search.goes_on && (search.item != CORE_NO_ITEM || search.stack_size > 0u);
 }
 

@@ -29,7 +29,7 @@ struct core_shown_square {
 };
 
 // `own_face`: as in core_judge_faces.
-core_shown_square core_shown_square_at(core_element_image image, core_cut_square corners, elvis_vec3 normal, elvis_vec3 direction,
+core_shown_square core_shown_square_at(const core_element_image image, core_cut_square corners, elvis_vec3 normal, elvis_vec3 direction,
                                        int own_face) {
     core_shown_square square;
     square.corners = corners;

@@ -90,7 +90,7 @@ elvis_vec4 core_at_corners(core_region region, elvis_real value, elvis_vec3 slop
 
 // What the faces of the element say about the region of `subpixel` around xi. `own_face`: the face in which the surface lies by
 // definition; CORE_NO_FACE if it is any surface, which then has this normal.
-void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, core_frame frame, elvis_vec3 plane_normal, elvis_vec3 direction,
+void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, const core_frame frame, elvis_vec3 plane_normal, elvis_vec3 direction,
                       int own_face) {
     const core_region region = subpixel.region;
     // Rounding of the corners' coordinates.
@@ -159,7 +159,7 @@ void core_judge_inside(inout core_subpixel subpixel, uint element, elvis_vec3 xi
 
 // `corners`: of a part of the surface that is flat but for their error, around a point with this normal, seen in this direction.
 // `own_face`: as in core_judge_faces.
-core_subpixel core_subpixel_at(core_element_image image, core_frame frame, core_cut_square corners, elvis_vec3 normal,
+core_subpixel core_subpixel_at(const core_element_image image, core_frame frame, core_cut_square corners, elvis_vec3 normal,
                                elvis_vec3 direction, int own_face) {
     core_subpixel subpixel;
     const elvis_vec3 origin = image.shift - image.position;
@@ -195,7 +195,7 @@ struct core_approach {
     bool is_clear;
 };
 
-core_approach core_approach_to(core_subpixel subpixel, core_element_image image) {
+core_approach core_approach_to(const core_subpixel subpixel, const core_element_image image) {
     const elvis_real radius = abs(subpixel.region.radius - subpixel.region.beyond - subpixel.step);
     elvis_real x = subpixel.middle.x, y = subpixel.middle.y, z = subpixel.middle.z;
     core_project(x, y, z);

@@ -15,7 +15,7 @@ bool core_next_subpixel(inout uint level, inout uint across, inout uint down) {
 }
 
 // The pixel's own square at level 0.
-core_picture_square core_searched_place(core_line_search search) {
+core_picture_square core_searched_place(const core_line_search search) {
     const elvis_real size = elvis_real(1) / elvis_real(1u << search.level), half_one = elvis_real(0.5LF);
     return core_picture_square(search.column - half_one + (elvis_real(search.across) + half_one) * size,
                                search.row - half_one + (elvis_real(search.down) + half_one) * size, half_one * size);

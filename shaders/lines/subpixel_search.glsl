@@ -18,7 +18,8 @@
 #define CORE_MOST_MOVES 8u
 
 // The point of the element at which the mapping is linearized next, expected to be the middle of the subpixel.
-void core_predict(core_surface surface, core_shown_square square, core_element_image image, inout core_line_search search) {
+void core_predict(const core_surface surface, const core_shown_square square, const core_element_image image,
+                  inout core_line_search search) {
     bool is_met;
     const elvis_vec3 expected = core_expected_point(surface, square, core_searched_place(search), is_met);
     const elvis_vec3 step = core_to_xi(square.frame, image.shift - image.position + expected);

@@ -72,10 +72,10 @@ struct core_start_search {
     bool is_following, has_entered;
 };
 
-bool core_has_nodes(core_start_search search) { return search.stack_size > 0u || search.entry < search.n_entries; }
+bool core_has_nodes(const core_start_search search) { return search.stack_size > 0u || search.entry < search.n_entries; }
 
-// If two starts are equally near, the one in the higher global element counts as behind.
-bool core_is_behind_last(core_traced_ray ray, elvis_real t, uint global_element, core_start_search search) {
+// Of starts that are as near, that in the later element is behind.
+bool core_is_behind_last(const core_traced_ray ray, elvis_real t, uint element, const core_start_search search) {
     const bool is_tied = abs(t - search.walk.start) <= elvis_real(2) * ray.tolerance;
     return is_tied ? global_element > search.walk.global_start_element : t > search.walk.start;
 }
@@ -120,7 +120,7 @@ core_start_candidate core_next_node(core_ray ray, inout core_start_search search
 }
 
 // Starts with the ray's segments in the candidate, if it may hold a start.
-void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_start_candidate candidate, inout core_segment segment,
+void core_follow_candidate(core_ray pixel_ray, const core_traced_ray ray, core_candidate candidate, inout core_segment segment,
                            inout core_start_search search) {
     const elvis_real begin = search.is_first ? max(candidate.from, search.from) : candidate.from;
     const elvis_real end = min(candidate.to, begin + ray.longest);
@@ -133,29 +133,23 @@ void core_follow_candidate(core_ray pixel_ray, core_traced_ray ray, core_start_c
     search.has_entered = false;
 }
 
-// The next element that may hold a start.
-void core_next_start_candidate(core_ray pixel_ray, core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
-    while (!search.is_following && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
-        core_start_candidate candidate = core_start_candidate(false, 0u, elvis_real(0), elvis_real(0));
-        while (!candidate.is_there && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
-            candidate = core_next_node(pixel_ray, search);
-            if (candidate.is_there || !core_has_nodes(search)) {
-                break;
-            }
-        }
-        if (candidate.is_there) {
-            core_follow_candidate(pixel_ray, ray, candidate, segment, search);
-        }
-        if (search.is_following || !core_has_nodes(search)) {
+// The next element on the way through the hierarchy, if there is one.
+core_candidate core_next_candidate(core_ray pixel_ray, inout core_start_search search) {
+    core_candidate candidate = core_candidate(false, 0u, elvis_real(0), elvis_real(0));
+    while (!candidate.is_there && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
+        candidate = core_next_node(pixel_ray, search);
+        if (candidate.is_there || !core_has_nodes(search)) {
             break;
         }
     }
+    return candidate;
 }
 
 #if CORE_HAS_CURVED
 // In an element so curved that bounds tell little: a start at the eye, and through each face by which the ray may come in.
-void core_start_in_curved(core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment, inout core_start_search search) {
-    const uint global_element = core_first_element + segment.element;
+void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment,
+                          inout core_start_search search) {
+    const uint element = core_first_element + segment.element;
     if (is_curved && search.is_first && segment.anchor.t <= search.from) {
         const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
         search.n_evaluations += segment.iterations;
@@ -190,7 +184,7 @@ void core_start_in_curved(core_traced_ray ray, vec3 along, bool is_curved, inout
 #endif
 
 // Whether the ray enters the element through a face without neighbour, or through one that is as near within rounding.
-bool core_enters_volume(core_segment segment, core_traced_ray ray) {
+bool core_enters_volume(const core_segment segment, const core_traced_ray ray) {
     const elvis_vec3 at = core_predicted(segment.anchor, segment.enter), slope = abs(core_slope_of(segment.anchor));
     const elvis_real near = elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF;
     bool enters = false;
@@ -207,11 +201,10 @@ bool core_enters_volume(core_segment segment, core_traced_ray ray) {
     return enters;
 }
 
-// One iteration of the search for the ray's segments in the element. If a segment does not begin at a wanted start, the search follows it
-// to its end and looks behind it.
-void core_follow(core_traced_ray ray, inout core_segment segment, inout core_start_search search) {
+// What an iteration of the search for the ray's segments in the element tells. One whose beginning is not the start wanted is followed to
+// where the ray leaves. True if the next one in the element is to be looked for.
+bool core_follow(const core_traced_ray ray, uint ending, const core_segment segment, inout core_start_search search) {
     const bool is_following = search.is_following;
-    const uint ending = is_following ? core_segment_iterate(ray, is_following, segment) : CORE_SEGMENT_NONE;
     search.n_evaluations += is_following ? 1u : 0u;
     // What is behind in the element is then not looked for.
     search.walk.flags |= is_following && ending != CORE_SEGMENT_OPEN && segment.has_failed ? CORE_FLAG_UNDECIDED : 0u;
@@ -225,14 +218,9 @@ void core_follow(core_traced_ray ray, inout core_segment segment, inout core_sta
     }
     // Where no face is met it was said too early, by estimates, that the ray is outside.
     const bool is_late = segment.enter_face < 0 && !is_at_eye;
-    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, global_element, search);
-    const bool goes_on = ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
-    const elvis_real resume = max(segment.resume, segment.leave) + ray.tolerance;
+    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, element, search);
     search.is_following = is_following && !is_start && ending == CORE_SEGMENT_OPEN;
-    if (goes_on) {
-        search.is_following = core_segment_begin(ray, segment.element, resume, segment.last, false, segment);
-        search.has_entered = false;
-    }
+    return ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
 }
 
 core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 place, bool is_mine) {
@@ -274,11 +262,25 @@ void main() {
     const vec3 along = vec3(ray.direction / ray.speed);
     while ((search.is_following || core_has_nodes(search)) && search.work < CORE_WORK_LIMIT) {
         search.work += 1u;
-        core_next_start_candidate(pixel_ray, ray, segment, search);
+        // The next element that may hold a start.
+        while (!search.is_following && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
+            const core_candidate candidate = core_next_candidate(pixel_ray, search);
+            if (candidate.is_there) {
+                core_follow_candidate(pixel_ray, ray, candidate, segment, search);
+            }
+            if (search.is_following || !core_has_nodes(search)) {
+                break;
+            }
+        }
 #if CORE_HAS_CURVED
         core_start_in_curved(ray, along, search.is_following && segment.curvature > CORE_FOLLOWED_CURVATURE, segment, search);
 #endif
-        core_follow(ray, segment, search);
+        const uint ending = search.is_following ? core_segment_iterate(ray, search.is_following, segment) : CORE_SEGMENT_NONE;
+        if (core_follow(ray, ending, segment, search)) {
+            const elvis_real resume = max(segment.resume, segment.leave) + ray.tolerance;
+            search.is_following = core_segment_begin(ray, segment.element, resume, segment.last, false, segment);
+            search.has_entered = false;
+        }
         if (!search.is_following && !core_has_nodes(search)) {
             break;
         }

@@ -70,9 +70,10 @@ void core_predict_point(inout core_follower follower, elvis_real at) {
     follower.steps = 0u;
 }
 
-void core_follow_to(inout core_follower follower, elvis_real goal) {
+void core_follow_to(inout core_follower follower, elvis_real goal, elvis_real span, elvis_real enough) {
     follower.goal = goal;
-    follower.span = follower.enough = elvis_real(0);
+    follower.span = span;
+    follower.enough = enough;
     follower.all_steps = 0u;
     core_predict_point(follower, goal);
 }
@@ -119,12 +120,12 @@ void core_sample_field(uint element, elvis_vec3 point, elvis_real step, elvis_re
 }
 
 // What the slope is off does to a polynomial over the span, which has slopes at both ends: an eighth.
-bool core_sample_is_enough(core_ray_sample result, elvis_real span, elvis_real enough) {
+bool core_sample_is_enough(const core_ray_sample result, elvis_real span, elvis_real enough) {
     return result.is_known && result.error + elvis_real(0.125LF) * abs(span) * result.slope_error <= enough;
 }
 
 // One evaluation.
-core_ray_sample core_sample_step(core_traced_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
+core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
     core_ray_sample result;
     elvis_real x = follower.x, y = follower.y, z = follower.z;
     core_project(x, y, z);
@@ -172,7 +173,7 @@ core_ray_sample core_sample_step(core_traced_ray ray, uint element, elvis_real c
 
 // The field at the ray's point at `at`, as it is predicted from the evaluation of the mapping that found where the ray leaves: another one
 // is not needed if that was near enough, which the status says.
-core_ray_sample core_sample_predicted(core_segment segment, elvis_real at, elvis_real span, elvis_real enough) {
+core_ray_sample core_sample_predicted(const core_segment segment, elvis_real at, elvis_real span, elvis_real enough) {
     core_ray_sample result;
     result.w = core_slope_of(segment.anchor);
     const elvis_real speed = core_max_norm(result.w), step = segment.newton_step + abs(at - segment.anchor.t) * speed;

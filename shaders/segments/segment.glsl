@@ -89,14 +89,15 @@ core_segment core_no_segment() {
     return segment;
 }
 
-elvis_vec3 core_segment_target(core_traced_ray ray, uint element, elvis_real t) {
+elvis_vec3 core_segment_target(const core_traced_ray ray, uint element, elvis_real t) {
     // elvis_origin is zero where the snippet's coordinates are the world's.
     return (CORE_CENTRE - elvis_origin(element)) + (ray.origin + t * ray.direction);
 }
 
-// Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the caller says that the ray
-// enters at `begin`. The search assumes so until a bound contradicts it.
-bool core_segment_begin(core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered, out core_segment segment) {
+// Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
+// at `begin`, if it is in it after that at all: it is taken to be inside until a bound denies that.
+bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered,
+                        out core_segment segment) {
     const core_linearization linearization = core_fetch_linearization(element);
     const bool is_linearized = linearization.exponents != 0u;
     const elvis_vec3 first = core_segment_target(ray, element, begin);
@@ -151,7 +152,7 @@ struct core_ray_evaluation {
     bool is_sound;
 };
 
-core_ray_evaluation core_evaluate_ray(core_traced_ray ray, uint element, elvis_vec3 xi, elvis_real t) {
+core_ray_evaluation core_evaluate_ray(const core_traced_ray ray, uint element, elvis_vec3 xi, elvis_real t) {
     core_ray_evaluation here;
     elvis_vec3 position;
     elvis_mat3 jacobian;
@@ -173,7 +174,7 @@ elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / c
 // In elements so curved that a point outside of them may be taken for the ray's, the ray is followed from where it enters: there its
 // point lies in the element, and is found by Newton's method from one start after the other. False if it is not. `slack`: by how much of
 // the parameter it may be off.
-bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segment segment) {
+bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_segment segment) {
     uint start = 0u, steps = 0u;
     bool is_found = false;
     elvis_real x = segment.anchor.x, y = segment.anchor.y, z = segment.anchor.z;
@@ -213,25 +214,20 @@ bool core_segment_enter(core_traced_ray ray, elvis_real slack, inout core_segmen
 
 #include "segments/segment_ends.glsl"
 
-// After too many iterations a share of the bound is taken for it: the segment is then estimated.
-elvis_real core_assumed_curvature(inout core_segment segment) {
-    const bool is_certain = segment.iterations <= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
-    const bool is_late = segment.iterations >= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u;
-    segment.is_estimated = segment.is_estimated || !is_certain;
-    return is_certain ? segment.curvature : segment.curvature * (is_late ? elvis_real(0.015625LF) : elvis_real(0.125LF));
+// After too many iterations a share of the bound is taken for it.
+elvis_real core_taken_curvature(elvis_real curvature, uint iterations) {
+    const bool is_certain = iterations <= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
+    const bool is_late = iterations >= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u;
+    return is_certain ? curvature : curvature * (is_late ? elvis_real(0.015625LF) : elvis_real(0.125LF));
 }
 
-// What of the interval is outside, inside and open. `predicted`: the point of the shape next to it, xi, has been evaluated.
-core_ray_clip core_clip_interval(uint element, elvis_real curvature, elvis_vec3 predicted, elvis_vec3 xi, core_segment segment,
-                                 inout core_ray_evaluation here) {
-    const elvis_real step = max(core_model_step(here.model, segment.begin), core_model_step(here.model, segment.end));
+// What of the interval is outside, inside and open. `predicted`: the point of the shape next to it, xi, has been evaluated. `bound`: how
+// far points of the interval may be from where they are predicted, at most `step` away.
+core_ray_clip core_clip_interval(const core_ray_evaluation here, elvis_real curvature, elvis_real step, elvis_real bound,
+                                 elvis_vec3 predicted, elvis_vec3 xi, const core_segment segment) {
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
     const elvis_real along = core_max_norm(here.model.slope) * (segment.end - segment.begin);
     const elvis_real agreed = elvis_real(8) * core_max_norm(here.model.at - predicted) + curvature * along * along;
-    const elvis_real bound = core_prediction_error(curvature, step);
-#if ELVIS_HAS_INSIDE
-    core_evaluate_inside(here.model, element, xi, step + bound);
-#endif
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
     const bool is_agreed = xi != predicted && !segment.is_inside && segment.iterations > 1u;
     core_ray_clip clip =
@@ -244,9 +240,8 @@ core_ray_clip core_clip_interval(uint element, elvis_real curvature, elvis_vec3 
     return clip;
 }
 
-// Uses this evaluation for the next prediction, unless its point may belong to another solution. The interval is no longer than it can be
-// followed.
-void core_predict_from(core_ray_evaluation here, elvis_real curvature, elvis_real tolerance, inout core_segment segment) {
+// The next point is predicted from here, unless that is another one's. The interval is no longer than it can be followed.
+void core_predict_from(const core_ray_evaluation here, elvis_real curvature, elvis_real tolerance, inout core_segment segment) {
     const core_ray_model model = here.model;
     const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.newton_step)));
     segment.anchor = core_either(is_anchor, core_ray_point_at(model.anchor, model.at, model.slope), segment.anchor);
@@ -268,8 +263,14 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     const elvis_vec3 xi = elvis_vec3(x, y, z);
     core_ray_evaluation here = core_evaluate_ray(ray, element, xi, segment.next);
     segment.iterations += 1u;
-    const elvis_real curvature = core_assumed_curvature(segment);
-    const core_ray_clip clip = core_clip_interval(element, curvature, predicted, xi, segment, here);
+    const elvis_real curvature = core_taken_curvature(segment.curvature, segment.iterations);
+    segment.is_estimated = segment.is_estimated || segment.iterations > CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
+    const elvis_real step = max(core_model_step(here.model, segment.begin), core_model_step(here.model, segment.end));
+    const elvis_real bound = core_prediction_error(curvature, step);
+#if ELVIS_HAS_INSIDE
+    core_take_inside(here.model, element, xi, step + bound);
+#endif
+    const core_ray_clip clip = core_clip_interval(here, curvature, step, bound, predicted, xi, segment);
 
     const bool was_inside = segment.is_inside;
     const int face = was_inside ? clip.to_face : clip.from_face;

@@ -59,7 +59,7 @@ core_held_piece core_load_piece(uint index) {
     return held;
 }
 
-core_transfer_piece core_piece_of(core_held_piece held) {
+core_transfer_piece core_piece_of(const core_held_piece held) {
     return core_transfer_piece(held.from, held.density, held.density_slope, held.steepness, elvis_vec3(held.red, held.green, held.blue),
                                elvis_vec3(held.red_slope, held.green_slope, held.blue_slope));
 }

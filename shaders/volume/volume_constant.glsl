@@ -7,7 +7,7 @@
 
 // Least and greatest value from `from` to `until`; the least above the greatest if nothing is known. `segment`: as it is when
 // the ray's end in it has been found.
-elvis_vec2 core_range_along(core_segment segment, elvis_real from, elvis_real until) {
+elvis_vec2 core_range_along(const core_segment segment, elvis_real from, elvis_real until) {
     const core_linear_model model = core_fetch_linear_model(segment.element);
     const elvis_vec3 anchor = core_xi_of(segment.anchor) - CORE_CENTROID, slope = core_slope_of(segment.anchor);
     const elvis_vec3 model_slope = elvis_vec3(model.slope);

@@ -44,7 +44,7 @@ elvis_real core_transmittance(elvis_real depth) {
 }
 
 // The polynomial with these powers of the parameter.
-elvis_real core_power_value(core_polynomial powers, elvis_real t) {
+elvis_real core_power_value(const core_polynomial powers, elvis_real t) {
     elvis_real sum = powers.c[CORE_FIT_DEGREE];
     for (int i = 1; i < CORE_FIT_SIZE; ++i) {
         sum = sum * t + powers.c[CORE_FIT_DEGREE - i];
@@ -52,7 +52,7 @@ elvis_real core_power_value(core_polynomial powers, elvis_real t) {
     return sum;
 }
 
-elvis_real core_power_slope(core_polynomial powers, elvis_real t) {
+elvis_real core_power_slope(const core_polynomial powers, elvis_real t) {
     elvis_real sum = elvis_real(0);
     for (int i = 0; i < CORE_FIT_DEGREE; ++i) {
         sum = sum * t + elvis_real(CORE_FIT_DEGREE - i) * powers.c[CORE_FIT_DEGREE - i];
@@ -61,7 +61,7 @@ elvis_real core_power_slope(core_polynomial powers, elvis_real t) {
 }
 
 // Half of the most that its slope changes by over [0, 1].
-elvis_real core_power_bend(core_polynomial powers) {
+elvis_real core_power_bend(const core_polynomial powers) {
     elvis_real sum = elvis_real(0);
     for (int i = 2; i < CORE_FIT_SIZE; ++i) {
         sum += elvis_real((i * (i - 1)) / 2) * abs(powers.c[i]);
@@ -87,8 +87,8 @@ struct core_attenuation {
 // The error is estimated from Simpson's rule, which needs but the ends besides. With h the section's length Simpson's error is about
 // h^5 / 2880 times the fourth derivative, Gauss' h^7 / 2016000 times the sixth: for exp(h) that is 0.08 of the 3/2th power of the other.
 // A few hundred times as much is taken.
-core_attenuation core_attenuate(core_polynomial powers, core_held_piece held, elvis_real from, elvis_real width, elvis_real first,
-                               elvis_real last, elvis_real length) {
+core_attenuation core_attenuate(const core_polynomial powers, const core_held_piece held, elvis_real from, elvis_real width,
+                                elvis_real first, elvis_real last, elvis_real length) {
     const elvis_vec3 at = from + width * CORE_GAUSS_AT;
     const elvis_vec3 q = elvis_vec3(core_power_value(powers, at.x), core_power_value(powers, at.y), core_power_value(powers, at.z)) -
                          held.from;
@@ -113,8 +113,8 @@ core_attenuation core_attenuate(core_polynomial powers, core_held_piece held, el
 // The parameter at which a polynomial takes the value, within `error` of it. It lies between `from` and `to`, where the polynomial is on
 // different sides of the value: below at `from` if it `rises`. By Newton's method, or by halves where that leads out. `bend`:
 // core_power_bend.
-elvis_real core_breakpoint_parameter(core_polynomial powers, elvis_real value, elvis_real from, elvis_real to, bool rises, elvis_real bend,
-                                     elvis_real error) {
+elvis_real core_meet(const core_polynomial powers, elvis_real value, elvis_real from, elvis_real to, bool rises, elvis_real bend,
+                     elvis_real error) {
     elvis_real low = from, high = to, x = from;
     bool is_found = false;
     for (uint iteration = 0u; iteration < CORE_BREAKPOINT_ITERATIONS && !is_found; ++iteration) {
@@ -135,7 +135,7 @@ elvis_real core_breakpoint_parameter(core_polynomial powers, elvis_real value, e
 
 #if CORE_HAS_JUMPS
 // Half the width of the interval around t, where the polynomial takes the value, outside of which it differs from it by more than `error`.
-elvis_real core_uncertain_width(core_polynomial powers, elvis_real t, elvis_real value, elvis_real error) {
+elvis_real core_uncertain_width(const core_polynomial powers, elvis_real t, elvis_real value, elvis_real error) {
     elvis_real width = elvis_real(4) * CORE_ROUNDOFF;
     bool is_uncertain = true;
     while (is_uncertain) {
@@ -151,7 +151,7 @@ elvis_real core_uncertain_width(core_polynomial powers, elvis_real t, elvis_real
 }
 
 // By how much density and light change at the breakpoint at the piece's upper or lower end.
-elvis_real core_jump_at(core_held_piece held, bool is_upper) {
+elvis_real core_jump_at(const core_held_piece held, bool is_upper) {
     const core_transfer_piece beyond = core_fetch_piece(is_upper ? held.index + 1u : held.index - 1u);
     const elvis_real at = is_upper ? held.upper : held.lower;
     const elvis_vec3 colors = abs(core_color_at(core_piece_of(held), at) - core_color_at(beyond, at));
@@ -173,7 +173,7 @@ struct core_step_interval {
 };
 
 // Always of the whole polynomial, so that errors do not add up.
-void core_restrict(core_polynomial p, inout core_step_interval interval) {
+void core_restrict(const core_polynomial p, inout core_step_interval interval) {
     const core_polynomial restricted = core_after(core_before(p, interval.to), interval.from / interval.to);
     interval.last = restricted.c[CORE_FIT_DEGREE];
     interval.least = core_least(restricted);
@@ -193,8 +193,8 @@ struct core_section {
     bool is_whole, is_small, is_smallest, is_simple;
 };
 
-core_section core_next_section(core_polynomial powers, core_step_interval interval, core_held_piece held, elvis_real bend,
-                               elvis_real error, elvis_real length) {
+core_section core_next_section(const core_polynomial powers, const core_step_interval interval, const core_held_piece held,
+                               elvis_real bend, elvis_real error, elvis_real length) {
     const elvis_real from = interval.from, first = interval.first, last = interval.last;
     core_section section;
     section.rises = last > first;
@@ -219,8 +219,8 @@ core_section core_next_section(core_polynomial powers, core_step_interval interv
 }
 
 // Light of the section, if quadrature is good enough, which is returned. `missed`: the sum of what it is off; `allowed`: in this section.
-bool core_add_section(inout core_light light, core_attenuation attenuation, core_section section, core_held_piece held, elvis_real error,
-                      elvis_real allowed, inout elvis_real missed) {
+bool core_add_section(inout core_light light, const core_attenuation attenuation, const core_section section,
+                      const core_held_piece held, elvis_real error, elvis_real allowed, inout elvis_real missed) {
     const elvis_real color_slope = max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
     const elvis_real before = light.transmittance, miss = before * color_slope * attenuation.missed;
     const elvis_real of_field = before * section.ray_length * held.steepness * error;
@@ -238,11 +238,12 @@ bool core_add_section(inout core_light light, core_attenuation attenuation, core
     return is_done;
 }
 
-// Where the polynomial comes so near to a breakpoint that the field may be on the other side. If the section touches a breakpoint without
-// crossing, the whole section may be on the wrong side; if it crosses, only the crossing width may be. `before`: the transmittance up to
-// the section; `length`: of the step.
-void core_add_breakpoint_error(inout core_light light, core_polynomial powers, core_step_interval interval, core_section section,
-                               core_held_piece held, elvis_real before, elvis_real length, elvis_real error, bool is_done, bool crosses) {
+// Where the polynomial comes so near to a breakpoint that the field may be on the other side: near the ends of a section that does not end
+// at the breakpoint for as long as the field likes, else on its way across. `before`: the transmittance up to the section; `length`: of
+// the step.
+void core_add_breakpoint_error(inout core_light light, const core_polynomial powers, const core_step_interval interval,
+                               const core_section section, const core_held_piece held, elvis_real before, elvis_real length,
+                               elvis_real error, bool is_done, bool crosses) {
     const elvis_real first = interval.first, end = section.end;
     const elvis_real reach = (section.is_small ? elvis_real(3) : elvis_real(1.25LF)) * error;
     const elvis_real across = min(elvis_real(4) * reach / max(abs((crosses ? section.next : end) - first), reach), elvis_real(1));
@@ -264,7 +265,7 @@ void core_add_breakpoint_error(inout core_light light, core_polynomial powers, c
 }
 
 // On, in the interval or beyond it; or back to half of the interval, or of the section.
-void core_choose_interval(core_section section, bool is_done, bool crosses, inout core_step_interval interval) {
+void core_choose_interval(const core_section section, bool is_done, bool crosses, inout core_step_interval interval) {
     const elvis_real step = interval.to - interval.from;
     const bool is_beyond = is_done && !crosses && section.until >= interval.to;
     interval.first = is_done ? section.end : interval.first;
@@ -284,7 +285,7 @@ void core_choose_interval(core_section section, bool is_done, bool crosses, inou
 //
 // Intervals in which the polynomial is monotone, or in one piece, or changes by no more than its error, are cut at breakpoints. Others are
 // halved, and so are sections in which quadrature is not good enough.
-void core_add_polynomial(inout core_light light, core_fitted fitted, elvis_real length, elvis_real most, elvis_real allowed,
+void core_add_polynomial(inout core_light light, const core_fitted fitted, elvis_real length, elvis_real most, elvis_real allowed,
                          inout core_held_piece held, inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
     const core_polynomial p = fitted.p;
     const elvis_real bend = core_power_bend(fitted.powers), error = fitted.error;

@@ -1,7 +1,7 @@
 // Light along the rays of pixels, from element to element of one class (volume/volume_state.glsl).
 //
-// In each element: where the ray leaves it, by evaluations of the mapping alone (segments/segment.glsl); then light of the segment
-// (volume/volume_segment.glsl). Lanes do both together, each in its own element.
+// In each element: where the ray leaves it, by evaluations of the mapping alone (segments/segment.glsl); then light of the segment, from
+// samples of the field (volume/volume_segment.glsl). Lanes do both together, each in its own element.
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
@@ -78,31 +78,14 @@ core_ray_stop core_stop_of(uint pixel, elvis_real speed, elvis_real reference_di
 }
 
 // Where the segment begins in the walk's next element. What is too short to matter is the next one's.
-elvis_real core_segment_from(core_traced_ray ray, core_passage passage, inout core_walk walk) {
+elvis_real core_segment_from(core_traced_ray ray, bool is_met, inout core_walk walk) {
     const elvis_real gap = max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
     const bool is_joined = walk.at - walk.done <= gap;
-    walk.flags |= passage.is_met && !is_joined && walk.done > walk.start ? CORE_FLAG_UNDECIDED : 0u;
+    walk.flags |= is_met && !is_joined && walk.done > walk.start ? CORE_FLAG_UNDECIDED : 0u;
     return is_joined ? walk.done : walk.at;
 }
 
-// The walk's next element: the segment in it, its light, and on, unless the ray stops or nothing behind can be seen.
-void core_march_through(core_traced_ray ray, core_ray_stop stop, inout core_segment segment, inout core_march march) {
-    const uint work_before = march.work;
-    const core_passage passage = core_walk_pass(ray, march.walk, segment);
-    march.n_mappings += segment.iterations;
-    march.work += segment.iterations;
-    const elvis_real from = core_segment_from(ray, passage, march.walk), until = min(passage.leave, stop.t);
-    const bool is_left_open = core_add_segment(ray, segment, from, until, passage.is_met && from < until, march);
-    const bool is_opaque = march.light.transmittance <= elvis_real(CORE_OPAQUE) * elvis_real(core_tolerance);
-    const bool is_stopped = passage.is_met && passage.leave >= stop.t;
-    if (!is_opaque && !is_stopped && !is_left_open) {
-        core_walk_go_on(ray, segment, passage, from, march.walk);
-    }
-    march.walk.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !is_left_open ? stop.status : march.walk.status;
-    march.n_elements += 1u;
-    // Lanes wait for each other.
-    march.work = work_before + subgroupMax(march.work - work_before);
-}
+bool core_has_time(uint n_elements, uint work) { return n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT; }
 
 void main() {
     const uvec2 place = core_group_pixel(core_first_group, core_size.x);
@@ -112,28 +95,47 @@ void main() {
     const core_traced_ray ray = core_traced_ray_of(core_pixel_ray(column, elvis_real(place.y)), elvis_real(core_extent));
     const core_ray_stop stop = core_stop_of(pixel, ray.speed, column.reference_distance);
     const core_volume_state state = core_states[pixel];
-    core_march march = core_march(core_walk_begin(state.walk, is_pixel, stop.t, stop.status), state.light, core_load_piece(0u),
-                                  state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    core_walk walk = core_walk_begin(state.walk, is_pixel, stop.t, stop.status);
+    core_march march = core_march(state.light, core_hold_piece(0u), state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     core_segment segment = core_no_segment();
-    bool goes = core_walk_goes_here(march.walk);
-    while (goes && march.n_elements < CORE_MOST_ELEMENTS && march.work < CORE_WORK_LIMIT) {
-        while (goes && march.n_elements < CORE_MOST_ELEMENTS && march.work < CORE_WORK_LIMIT) {
-            core_march_through(ray, stop, segment, march);
-            goes = core_walk_goes_here(march.walk);
-            if (!goes || subgroupAny(core_walk_needs_help(march.walk))) {
+    bool goes = core_walk_goes(walk);
+    while (goes && core_has_time(march.n_elements, march.work)) {
+        while (goes && core_has_time(march.n_elements, march.work)) {
+            const uint work_before = march.work;
+            const core_reach reach = core_walk_reach(ray, walk, segment);
+            march.n_elements += 1u;
+            march.n_mappings += segment.iterations;
+            march.work += segment.iterations;
+            const elvis_real from = core_segment_from(ray, reach.is_met, walk), until = min(reach.leave, stop.t);
+            const core_settled settled =
+                core_add_segment(ray, segment, walk.start, from, until, reach.is_met && from < until, march);
+            walk.done = walk.needs_roughly ? walk.done : max(walk.done, settled.until);
+
+            // On, unless the ray stops or nothing behind can be seen; in the same element if there was no time for all of it.
+            const bool is_opaque = march.light.transmittance <= elvis_real(CORE_OPAQUE) * elvis_real(core_tolerance);
+            const bool is_stopped = reach.is_met && reach.leave >= stop.t;
+            if (!is_opaque && !is_stopped && !settled.is_left_open) {
+                core_walk_go_on(ray, segment.leave_face, reach, from, walk);
+            }
+            walk.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !settled.is_left_open ? stop.status : walk.status;
+            // Lanes wait for each other.
+            march.work = work_before + subgroupMax(march.work - work_before);
+            goes = core_walk_goes(walk);
+            if (!goes || subgroupAny(core_walk_needs_help(walk))) {
                 break;
             }
         }
-        core_walk_help(ray, march.walk, segment);
-        goes = core_walk_goes_here(march.walk);
+        core_walk_help(ray, walk, segment);
+        goes = core_walk_goes(walk);
         if (!goes) {
             break;
         }
     }
-    const core_walk_state end = core_walk_end(march.walk);
-    if (march.walk.is_mine) {
+    walk.flags |= march.flags;
+    const core_walk_state end = core_walk_end(walk);
+    if (walk.is_mine) {
         core_states[pixel] = core_volume_state(end, march.step, march.light);
     }
-    core_count(0u, uvec4(march.walk.is_mine ? 1u : 0u, march.n_evaluations, march.n_mappings, march.n_segments));
+    core_count(0u, uvec4(walk.is_mine ? 1u : 0u, march.n_evaluations, march.n_mappings, march.n_segments));
     core_count(4u, uvec4(march.n_empty, march.n_steps, march.n_breakpoints, march.n_failures));
 }

@@ -67,26 +67,26 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
     return integral;
 }
 
-bool core_integral_wants_sample(core_integral integral) {
-    return integral.wants != CORE_WANTS_NOTHING && integral.wants != CORE_WANTS_TO_INTEGRATE;
+bool core_integral_wants_sample(const core_integral integral) {
+    return integral.wants != CORE_WANTS_NOTHING && integral.wants != CORE_WANTS_TO_SETTLE;
 }
 
-bool core_is_shortest(core_integral integral) {
+bool core_is_shortest(const core_integral integral) {
     return integral.right - integral.left <= CORE_SHORTEST_STEP * (integral.to - integral.from);
 }
 
-// Up to where light is done, and how long the step from there is.
-bool core_integral_may_stop(core_integral integral) { return true; }
-elvis_real core_integral_done(core_integral integral) { return integral.left; }
-elvis_real core_integral_step(core_integral integral) { return integral.right - integral.left; }
+// Up to where light is settled, and how long the step from there is.
+bool core_integral_may_stop(const core_integral integral) { return true; }
+elvis_real core_integral_done(const core_integral integral) { return integral.left; }
+elvis_real core_integral_step(const core_integral integral) { return integral.right - integral.left; }
 
 // Where the next sample is wanted, and how far from there its line is wanted.
-elvis_real core_integral_at(core_integral integral) {
+elvis_real core_integral_at(const core_integral integral) {
     const elvis_real inner = integral.left + CORE_INNER_AT * (integral.right - integral.left);
     return integral.wants == CORE_WANTS_LEFT ? integral.left : integral.wants == CORE_WANTS_RIGHT ? integral.right : inner;
 }
 
-elvis_real core_integral_span(core_integral integral) {
+elvis_real core_integral_span(const core_integral integral) {
     const elvis_real width = integral.right - integral.left;
     return integral.wants == CORE_WANTS_RIGHT ? -width : width;
 }
@@ -95,9 +95,7 @@ elvis_real core_integral_span(core_integral integral) {
 #define CORE_ONE_THIRD elvis_real(0.33333333333333333333LF)
 #define CORE_ONE_FIFTH elvis_real(0.2LF)
 
-// The cubic or quintic of a step: of degree CORE_FIT_DEGREE, as the tables have it (core/segment/tables.hpp), but no fit of
-// segments/fit.glsl.
-core_fitted core_step_polynomial(core_integral integral) {
+core_fitted core_fit_step(const core_integral integral) {
     const bool with_inner = integral.has_inner;
     const core_step_sample left = integral.left_sample, right = integral.right_sample;
     const elvis_real width = integral.right - integral.left, c0 = left.value, c3 = right.value;
@@ -151,7 +149,8 @@ struct core_judgement {
 };
 
 // `held`: the piece that holds the step's beginning, or another one.
-core_judgement core_judge_step(core_integral integral, core_fitted fitted, core_light light, core_accuracy wanted, core_held_piece held) {
+core_judgement core_judge_step(const core_integral integral, const core_fitted fitted, const core_light light, core_accuracy wanted,
+                               const core_held_piece held) {
     const elvis_real width = integral.right - integral.left, tolerance = wanted.tolerance;
     // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
     const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
@@ -170,7 +169,7 @@ core_judgement core_judge_step(core_integral integral, core_fitted fitted, core_
 }
 
 // A sample where one was wanted.
-void core_integral_add(inout core_integral integral, inout core_light light, core_ray_sample found, core_accuracy wanted,
+void core_integral_add(inout core_integral integral, inout core_light light, const core_ray_sample found, core_accuracy wanted,
                        inout core_held_piece held, inout uint work) {
     const bool is_left = integral.wants == CORE_WANTS_LEFT, is_inner = integral.wants == CORE_WANTS_INNER;
     const bool is_right = integral.wants == CORE_WANTS_RIGHT, is_end = is_right && integral.right >= integral.to;
