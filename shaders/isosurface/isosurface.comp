@@ -67,8 +67,8 @@ layout(push_constant) uniform core_parameters {
 
 // The root, as a crossing of the ray.
 core_nearest_crossing core_found_at(const core_evaluation evaluation, const core_root root) {
-    const core_linear_root crossing = evaluation.crossing;
-    return core_nearest_crossing(evaluation.middle + crossing.s, crossing.half_width, root.xi.x, root.xi.y, root.xi.z, crossing.isovalue,
+    const core_linear_root candidate = evaluation.candidate;
+    return core_nearest_crossing(evaluation.middle + candidate.s, candidate.half_width, root.xi.x, root.xi.y, root.xi.z, candidate.isovalue,
                                  root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
                                  elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
 }

@@ -28,7 +28,7 @@ core_line_marks core_no_lines_yet(bool wants_contour, bool wants_mesh) {
     return core_line_marks(wants_contour, wants_mesh, false, false, false, false, false);
 }
 
-bool core_wants_lines(const core_line_marks lines) { return lines.wants_contour || lines.wants_mesh; }
+bool core_is_looking(const core_line_marks lines) { return lines.wants_contour || lines.wants_mesh; }
 
 void core_record_lines(inout core_line_marks lines, bool finds_contour, bool finds_mesh) {
     lines.has_contour = lines.has_contour || finds_contour;

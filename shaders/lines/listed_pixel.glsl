@@ -75,7 +75,7 @@ core_line_search core_begin_listed(core_listed_pixel listed, uint most_level, bo
     return search;
 }
 
-void core_answer(core_listed_pixel listed, const core_line_search search) {
+void core_store_or_relist(core_listed_pixel listed, const core_line_search search) {
     const bool is_cut_short = core_is_unfinished(search) || core_has_driver_given_up(core_size.x >> 31);
     const uint open = core_undecided_lines(search.lines, is_cut_short);
     const bool is_last = core_open_count == 0u;

@@ -67,7 +67,7 @@ bool core_patch_reaches(uint index, core_box box, core_face face, out elvis_vec3
     return !is_beside && abs(s) <= bounds.y + dot(abs(to_s.xyz), half_size);
 }
 
-void core_enter(const core_surface surface, uint patch_index, inout core_line_search search) {
+void core_select_item(const core_surface surface, uint patch_index, inout core_line_search search) {
     const uint face = elvis_fetch4_core_patches(patch_index, 4u).z;
     const uvec4 of_face = elvis_fetch4_core_faces(face, 0u);
     search.own_face = int(of_face.y);

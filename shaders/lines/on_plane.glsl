@@ -36,7 +36,7 @@ core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind)
     return surface;
 }
 
-void core_enter(const core_surface surface, uint element, inout core_line_search search) {
+void core_select_item(const core_surface surface, uint element, inout core_line_search search) {
     const core_cut_square corners = surface.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
     core_select_element(element, corners, middle, elvis_real(1), search);

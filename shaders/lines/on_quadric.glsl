@@ -31,7 +31,7 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return core_begin_listed(listed, core_subdivisions, surface.corners.all_hit, surface.corners.all_hit);
 }
 
-void core_enter(const core_surface surface, uint element, inout core_line_search search) {
+void core_select_item(const core_surface surface, uint element, inout core_line_search search) {
     const elvis_vec3 middle = elvis_real(0.5LF) * (surface.corners.corner0 + surface.corners.corner1);
     core_select_element(element, surface.corners, middle, elvis_real(0), search);
 }

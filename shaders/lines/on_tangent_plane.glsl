@@ -54,7 +54,7 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     return search;
 }
 
-void core_enter(const core_surface surface, uint element, inout core_line_search search) {
+void core_select_item(const core_surface surface, uint element, inout core_line_search search) {
     // What the surface departs from its tangent plane is less than the pixel's size where it is smooth.
     const elvis_real room = surface.listed.around.is_smooth ? elvis_real(2) : elvis_real(0);
     core_select_element(element, surface.corners, surface.listed.tangent.point, room, search);

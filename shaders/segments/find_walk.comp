@@ -74,8 +74,8 @@ struct core_start_search {
 
 bool core_has_nodes(const core_start_search search) { return search.stack_size > 0u || search.entry < search.n_entries; }
 
-// Of starts that are as near, that in the later element is behind.
-bool core_is_behind_last(const core_traced_ray ray, elvis_real t, uint element, const core_start_search search) {
+// If two starts are equally near, the one in the higher global element counts as behind.
+bool core_is_behind_last(const core_traced_ray ray, elvis_real t, uint global_element, const core_start_search search) {
     const bool is_tied = abs(t - search.walk.start) <= elvis_real(2) * ray.tolerance;
     return is_tied ? global_element > search.walk.global_start_element : t > search.walk.start;
 }
@@ -120,7 +120,7 @@ core_start_candidate core_next_node(core_ray ray, inout core_start_search search
 }
 
 // Starts with the ray's segments in the candidate, if it may hold a start.
-void core_follow_candidate(core_ray pixel_ray, const core_traced_ray ray, core_candidate candidate, inout core_segment segment,
+void core_follow_candidate(core_ray pixel_ray, const core_traced_ray ray, core_start_candidate candidate, inout core_segment segment,
                            inout core_start_search search) {
     const elvis_real begin = search.is_first ? max(candidate.from, search.from) : candidate.from;
     const elvis_real end = min(candidate.to, begin + ray.longest);
@@ -134,8 +134,8 @@ void core_follow_candidate(core_ray pixel_ray, const core_traced_ray ray, core_c
 }
 
 // The next element on the way through the hierarchy, if there is one.
-core_candidate core_next_candidate(core_ray pixel_ray, inout core_start_search search) {
-    core_candidate candidate = core_candidate(false, 0u, elvis_real(0), elvis_real(0));
+core_start_candidate core_next_start_candidate(core_ray pixel_ray, inout core_start_search search) {
+    core_start_candidate candidate = core_start_candidate(false, 0u, elvis_real(0), elvis_real(0));
     while (!candidate.is_there && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
         candidate = core_next_node(pixel_ray, search);
         if (candidate.is_there || !core_has_nodes(search)) {
@@ -149,7 +149,7 @@ core_candidate core_next_candidate(core_ray pixel_ray, inout core_start_search s
 // In an element so curved that bounds tell little: a start at the eye, and through each face by which the ray may come in.
 void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment,
                           inout core_start_search search) {
-    const uint element = core_first_element + segment.element;
+    const uint global_element = core_first_element + segment.element;
     if (is_curved && search.is_first && segment.anchor.t <= search.from) {
         const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
         search.n_evaluations += segment.iterations;
@@ -201,8 +201,8 @@ bool core_enters_volume(const core_segment segment, const core_traced_ray ray) {
     return enters;
 }
 
-// What an iteration of the search for the ray's segments in the element tells. One whose beginning is not the start wanted is followed to
-// where the ray leaves. True if the next one in the element is to be looked for.
+// What an iteration of the search for the ray's segments in the element tells. If a segment does not begin at a wanted start, the search
+// follows it to its end. True if it is to look behind that.
 bool core_follow(const core_traced_ray ray, uint ending, const core_segment segment, inout core_start_search search) {
     const bool is_following = search.is_following;
     search.n_evaluations += is_following ? 1u : 0u;
@@ -218,7 +218,7 @@ bool core_follow(const core_traced_ray ray, uint ending, const core_segment segm
     }
     // Where no face is met it was said too early, by estimates, that the ray is outside.
     const bool is_late = segment.enter_face < 0 && !is_at_eye;
-    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, element, search);
+    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, global_element, search);
     search.is_following = is_following && !is_start && ending == CORE_SEGMENT_OPEN;
     return ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
 }
@@ -264,7 +264,7 @@ void main() {
         search.work += 1u;
         // The next element that may hold a start.
         while (!search.is_following && core_has_nodes(search) && search.work < CORE_WORK_LIMIT) {
-            const core_candidate candidate = core_next_candidate(pixel_ray, search);
+            const core_start_candidate candidate = core_next_start_candidate(pixel_ray, search);
             if (candidate.is_there) {
                 core_follow_candidate(pixel_ray, ray, candidate, segment, search);
             }

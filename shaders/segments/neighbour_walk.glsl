@@ -1,11 +1,11 @@
 // From element to element through shared faces (segments/walk_state.glsl):
 //
 //     walk = core_walk_begin(state.walk, ...)
-//     while (core_walk_goes(walk)) {
-//         while (core_walk_goes(walk)) {
-//             core_reach reach = core_walk_reach(ray, walk, segment): the ray is in the element from walk.at to reach.leave;
-//             what is settled already, up to walk.done, does not count
-//             core_walk_go_on(ray, segment.leave_face, reach, from, walk): to the next element
+//     while (core_walk_goes_here(walk)) {
+//         while (core_walk_goes_here(walk)) {
+//             core_passage passage = core_walk_pass(ray, walk, segment): the ray is in the element from walk.at to passage.leave;
+//             what is done already, up to walk.done, does not count
+//             core_walk_go_on(ray, segment.leave_face, passage, from, walk): to the next element
 //             if (subgroupAny(core_walk_needs_help(walk))) break;
 //         }
 //         core_walk_help(ray, walk, segment)
@@ -38,8 +38,8 @@ bool core_is_of_class(uint global_element) {
     return global_element >= core_first_element && global_element - core_first_element < core_n_elements;
 }
 
-// Goes from element to element towards the point of the ray at t, until one holds it. Returns its number in the class; or CORE_NO_ELEMENT,
-// and in `other` the element of another class in which to go on, if there is one. `is_lost`: the search has failed.
+// Goes from element to element towards the point of the ray at t, until one holds it. Returns that element; or CORE_NO_ELEMENT, and in
+// `other` the global element of another class in which to go on, if there is one. `is_lost`: the search has failed.
 uint core_find_around(const core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
     bool has_left = false;
@@ -145,7 +145,7 @@ struct core_passage {
     elvis_real leave;
 };
 
-core_reach core_walk_reach(const core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
+core_passage core_walk_pass(const core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
     uint ending = CORE_SEGMENT_FOUND;
     if (!walk.has_segment) {
         const bool is_possible =
@@ -175,16 +175,16 @@ core_reach core_walk_reach(const core_traced_ray ray, inout core_walk walk, inou
     return passage;
 }
 
-// To the next element, where the ray has left this one. `from`: up to where it was settled when it came in.
-void core_walk_go_on(const core_traced_ray ray, int leave_face, core_reach reach, elvis_real from, inout core_walk walk) {
+// To the next element, where the ray has left this one. `from`: where its segment in this one begins.
+void core_walk_go_on(const core_traced_ray ray, int leave_face, core_passage passage, elvis_real from, inout core_walk walk) {
     bool stays = walk.needs_roughly;
     walk.is_ahead = walk.is_ahead && stays;
-    walk.at = stays ? walk.at : reach.leave;
-    const uint next = elvis_fetch_core_links(walk.element - core_first_element, uint(max(leave_face, 0)));
+    walk.at = stays ? walk.at : passage.leave;
+    const uint next = elvis_fetch_core_links(walk.global_element - core_first_element, uint(max(leave_face, 0)));
     // Elements on both sides of a face that the ray grazes may hand it to and fro.
     const bool is_stuck = passage.leave - from <= elvis_real(4) * ray.tolerance;
     // The face did not tell, or rounding led past an edge.
-    walk.needs_element = !stays && (!reach.is_met || leave_face < 0 || (is_stuck && walk.n_lost >= CORE_MOST_GRAZES));
+    walk.needs_element = !stays && (!passage.is_met || leave_face < 0 || (is_stuck && walk.n_lost >= CORE_MOST_GRAZES));
     walk.n_lost = stays ? walk.n_lost : walk.needs_element || is_stuck ? walk.n_lost + 1u : 0u;
     stays = stays || walk.needs_element;
     walk.global_element = stays ? walk.global_element : next;

@@ -94,8 +94,8 @@ elvis_vec3 core_segment_target(const core_traced_ray ray, uint element, elvis_re
     return (CORE_CENTRE - elvis_origin(element)) + (ray.origin + t * ray.direction);
 }
 
-// Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the ray enters the element
-// at `begin`, if it is in it after that at all: it is taken to be inside until a bound denies that.
+// Starts with what lies in [begin, end]. False if the ray surely misses the element there. `is_entered`: the caller says that the ray
+// enters at `begin`. The search assumes so until a bound contradicts it.
 bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begin, elvis_real end, bool is_entered,
                         out core_segment segment) {
     const core_linearization linearization = core_fetch_linearization(element);
@@ -215,7 +215,7 @@ bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_
 #include "segments/segment_ends.glsl"
 
 // After too many iterations a share of the bound is taken for it.
-elvis_real core_taken_curvature(elvis_real curvature, uint iterations) {
+elvis_real core_assumed_curvature(elvis_real curvature, uint iterations) {
     const bool is_certain = iterations <= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
     const bool is_late = iterations >= CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE + 32u;
     return is_certain ? curvature : curvature * (is_late ? elvis_real(0.015625LF) : elvis_real(0.125LF));
@@ -240,7 +240,8 @@ core_ray_clip core_clip_interval(const core_ray_evaluation here, elvis_real curv
     return clip;
 }
 
-// The next point is predicted from here, unless that is another one's. The interval is no longer than it can be followed.
+// Uses this evaluation for the next prediction, unless its point may belong to another solution. The interval is no longer than it can be
+// followed.
 void core_predict_from(const core_ray_evaluation here, elvis_real curvature, elvis_real tolerance, inout core_segment segment) {
     const core_ray_model model = here.model;
     const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.newton_step)));
@@ -263,12 +264,12 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     const elvis_vec3 xi = elvis_vec3(x, y, z);
     core_ray_evaluation here = core_evaluate_ray(ray, element, xi, segment.next);
     segment.iterations += 1u;
-    const elvis_real curvature = core_taken_curvature(segment.curvature, segment.iterations);
+    const elvis_real curvature = core_assumed_curvature(segment.curvature, segment.iterations);
     segment.is_estimated = segment.is_estimated || segment.iterations > CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
     const elvis_real step = max(core_model_step(here.model, segment.begin), core_model_step(here.model, segment.end));
     const elvis_real bound = core_prediction_error(curvature, step);
 #if ELVIS_HAS_INSIDE
-    core_take_inside(here.model, element, xi, step + bound);
+    core_evaluate_inside(here.model, element, xi, step + bound);
 #endif
     const core_ray_clip clip = core_clip_interval(here, curvature, step, bound, predicted, xi, segment);
 

@@ -1,7 +1,7 @@
 // How the interval in which an end of a segment is looked for shrinks, by what an iteration tells of it (segments/segment.glsl).
 
-// Before the entry: where the interval is open, and whether the ray enters in it.
-void core_seek_entry(const core_traced_ray ray, core_ray_clip clip, bool is_exact, elvis_real error, inout core_segment segment) {
+// Before the ray enters: where the interval is open, and whether the ray enters in it.
+void core_seek_enter(const core_traced_ray ray, core_ray_clip clip, bool is_exact, elvis_real error, inout core_segment segment) {
     const elvis_real begin = segment.begin, end = segment.end;
     const bool is_nothing = clip.possible_from > clip.possible_to;
     segment.last = end == segment.last ? (is_nothing ? begin : clip.possible_to) : segment.last;
@@ -35,7 +35,7 @@ void core_seek_entry(const core_traced_ray ray, core_ray_clip clip, bool is_exac
 }
 
 // Inside: where the ray leaves. True if that is found.
-bool core_seek_exit(const core_traced_ray ray, core_ray_clip clip, bool is_exact, elvis_real error, inout core_segment segment) {
+bool core_seek_leave(const core_traced_ray ray, core_ray_clip clip, bool is_exact, elvis_real error, inout core_segment segment) {
     const elvis_real begin = segment.begin, end = segment.end;
     const bool is_contradicted = clip.possible_from > min(clip.possible_to, begin + ray.tolerance);
     const bool is_continued = clip.is_sure && clip.sure_from <= begin + ray.tolerance;

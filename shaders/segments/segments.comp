@@ -135,7 +135,7 @@ void main() {
             const elvis_real from = core_list_segment(ray, segment, passage, to, walk, list);
             const bool is_over = passage.is_met && passage.leave >= to;
             if (!is_over) {
-                core_walk_go_on(ray, segment.leave_face, reach, from, walk);
+                core_walk_go_on(ray, segment.leave_face, passage, from, walk);
             }
             n_breaks += walk.needs_element ? 1u : 0u;
             walk.status = is_over ? CORE_RAY_ENDS : walk.status;

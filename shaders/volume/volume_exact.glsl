@@ -113,7 +113,7 @@ core_attenuation core_attenuate(const core_polynomial powers, const core_held_pi
 // The parameter at which a polynomial takes the value, within `error` of it. It lies between `from` and `to`, where the polynomial is on
 // different sides of the value: below at `from` if it `rises`. By Newton's method, or by halves where that leads out. `bend`:
 // core_power_bend.
-elvis_real core_meet(const core_polynomial powers, elvis_real value, elvis_real from, elvis_real to, bool rises, elvis_real bend,
+elvis_real core_breakpoint_parameter(const core_polynomial powers, elvis_real value, elvis_real from, elvis_real to, bool rises, elvis_real bend,
                      elvis_real error) {
     elvis_real low = from, high = to, x = from;
     bool is_found = false;
@@ -238,9 +238,9 @@ bool core_add_section(inout core_light light, const core_attenuation attenuation
     return is_done;
 }
 
-// Where the polynomial comes so near to a breakpoint that the field may be on the other side: near the ends of a section that does not end
-// at the breakpoint for as long as the field likes, else on its way across. `before`: the transmittance up to the section; `length`: of
-// the step.
+// Where the polynomial comes so near to a breakpoint that the field may be on the other side. If the section touches a breakpoint without
+// crossing, the whole section may be on the wrong side; if it crosses, only the crossing width may be. `before`: the transmittance up to
+// the section; `length`: of the step.
 void core_add_breakpoint_error(inout core_light light, const core_polynomial powers, const core_step_interval interval,
                                const core_section section, const core_held_piece held, elvis_real before, elvis_real length,
                                elvis_real error, bool is_done, bool crosses) {

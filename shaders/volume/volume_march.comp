@@ -77,7 +77,7 @@ core_ray_stop core_stop_of(uint pixel, elvis_real speed, elvis_real reference_di
     return core_ray_stop(min(end, wait), wait < end ? CORE_RAY_WAITS : CORE_RAY_ENDS);
 }
 
-// Where the segment begins in the walk's next element. What is too short to matter is the next one's.
+// Where the segment begins in the element that the walk is in. A gap that is too small to matter is added to it.
 elvis_real core_segment_from(core_traced_ray ray, bool is_met, inout core_walk walk) {
     const elvis_real gap = max(elvis_real(16) * ray.tolerance, elvis_real(CORE_WIDEST_GAP * core_extent) / ray.speed);
     const bool is_joined = walk.at - walk.done <= gap;
@@ -96,37 +96,37 @@ void main() {
     const core_ray_stop stop = core_stop_of(pixel, ray.speed, column.reference_distance);
     const core_volume_state state = core_states[pixel];
     core_walk walk = core_walk_begin(state.walk, is_pixel, stop.t, stop.status);
-    core_march march = core_march(state.light, core_hold_piece(0u), state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    core_march march = core_march(state.light, core_load_piece(0u), state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     core_segment segment = core_no_segment();
-    bool goes = core_walk_goes(walk);
+    bool goes = core_walk_goes_here(walk);
     while (goes && core_has_time(march.n_elements, march.work)) {
         while (goes && core_has_time(march.n_elements, march.work)) {
             const uint work_before = march.work;
-            const core_reach reach = core_walk_reach(ray, walk, segment);
+            const core_passage passage = core_walk_pass(ray, walk, segment);
             march.n_elements += 1u;
             march.n_mappings += segment.iterations;
             march.work += segment.iterations;
-            const elvis_real from = core_segment_from(ray, reach.is_met, walk), until = min(reach.leave, stop.t);
-            const core_settled settled =
-                core_add_segment(ray, segment, walk.start, from, until, reach.is_met && from < until, march);
-            walk.done = walk.needs_roughly ? walk.done : max(walk.done, settled.until);
+            const elvis_real from = core_segment_from(ray, passage.is_met, walk), until = min(passage.leave, stop.t);
+            const core_integrated integrated =
+                core_add_segment(ray, segment, walk.start, from, until, passage.is_met && from < until, march);
+            walk.done = walk.needs_roughly ? walk.done : max(walk.done, integrated.until);
 
             // On, unless the ray stops or nothing behind can be seen; in the same element if there was no time for all of it.
             const bool is_opaque = march.light.transmittance <= elvis_real(CORE_OPAQUE) * elvis_real(core_tolerance);
-            const bool is_stopped = reach.is_met && reach.leave >= stop.t;
-            if (!is_opaque && !is_stopped && !settled.is_left_open) {
-                core_walk_go_on(ray, segment.leave_face, reach, from, walk);
+            const bool is_stopped = passage.is_met && passage.leave >= stop.t;
+            if (!is_opaque && !is_stopped && !integrated.is_left_open) {
+                core_walk_go_on(ray, segment.leave_face, passage, from, walk);
             }
-            walk.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !settled.is_left_open ? stop.status : walk.status;
+            walk.status = is_opaque ? CORE_RAY_ENDS : is_stopped && !integrated.is_left_open ? stop.status : walk.status;
             // Lanes wait for each other.
             march.work = work_before + subgroupMax(march.work - work_before);
-            goes = core_walk_goes(walk);
+            goes = core_walk_goes_here(walk);
             if (!goes || subgroupAny(core_walk_needs_help(walk))) {
                 break;
             }
         }
         core_walk_help(ray, walk, segment);
-        goes = core_walk_goes(walk);
+        goes = core_walk_goes_here(walk);
         if (!goes) {
             break;
         }

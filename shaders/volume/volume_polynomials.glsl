@@ -68,14 +68,14 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
 }
 
 bool core_integral_wants_sample(const core_integral integral) {
-    return integral.wants != CORE_WANTS_NOTHING && integral.wants != CORE_WANTS_TO_SETTLE;
+    return integral.wants != CORE_WANTS_NOTHING && integral.wants != CORE_WANTS_TO_INTEGRATE;
 }
 
 bool core_is_shortest(const core_integral integral) {
     return integral.right - integral.left <= CORE_SHORTEST_STEP * (integral.to - integral.from);
 }
 
-// Up to where light is settled, and how long the step from there is.
+// Up to where light is integrated, and how long the step from there is.
 bool core_integral_may_stop(const core_integral integral) { return true; }
 elvis_real core_integral_done(const core_integral integral) { return integral.left; }
 elvis_real core_integral_step(const core_integral integral) { return integral.right - integral.left; }
@@ -95,7 +95,7 @@ elvis_real core_integral_span(const core_integral integral) {
 #define CORE_ONE_THIRD elvis_real(0.33333333333333333333LF)
 #define CORE_ONE_FIFTH elvis_real(0.2LF)
 
-core_fitted core_fit_step(const core_integral integral) {
+core_fitted core_step_polynomial(const core_integral integral) {
     const bool with_inner = integral.has_inner;
     const core_step_sample left = integral.left_sample, right = integral.right_sample;
     const elvis_real width = integral.right - integral.left, c0 = left.value, c3 = right.value;

@@ -22,8 +22,8 @@ struct core_findings {
     bool is_constant, is_fresh, is_no_number, is_broken;
 };
 
-// Up to where light of a segment is settled; whether there was no time for the rest.
-struct core_settled {
+// Up to where light of a segment is integrated; whether there was no time for the rest.
+struct core_integrated {
     elvis_real until;
     bool is_left_open;
 };
@@ -66,7 +66,7 @@ void core_add_simple(inout core_light light, core_findings findings, const core_
 }
 
 // `has_segment`: whether anything lies between. `start`: where the walk began.
-core_settled core_add_segment(const core_traced_ray ray, const core_segment segment, elvis_real start, elvis_real from, elvis_real until,
+core_integrated core_add_segment(const core_traced_ray ray, const core_segment segment, elvis_real start, elvis_real from, elvis_real until,
                               bool has_segment, inout core_march march) {
     const bool is_bounded =
         core_is_constant(core_range_along(segment, from, until), march.held) && has_segment && core_skips_by_range != 0u;
@@ -118,7 +118,7 @@ core_settled core_add_segment(const core_traced_ray ray, const core_segment segm
         march.work = subgroupMax(march.work);
 #if CORE_IS_EXACT
         if (core_is_open(integral.wants, findings)) {
-            core_integral_settle(integral, march.light, wanted, march.held, march.work);
+            core_integrate_step(integral, march.light, wanted, march.held, march.work);
             core_follow_to(follower, core_integral_at(integral), core_integral_span(integral), wanted.enough);
         }
 #endif
@@ -134,5 +134,5 @@ core_settled core_add_segment(const core_traced_ray ray, const core_segment segm
     march.n_breakpoints += integral.n_breakpoints;
     const bool is_left_open = core_is_open(integral.wants, findings);
     march.step = is_left_open ? core_integral_step(integral) : CORE_FAR;
-    return core_settled(is_left_open ? core_integral_done(integral) : until, is_left_open);
+    return core_integrated(is_left_open ? core_integral_done(integral) : until, is_left_open);
 }
