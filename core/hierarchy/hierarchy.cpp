@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace elvis {
@@ -83,6 +84,12 @@ void Hierarchy::find(const Vector3& point, double tolerance, std::vector<std::ui
             stack[size++] = node.child;
         }
     }
+}
+
+std::vector<std::uint32_t> node_words(std::span<const HierarchyNode> nodes) {
+    std::vector<std::uint32_t> words(node_size * nodes.size());
+    std::memcpy(words.data(), nodes.data(), nodes.size_bytes());
+    return words;
 }
 
 } // namespace elvis

@@ -30,6 +30,10 @@ struct HierarchyNode {
 };
 static_assert(sizeof(HierarchyNode) == 32);
 
+/** Nodes as records of words for the device, node_size words each. */
+inline constexpr std::uint32_t node_size = sizeof(HierarchyNode) / sizeof(std::uint32_t);
+std::vector<std::uint32_t> node_words(std::span<const HierarchyNode> nodes);
+
 /**
  * Built once over the boxes of items 0 .. n-1 (elements of one class, faces), then read-only; any number of threads may query
  * it. Children come after their parent in nodes(); node 0 is the root. No node is deeper than max_depth.

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -88,10 +87,8 @@ void DeviceVolume::build_class(std::uint32_t element_class, const std::vector<do
         data.hierarchy =
             Hierarchy(std::span<const double>(boxes).subspan(6 * info.first_element, 6 * info.n_elements), m_centre);
         const std::span<const HierarchyNode> nodes = data.hierarchy.nodes();
-        data.nodes = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, nodes.size(), 8);
-        std::vector<std::uint32_t> words(8 * nodes.size());
-        std::memcpy(words.data(), nodes.data(), nodes.size_bytes());
-        data.nodes->write_uints(0, words);
+        data.nodes = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, nodes.size(), node_size);
+        data.nodes->write_uints(0, node_words(nodes));
 
         const bool is_local = (data.snippet.capabilities & ELVIS_SNIPPET_LOCAL_ORIGIN) != 0;
         if (is_local) {
@@ -304,8 +301,12 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
     }
 }
 
+FetchBuffer DeviceVolume::elements(std::uint32_t element_class) const {
+    return {"core_elements", m_classes[element_class].elements.get()};
+}
+
 std::vector<FetchBuffer> DeviceVolume::host_buffers(std::uint32_t element_class) const {
-    return {{"core_nodes", m_classes[element_class].nodes.get()}, {"core_elements", m_classes[element_class].elements.get()}};
+    return {{"core_nodes", m_classes[element_class].nodes.get()}, elements(element_class)};
 }
 
 void DeviceVolume::provide_derivative_bounds() {

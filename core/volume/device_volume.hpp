@@ -80,10 +80,9 @@ public:
      */
     void add_field(KernelRequest& request, std::uint32_t element_class, bool with_bounds = false) const;
 
-    /**
-     * Nodes of the class's hierarchy as `core_nodes`, and as `core_elements` the number and linearized inverse mapping of its
-     * elements (shaders/element/linearization.glsl).
-     */
+    /** `core_elements`: number and linearized inverse mapping of the class's elements (shaders/element/linearization.glsl). */
+    FetchBuffer elements(std::uint32_t element_class) const;
+    /** Nodes of the class's hierarchy as `core_nodes`, and its elements. */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
     /** Of the class's elements. */
     const Hierarchy& hierarchy(std::uint32_t element_class) const { return m_classes[element_class].hierarchy; }

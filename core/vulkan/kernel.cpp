@@ -241,6 +241,14 @@ void Kernel::Impl::run(const DispatchPart& part, std::span<const std::byte> push
     });
 }
 
+std::vector<BindingLayout> buffer_bindings(const BufferCounts& counts) {
+    std::vector<BindingLayout> bindings;
+    for (std::uint32_t binding = 0; binding < counts.uniform + counts.storage; ++binding) {
+        bindings.push_back({binding, binding < counts.uniform ? BindingType::uniform_buffer : BindingType::storage_buffer});
+    }
+    return bindings;
+}
+
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::vector<BindingLayout> layout,
                std::uint32_t push_constant_bytes, std::string name)
     : m_impl(std::make_unique<Impl>(device, std::move(layout), push_constant_bytes, name)) {

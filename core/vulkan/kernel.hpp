@@ -22,6 +22,14 @@ struct BindingLayout {
     BindingType type = BindingType::storage_buffer;
 };
 
+/** How many buffers of each type a kernel has. */
+struct BufferCounts {
+    std::uint32_t uniform = 0, storage = 0;
+};
+
+/** Uniform buffers from binding 0 on, behind them storage buffers. */
+std::vector<BindingLayout> buffer_bindings(const BufferCounts& counts);
+
 /** One descriptor: a whole buffer, or one part of a record buffer. */
 struct BoundBuffer {
     std::uint32_t binding = 0;

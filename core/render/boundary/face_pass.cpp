@@ -1,7 +1,7 @@
 #include <core/render/boundary/face_pass.hpp>
 #include <core/render/device/in_batches.hpp>
 #include <core/render/device/provide_buffer.hpp>
-#include <core/render/device/real_array.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <array>
@@ -37,8 +37,6 @@ struct Parameters {
     std::uint32_t wants_places;
 };
 
-std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
 } // namespace
 
 const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draws what) {
@@ -55,9 +53,8 @@ const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draw
 }
 
 FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet& faces)
-    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
-      m_listed(device), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+    : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)), m_listed(device),
+      m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const FaceSet::ClassFaces& own = faces.of_class(index);
         if (own.n_faces == 0) {
@@ -72,8 +69,7 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
                            {"CORE_LISTS_TILES", "1"}};
         request.name = "ray_tiles";
         request.kernel = "tiles/ray_tiles.comp";
-        request.bindings = {
-            {0, BindingType::uniform_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 2});
         request.push_constant_bytes = sizeof(TilesParameters);
         kernels.tiles = std::make_unique<ComposedKernel>(device, request);
 
@@ -85,9 +81,7 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         if (own.is_polynomial) {
             request.defines.emplace_back("CORE_FACE_ORDER", std::to_string(own.order));
         }
-        for (std::uint32_t binding = 3; binding <= 9; ++binding) {
-            request.bindings.push_back({binding, BindingType::storage_buffer});
-        }
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 9});
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
         request.push_constant_bytes = sizeof(Parameters);
         kernels.request = request;
@@ -106,7 +100,7 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
     const TileRows wanted = target.tile_rows(tile_height);
     const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const Buffer& list = provide_buffer(m_list, m_device, std::uint64_t{layer.width} * layer.height * sizeof(std::uint32_t));
-    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    write_view(m_frame, m_precision, view);
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     // The last one is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
@@ -147,10 +141,7 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
             kernels.provide(m_device, Draws::careful)
                 .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
         });
-        const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
-        counts.field_evaluations += found[0];
-        counts.newton_iterations += found[1];
-        counts.newton_failures += found[2];
+        add_pass_counts(m_counts, counts);
         counts.careful_pixels += n_careful;
     }
 }

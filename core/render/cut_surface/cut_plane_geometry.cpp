@@ -1,5 +1,6 @@
 #include <core/base/float_rounding.hpp>
 #include <core/render/cut_surface/cut_plane_geometry.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -85,6 +86,14 @@ CutPlaneGeometry cut_plane_geometry(const CutPlane& plane, const Camera& camera,
                      row(plus(reference, convert(centre), -1), column0),
                      row(towards_viewer, row0)};
     return geometry;
+}
+
+Buffer view_buffer(const Device& device, Precision precision) {
+    return {device, 4 * CutPlaneGeometry().rows.size() * real_bytes(precision), Buffer::Use::uniform};
+}
+
+void write_view(const Buffer& buffer, Precision precision, const CutPlaneGeometry& view) {
+    write_reals(buffer, precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
 }
 
 } // namespace elvis

@@ -9,17 +9,15 @@
 #pragma once
 
 #include <core/render/frame.hpp>
+#include <core/vulkan/buffer.hpp>
 
 #include <array>
 
 namespace elvis {
 
-/** Rows of four in the uniform block. */
-inline constexpr std::size_t cut_plane_rows = 9;
-
 struct CutPlaneGeometry {
     /** The uniform block's rows of four, in its order. */
-    std::array<std::array<double, 4>, cut_plane_rows> rows{};
+    std::array<std::array<double, 4>, 9> rows{};
     /** Unit normal of the plane, towards the viewer's half space. */
     Vector3 normal{};
     /** Whether the plane's normal as given points away from the viewer. */
@@ -29,5 +27,9 @@ struct CutPlaneGeometry {
 /** `centre`: what the hierarchies are relative to. */
 CutPlaneGeometry cut_plane_geometry(const CutPlane& plane, const Camera& camera, std::uint32_t width, std::uint32_t height,
                                     const std::array<double, 3>& centre);
+
+/** The uniform block on the device, which write_view() fills. */
+Buffer view_buffer(const Device& device, Precision precision);
+void write_view(const Buffer& buffer, Precision precision, const CutPlaneGeometry& view);
 
 } // namespace elvis

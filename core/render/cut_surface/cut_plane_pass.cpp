@@ -2,7 +2,7 @@
 #include <core/render/device/in_batches.hpp>
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/device/provide_buffer.hpp>
-#include <core/render/device/real_array.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <array>
@@ -52,16 +52,12 @@ constexpr std::uint32_t lines_group_size = 32;
 /** Pixels looked at closely in one dispatch. */
 constexpr std::uint32_t listed_a_dispatch = 1u << 15;
 
-std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
 } // namespace
 
 CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines,
                            const KernelEdit& edit)
     : m_device(device), m_data(data), m_precision(data.precision()), m_with_lines(with_lines),
-      // Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes.
-      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_listed(device),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_tile_width(tile_width_on(device)), m_listed(device), m_frame(view_buffer(device, data.precision())),
       m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
     compile(volume, data, edit);
 }
@@ -69,13 +65,6 @@ CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, co
 void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data, const KernelEdit& edit) {
     const std::vector<std::pair<std::string, std::string>> tile_size = {
         {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"}, {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
-    const auto bindings = [](std::uint32_t count) {
-        std::vector<BindingLayout> list = {{0, BindingType::uniform_buffer}};
-        for (std::uint32_t binding = 1; binding < count; ++binding) {
-            list.push_back({binding, BindingType::storage_buffer});
-        }
-        return list;
-    };
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -86,7 +75,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.defines = tile_size;
         request.name = "cut_tiles";
         request.kernel = "cut_surface/cut_tiles.comp";
-        request.bindings = bindings(3);
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 2});
         request.push_constant_bytes = sizeof(TilesParameters);
         ClassKernels kernels;
         kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
@@ -98,23 +87,20 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "cut_surface/cut_plane.comp";
-        request.bindings = bindings(7);
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 6});
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(m_device, request);
         if (m_with_lines) {
             request.name = "cut_lines of element class " + std::to_string(index);
             request.kernel = "lines/cut_lines.comp";
-            request.bindings = bindings(6);
+            request.bindings = buffer_bindings({.uniform = 1, .storage = 5});
             request.push_constant_bytes = sizeof(LinesParameters);
             kernels.lines = std::make_unique<ComposedKernel>(m_device, request);
         }
         m_kernels.push_back(std::move(kernels));
     }
     if (m_with_lines) {
-        KernelRequest request = pixel_kernel("picture/list_pixels", m_precision,
-                                             {BindingType::storage_buffer, BindingType::storage_buffer,
-                                              BindingType::storage_buffer, BindingType::storage_buffer},
-                                             sizeof(ListParameters));
+        KernelRequest request = pixel_kernel("picture/list_pixels", m_precision, {.storage = 4}, sizeof(ListParameters));
         request.defines.insert(request.defines.end(), tile_size.begin(), tile_size.end());
         m_list_pixels.emplace(m_device, request);
     }
@@ -122,21 +108,18 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
 
 void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface, const ShownComponent& component,
                         const LineRequest& lines, const LayerTarget& target, FrameCounts& counts) {
-    write_reals(m_frame, m_precision, std::span<const double>(geometry.rows.front().data(), 4 * geometry.rows.size()));
+    write_view(m_frame, m_precision, geometry);
     m_counts.fill(0);
     const auto n_isovalues = static_cast<std::uint32_t>(lines.isovalues.size());
     if (m_with_lines) {
         // A buffer cannot be empty.
-        const std::uint64_t bytes = std::max<std::uint64_t>(n_isovalues, 1) * real_bytes(m_precision);
-        if (!m_isovalues || m_isovalues->bytes() != bytes) {
-            m_isovalues.emplace(m_device, bytes);
-        }
+        provide_buffer(m_isovalues, m_device, std::max<std::uint64_t>(n_isovalues, 1) * real_bytes(m_precision));
         write_reals(*m_isovalues, m_precision, lines.isovalues);
     }
     for (ClassKernels& kernels : m_kernels) {
         draw_pixels(kernels, surface, component, n_isovalues, target);
     }
-    add_counts(counts);
+    add_pass_counts(m_counts, counts);
 }
 
 void CutPlanePass::draw_lines(const ShownComponent& component, const LineRequest& lines, const LayerTarget& target,
@@ -145,7 +128,7 @@ void CutPlanePass::draw_lines(const ShownComponent& component, const LineRequest
     for (const ClassKernels& kernels : m_kernels) {
         draw_lines(kernels, component, lines, target, counts);
     }
-    add_counts(counts);
+    add_pass_counts(m_counts, counts);
 }
 
 void CutPlanePass::draw_outside(const CutPlaneGeometry& geometry, std::uint32_t surface, const LayerTarget& target) {
@@ -159,13 +142,6 @@ void CutPlanePass::draw_outside(const CutPlaneGeometry& geometry, std::uint32_t 
     }
     m_outside->set_box(box);
     m_outside->draw(m_frame, nullptr, surface, target);
-}
-
-void CutPlanePass::add_counts(FrameCounts& counts) const {
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
-    counts.field_evaluations += found[0];
-    counts.newton_iterations += found[1];
-    counts.newton_failures += found[2];
 }
 
 void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, const ShownComponent& component,
@@ -212,8 +188,7 @@ void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent&
     counts.refined_pixels += n_listed;
     const std::array<const Buffer*, 6> bindings = {&m_frame,  &*kernels.tile_nodes, &*m_list,
                                                    &m_counts, &layer.marks,         &*m_isovalues};
-    for (std::uint32_t first = 0; first < n_listed; first += listed_a_dispatch) {
-        const std::uint32_t count = std::min(listed_a_dispatch, n_listed - first);
+    in_batches(n_listed, listed_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
         const LinesParameters parameters{layer.width,
                                          tiles_a_row,
                                          first,
@@ -224,7 +199,7 @@ void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent&
                                          lines.mesh_lines ? 1u : 0u,
                                          lines.subdivisions};
         kernels.lines->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, lines_group_size));
-    }
+    });
 }
 
 } // namespace elvis

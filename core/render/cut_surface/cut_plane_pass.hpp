@@ -52,7 +52,6 @@ private:
                      const LayerTarget& target);
     void draw_lines(const ClassKernels& kernels, const ShownComponent& component, const LineRequest& lines,
                     const LayerTarget& target, FrameCounts& counts);
-    void add_counts(FrameCounts& counts) const;
 
     const Device& m_device;
     const DeviceVolume& m_data;

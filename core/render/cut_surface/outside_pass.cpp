@@ -12,13 +12,9 @@ struct Parameters {
 };
 
 KernelRequest outside_kernel(Precision precision, bool on_plane) {
-    constexpr BindingType storage = BindingType::storage_buffer;
     KernelRequest request = pixel_kernel("cut_surface/surface_outside", precision,
-                                         {BindingType::uniform_buffer, storage, storage}, sizeof(Parameters));
+                                         {.uniform = 1, .storage = on_plane ? 2u : 3u}, sizeof(Parameters));
     request.defines.emplace_back("CORE_ON_PLANE", on_plane ? "1" : "0");
-    if (!on_plane) {
-        request.bindings.push_back({3, storage});
-    }
     return request;
 }
 

@@ -3,7 +3,7 @@
 #include <core/render/device/in_batches.hpp>
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/device/provide_buffer.hpp>
-#include <core/render/device/real_array.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <array>
@@ -40,8 +40,6 @@ struct PixelsParameters {
     std::uint32_t wants_places;
 };
 
-std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
 /** Where a shape is looked for if what lies outside of the volume is shown, too. */
 std::array<double, 6> box_of(const CutShape& shape, const std::array<double, 6>& volume) {
     std::array<double, 6> box = shape_bounds(shape);
@@ -58,9 +56,8 @@ std::array<double, 6> box_of(const CutShape& shape, const std::array<double, 6>&
 
 SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_data(data), m_precision(data.precision()), m_listed(device),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_hit_counts(device, sizeof(std::uint32_t)), m_counts(device, (n_pass_counts + 1) * sizeof(std::uint32_t)),
-      m_nothing(device, 4 * sizeof(double)) {
+      m_frame(view_buffer(device, data.precision())), m_hit_counts(device, sizeof(std::uint32_t)),
+      m_counts(device, (n_pass_counts + 1) * sizeof(std::uint32_t)), m_nothing(device, 4 * sizeof(double)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -68,12 +65,11 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         KernelRequest request;
         request.precision = m_precision;
         request.buffers = data.host_buffers(index);
-        request.defines = {{"CORE_TILE_WIDTH", std::to_string(surface_tile_width(device)) + "u"},
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width_on(device)) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(surface_tile_height) + "u"}};
         request.name = "surface_tiles";
         request.kernel = "cut_surface/surface_tiles.comp";
-        request.bindings = {
-            {0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
+        request.bindings = buffer_bindings({.storage = 3});
         request.push_constant_bytes = sizeof(TilesParameters);
         ClassKernels kernels;
         kernels.tiles = std::make_unique<ComposedKernel>(device, request);
@@ -82,10 +78,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         request.kernel = "cut_surface/surface_pixels.comp";
         data.add_field(request, index);
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
-        request.bindings = {{0, BindingType::uniform_buffer}};
-        for (std::uint32_t binding = 1; binding <= 8; ++binding) {
-            request.bindings.push_back({binding, BindingType::storage_buffer});
-        }
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 8});
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(device, request);
         m_kernels.push_back(std::move(kernels));
@@ -115,7 +108,7 @@ std::uint32_t SurfacePass::find_hits(const Picture& picture, std::uint32_t round
     const Buffer* const beyond = picture.target.beyond;
     const std::array<const Buffer*, 7> bindings = {
         &*m_hits, &layer.normals, &*m_bending, &*m_boxes, &layer.marks, &m_hit_counts, beyond != nullptr ? beyond : &m_nothing};
-    const std::uint32_t tile_pixels = surface_tile_width(m_device) * surface_tile_height;
+    const std::uint32_t tile_pixels = tile_width_on(m_device) * surface_tile_height;
     const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (picture.tiles_a_row * tile_pixels));
     m_hit_counts.fill(0);
     for (std::uint32_t first_row = picture.wanted.first; first_row < picture.wanted.end; first_row += rows_a_dispatch) {
@@ -141,7 +134,7 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
     const std::array<const Buffer*, 9> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,
                                                    &*m_hits, &layer.normals, &places,   &listed};
     const TileList::Range range = m_listed.read().shallow;
-    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (surface_tile_width(m_device) * surface_tile_height);
+    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height);
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
         const PixelsParameters pixels{layer.width,
                                       layer.height,
@@ -164,11 +157,11 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                           component,
                           target,
                           most_error_along_ray * diagonal_of(m_data.bounds()),
-                          divided_up(layer.width, surface_tile_width(m_device)),
+                          divided_up(layer.width, tile_width_on(m_device)),
                           divided_up(layer.height, surface_tile_height),
                           target.tile_rows(surface_tile_height)};
     provide_buffers(layer.n_pixels(), std::uint64_t{picture.tiles_a_row} * picture.tile_rows, solver.boxes_a_tile());
-    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    write_view(m_frame, m_precision, view);
     solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error);
     m_counts.fill(0);
     std::uint32_t n_found_before = 0;
@@ -193,10 +186,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
         // Rays that meet more crossings outside of elements than are followed.
         counts.work_limit_pixels += round + 1 == most_rounds ? n_open : 0;
     }
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_pass_counts);
-    counts.field_evaluations += found[0];
-    counts.newton_iterations += found[1];
-    counts.newton_failures += found[2];
+    add_pass_counts(m_counts, counts);
 }
 
 void SurfacePass::draw_outside(const Picture& picture) {

@@ -1,12 +1,12 @@
 #include <core/expression/glsl.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/render/cut_surface/surface_solver.hpp>
-#include <core/render/device/real_array.hpp>
+#include <core/render/tiles/tile_list.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -95,8 +95,6 @@ int bezier_parts(const BezierPatch& patch) {
 
 } // namespace
 
-std::uint32_t surface_tile_width(const Device& device) { return std::clamp(device.subgroup_size(), 8u, 64u); }
-
 std::string solver_key(const CutShape& shape) {
     std::ostringstream key;
     key << shape_solver(shape);
@@ -125,7 +123,7 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
         "#include \"cut_surface/surface_" + kind.file + ".glsl\"\n#include \"cut_surface/surface_hits.comp\"\n";
     request.precision = precision;
     request.defines = kind.defines;
-    request.defines.insert(request.defines.end(), {{"CORE_TILE_WIDTH", std::to_string(surface_tile_width(device)) + "u"},
+    request.defines.insert(request.defines.end(), {{"CORE_TILE_WIDTH", std::to_string(tile_width_on(device)) + "u"},
                                                    {"CORE_TILE_HEIGHT", std::to_string(surface_tile_height) + "u"},
                                                    {"CORE_HIT_ROWS", std::to_string(m_hit_rows) + "u"},
                                                    {"CORE_SHAPE_ROWS", std::to_string(m_n_rows)}});
@@ -140,10 +138,7 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
         upload(*patches->mesh, shape_middle(shape));
         request.buffers = {{"core_patches", m_items.get()}, {"core_nodes", m_nodes.get()}};
     }
-    request.bindings = {{0, BindingType::uniform_buffer}, {1, BindingType::uniform_buffer}};
-    for (std::uint32_t binding = 2; binding <= 8; ++binding) {
-        request.bindings.push_back({binding, BindingType::storage_buffer});
-    }
+    request.bindings = buffer_bindings({.uniform = 2, .storage = 7});
     request.push_constant_bytes = sizeof(HitsParameters);
     m_kernel = std::make_unique<ComposedKernel>(device, request);
 }
@@ -187,11 +182,8 @@ void SurfaceSolver::upload(const PatchMesh& mesh, const Vector3& middle) {
 
 void SurfaceSolver::upload_nodes(std::span<const double> boxes, const Vector3& middle) {
     const Hierarchy hierarchy(boxes, middle);
-    const std::span<const HierarchyNode> nodes = hierarchy.nodes();
-    std::vector<std::uint32_t> words(8 * nodes.size());
-    std::memcpy(words.data(), nodes.data(), nodes.size_bytes());
-    m_nodes = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, nodes.size(), 8);
-    m_nodes->write_uints(0, words);
+    m_nodes = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, hierarchy.nodes().size(), node_size);
+    m_nodes->write_uints(0, node_words(hierarchy.nodes()));
 }
 
 void SurfaceSolver::begin(const CutShape& shape, const CutPlaneGeometry& view, const std::array<double, 6>& bounds,

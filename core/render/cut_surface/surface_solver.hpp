@@ -14,10 +14,8 @@
 
 namespace elvis {
 
-/** Tiles of pixels that the kernels of surfaces work on. */
+/** Of the tiles of pixels that the kernels of surfaces work on. */
 inline constexpr std::uint32_t surface_tile_height = 16;
-/** Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes. */
-std::uint32_t surface_tile_width(const Device& device);
 
 /** The same for shapes that one solver serves. */
 std::string solver_key(const CutShape& shape);

@@ -4,11 +4,11 @@
  */
 #pragma once
 
+#include <core/render/device/in_batches.hpp>
 #include <core/render/picture/layer.hpp>
 #include <core/shader/composer.hpp>
 
 #include <algorithm>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -19,17 +19,15 @@ inline constexpr std::uint32_t pixel_group_size = 256;
 /** Groups along x; more pixels go along y, where a device need not allow more than 65535: those of nearly 2^31 pixels. */
 inline constexpr std::uint32_t pixel_groups_x = 128;
 
-/** Request of shaders/NAME.comp with these bindings from 0. */
-inline KernelRequest pixel_kernel(const std::string& name, Precision precision, std::initializer_list<BindingType> bindings,
+/** Request of shaders/NAME.comp with these buffers. */
+inline KernelRequest pixel_kernel(const std::string& name, Precision precision, const BufferCounts& buffers,
                                   std::size_t push_bytes) {
     KernelRequest request;
     request.name = name;
     request.kernel = name + ".comp";
     request.precision = precision;
     request.defines = {{"CORE_GROUP_SIZE", std::to_string(pixel_group_size) + "u"}};
-    for (const BindingType type : bindings) {
-        request.bindings.push_back({static_cast<std::uint32_t>(request.bindings.size()), type});
-    }
+    request.bindings = buffer_bindings(buffers);
     request.push_constant_bytes = static_cast<std::uint32_t>(push_bytes);
     return request;
 }
@@ -38,8 +36,8 @@ inline void dispatch_pixels(const ComposedKernel& kernel, const std::vector<cons
                             std::span<const std::byte> push_constants, std::uint32_t n_pixels) {
     constexpr std::uint32_t pixels_a_row = pixel_group_size * pixel_groups_x;
     // Groups without pixels cost as much as others: small pictures have one row, as long as it need be.
-    const std::uint32_t n_groups = (n_pixels + pixel_group_size - 1) / pixel_group_size;
-    kernel.dispatch(bindings, push_constants, std::min(pixel_groups_x, n_groups), (n_pixels + pixels_a_row - 1) / pixels_a_row);
+    const std::uint32_t n_groups = divided_up(n_pixels, pixel_group_size);
+    kernel.dispatch(bindings, push_constants, std::min(pixel_groups_x, n_groups), divided_up(n_pixels, pixels_a_row));
 }
 
 /** Only for the layer's rows, and some around them. */

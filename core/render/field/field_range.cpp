@@ -1,6 +1,7 @@
 #include <core/expression/glsl.hpp>
-#include <core/render/device/real_array.hpp>
+#include <core/render/device/in_batches.hpp>
 #include <core/render/field/field_range.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <array>
@@ -65,12 +66,12 @@ double rounding_of_expression(const Device& device, const RuntimeVolume& volume,
         request.text = error_glsl(expression, data.about_class(index));
         request.bindings = {{0, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(ErrorParameters);
-        const std::uint32_t stride = (n_elements + most_elements - 1) / most_elements;
-        const ErrorParameters parameters{(n_elements + stride - 1) / stride, stride};
+        const std::uint32_t stride = divided_up(n_elements, most_elements);
+        const ErrorParameters parameters{divided_up(n_elements, stride), stride};
         const Buffer output(device, parameters.n_sampled * real_bytes(data.precision()));
         const std::array<const Buffer*, 1> bindings = {&output};
         ComposedKernel(device, request)
-            .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (parameters.n_sampled + group_size - 1) / group_size);
+            .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(parameters.n_sampled, group_size));
         for (const double error : read_reals(output, data.precision(), parameters.n_sampled)) {
             largest = std::max(largest, error);
         }

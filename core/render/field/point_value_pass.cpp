@@ -1,6 +1,6 @@
+#include <core/render/device/in_batches.hpp>
 #include <core/render/field/point_value_pass.hpp>
 
-#include <algorithm>
 #include <array>
 
 namespace elvis {
@@ -21,7 +21,6 @@ struct Parameters {
 PointValuePass::PointValuePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_counts(device, sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
-        m_kernels.emplace_back();
         if (volume.classes()[index].n_elements == 0) {
             continue;
         }
@@ -31,11 +30,9 @@ PointValuePass::PointValuePass(const Device& device, const RuntimeVolume& volume
         request.precision = data.precision();
         data.add_field(request, index);
         request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}, {"CORE_CLASS", std::to_string(index) + "u"}};
-        for (std::uint32_t binding = 0; binding <= 3; ++binding) {
-            request.bindings.push_back({binding, BindingType::storage_buffer});
-        }
+        request.bindings = buffer_bindings({.storage = 4});
         request.push_constant_bytes = sizeof(Parameters);
-        m_kernels.back() = std::make_unique<ComposedKernel>(device, request);
+        m_kernels.push_back(std::make_unique<ComposedKernel>(device, request));
     }
 }
 
@@ -43,12 +40,11 @@ void PointValuePass::draw(const ShownComponent& component, const LayerTarget& ta
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(target.layer.n_pixels());
     const std::array<const Buffer*, 4> bindings = {&target.layer.samples, &target.layer.marks, target.places, &m_counts};
-    for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
-        for (std::uint32_t first = 0; m_kernels[index] && first < n_pixels; first += pixels_a_dispatch) {
+    for (const std::unique_ptr<ComposedKernel>& kernel : m_kernels) {
+        in_batches(n_pixels, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
             const Parameters parameters{first, n_pixels, component.first(), component.end()};
-            m_kernels[index]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                                       (std::min(pixels_a_dispatch, n_pixels - first) + group_size - 1) / group_size);
-        }
+            kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+        });
     }
     counts.field_evaluations += m_counts.read_items<std::uint32_t>(1)[0];
 }

@@ -22,7 +22,7 @@ public:
     void draw(const ShownComponent& component, const LayerTarget& target, FrameCounts& counts);
 
 private:
-    /** By class; null where it is empty. */
+    /** Of the classes that have elements. */
     std::vector<std::unique_ptr<ComposedKernel>> m_kernels;
     Buffer m_counts;
 };

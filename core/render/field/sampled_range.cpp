@@ -1,5 +1,6 @@
-#include <core/render/device/real_array.hpp>
+#include <core/render/device/in_batches.hpp>
 #include <core/render/field/sampled_range.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <elvis/native/space.hpp>
 
@@ -61,7 +62,7 @@ public:
             const std::array<const Buffer*, 4> bindings = {&m_ranges, &m_samples, &m_elements, &m_boxes};
             for (std::uint32_t at = 0; at < n_samples; at += samples_a_dispatch) {
                 const Parameters parameters{n, component, n_components, at, at + samples_a_dispatch};
-                m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + group_size - 1) / group_size);
+                m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(n, group_size));
             }
             const std::vector<double> ranges = read_reals(m_ranges, m_precision, 2 * some.size());
             const auto samples = m_samples.read_items<std::uint32_t>(2 * some.size());
@@ -81,9 +82,7 @@ private:
         request.precision = data.precision();
         request.buffers = data.host_buffers(element_class);
         data.add_field(request, element_class);
-        for (std::uint32_t binding = 0; binding < 4; ++binding) {
-            request.bindings.push_back({binding, BindingType::storage_buffer});
-        }
+        request.bindings = buffer_bindings({.storage = 4});
         request.push_constant_bytes = sizeof(Parameters);
         return request;
     }

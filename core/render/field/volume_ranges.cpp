@@ -14,17 +14,6 @@ namespace {
 /** Rounding of a float32 field value, relative to the largest: what evaluations of orders up to 10 show (5e-7), doubled. */
 constexpr double float32_value_error = 1e-6;
 
-FieldRange magnitude_range(const std::vector<FieldRange>& components) {
-    double lower = 0, upper = 0;
-    for (const FieldRange& range : components) {
-        const double near = range.lower > 0 ? range.lower : range.upper < 0 ? -range.upper : 0;
-        const double far = std::max(std::abs(range.lower), std::abs(range.upper));
-        lower += near * near;
-        upper += far * far;
-    }
-    return {std::sqrt(lower), std::sqrt(upper)};
-}
-
 } // namespace
 
 const std::vector<Vector3>& VolumeRanges::outline() {

@@ -1,8 +1,8 @@
 #include <core/base/bounds.hpp>
 #include <core/render/device/in_batches.hpp>
 #include <core/render/device/provide_buffer.hpp>
-#include <core/render/device/real_array.hpp>
 #include <core/render/isosurface/isosurface_pass.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 
@@ -38,8 +38,6 @@ struct Parameters {
     float extent;
 };
 
-std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
 } // namespace
 
 const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device, Role role, bool has_one_isovalue) {
@@ -57,9 +55,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
             own.name = "isosurface";
             own.kernel = "isosurface/isosurface.comp";
             own.defines.emplace_back("CORE_DESCENDS", role == Role::deep_pixels ? "1" : "0");
-            for (std::uint32_t binding = 4; binding <= 10; ++binding) {
-                own.bindings.push_back({binding, BindingType::storage_buffer});
-            }
+            own.bindings = buffer_bindings({.uniform = 1, .storage = 10});
             own.push_constant_bytes = sizeof(Parameters);
         }
         own.name += " of element class " + std::to_string(element_class);
@@ -69,10 +65,9 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
 }
 
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_device(device), m_precision(data.precision()), m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
+    : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)),
       m_extent(static_cast<float>(diagonal_of(data.bounds()))), m_isovalue_set(device, volume, data), m_projection(device),
-      m_listed(device), m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+      m_listed(device), m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -82,11 +77,7 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
         request.precision = m_precision;
         kernels.octants = m_isovalue_set.octant_buffers(index);
         kernels.elements = m_isovalue_set.element_buffers(index);
-        for (const FetchBuffer& buffer : data.host_buffers(index)) {
-            if (buffer.name != "core_nodes") {
-                request.buffers.push_back(buffer);
-            }
-        }
+        request.buffers = {data.elements(index)};
         data.add_field(request, index, true);
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
@@ -94,10 +85,7 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
                            {"CORE_TILE_CAPACITY", std::to_string(tile_capacity) + "u"},
                            {"CORE_TESTS_ISOVALUES", "1"},
                            {"CORE_CLASS", std::to_string(index) + "u"}};
-        request.bindings = {{0, BindingType::uniform_buffer}};
-        for (std::uint32_t binding = 1; binding <= 3; ++binding) {
-            request.bindings.push_back({binding, BindingType::storage_buffer});
-        }
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 3});
         kernels.element_class = index;
         m_kernels.push_back(std::move(kernels));
     }
@@ -127,7 +115,7 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
     const Buffer& bending = provide_buffer(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
     const Buffer& isovalues = provide_buffer(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
     write_reals(isovalues, m_precision, m_values);
-    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    write_view(m_frame, m_precision, view);
     if (m_isovalue_set.rests_on_estimates()) {
         layer.marks.write_items(std::span<const Mark>(std::vector<Mark>(layer.n_pixels(), Mark{0, pixel_flag::estimated})));
     }

@@ -1,3 +1,4 @@
+#include <core/render/device/in_batches.hpp>
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/isosurface/isosurface_projection.hpp>
@@ -46,9 +47,7 @@ const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request
     own.text += segment::segment_glsl(degree == 0 ? segment::nested_plan() : segment::fixed_plan(static_cast<int>(degree)));
     own.defines.emplace_back("CORE_USES_COLLEAGUE", uses_colleague ? "1" : "0");
     own.defines.emplace_back("CORE_PLAIN", degree == 0 ? "0" : "1");
-    for (std::uint32_t binding = 4; binding <= 9; ++binding) {
-        own.bindings.push_back({binding, BindingType::storage_buffer});
-    }
+    own.bindings = buffer_bindings({.uniform = 1, .storage = 9});
     own.push_constant_bytes = sizeof(Parameters);
     return m_kernels.try_emplace(key, m_device, own).first->second;
 }
@@ -56,9 +55,7 @@ const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request
 std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags) {
     if (!m_list_kernel) {
         m_list_kernel = std::make_unique<ComposedKernel>(
-            m_device, pixel_kernel("isosurface/list_open_pixels", Precision::float32,
-                                   {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer},
-                                   sizeof(ListParameters)));
+            m_device, pixel_kernel("isosurface/list_open_pixels", Precision::float32, {.storage = 3}, sizeof(ListParameters)));
     }
     provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
     m_counts.fill(0);
@@ -79,18 +76,17 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
                                                     &layer.marks,          &*m_list,        &picture.isovalues, &beyond,
                                                     picture.target.places, &picture.bending};
     m_counts.fill(0);
-    for (std::uint32_t first = 0; first < m_n_listed; first += pixels_a_dispatch) {
+    in_batches(m_n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
         const Parameters parameters{layer.width,
                                     first,
-                                    std::min(m_n_listed, first + pixels_a_dispatch),
+                                    first + count,
                                     surface,
                                     picture.component.first,
                                     picture.component.end,
                                     picture.n_isovalues,
                                     picture.target.beyond ? 1u : 0u};
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                        (parameters.end - first + group_size - 1) / group_size);
-    }
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+    });
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.field_evaluations += found[evaluations];
     counts.certified_segments += found[certified];

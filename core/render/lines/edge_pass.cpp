@@ -246,11 +246,7 @@ void EdgePass::draw(const EdgeSet& edges, const Camera& camera, double width, do
     for (const EdgeSet::Edge& edge : edges.edges()) {
         draw_edge(view, edges, edge, slope, canvas);
     }
-    if (m_precision == Precision::float64) {
-        write<double>(view, canvas, width, value, surface, layer, m_precision);
-    } else {
-        write<float>(view, canvas, width, value, surface, layer, m_precision);
-    }
+    with_real(m_precision, [&]<class Real>(Real) { write<Real>(view, canvas, width, value, surface, layer, m_precision); });
 }
 
 } // namespace elvis

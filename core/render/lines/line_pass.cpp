@@ -1,7 +1,8 @@
 #include <core/render/device/in_batches.hpp>
 #include <core/render/device/provide_buffer.hpp>
-#include <core/render/device/real_array.hpp>
 #include <core/render/lines/line_pass.hpp>
+#include <core/render/tiles/tile_list.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 
@@ -42,17 +43,6 @@ struct ListedParameters {
     /** On faces. */
     std::uint32_t is_closed;
 };
-
-std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
-/** One uniform buffer, then storage buffers. */
-std::vector<BindingLayout> bindings_up_to(std::uint32_t last) {
-    std::vector<BindingLayout> bindings = {{0, BindingType::uniform_buffer}};
-    for (std::uint32_t binding = 1; binding <= last; ++binding) {
-        bindings.push_back({binding, BindingType::storage_buffer});
-    }
-    return bindings;
-}
 
 /** Whether all rays start at one point, or all of them in front of the volume. */
 bool start_on_one_side(const CutPlaneGeometry& view, const std::array<double, 6>& bounds) {
@@ -97,8 +87,7 @@ LinePass::LinePass(const Device& device, const RuntimeVolume& volume, const Devi
     : m_device(device), m_volume(volume), m_data(data), m_faces(faces),
       // Where elements are cut, rays pass between faces and what the cut leaves out.
       m_is_closed(is_whole_boundary && !volume.is_cut()), m_quadric_rows(quadric_rows), m_on_own_boundary(on_own_boundary),
-      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_tile_width(tile_width_on(device)), m_frame(view_buffer(device, data.precision())),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
 void LinePass::provide(bool with_contours) {
@@ -131,11 +120,11 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
                            {"CORE_WITH_CONTOURS", with_contours ? "1" : "0"},
                            {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
-        const auto make = [&](const char* kernel, std::uint32_t last_binding, std::size_t push_bytes) {
+        const auto make = [&](const char* kernel, std::uint32_t n_storage, std::size_t push_bytes) {
             KernelRequest own = request;
             own.name = std::string(kernel).append(" of element class ").append(std::to_string(index));
             own.kernel = std::string(kernel).append(".comp");
-            own.bindings = bindings_up_to(last_binding);
+            own.bindings = buffer_bindings({.uniform = 1, .storage = n_storage});
             own.push_constant_bytes = static_cast<std::uint32_t>(push_bytes);
             return std::make_unique<ComposedKernel>(m_device, own);
         };
@@ -155,8 +144,7 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
                                                        {"CORE_BY_QUADRIC_SPANS", by_spans ? "1" : "0"},
                                                        {"CORE_HAS_ENDS", "0"},
                                                        {"CORE_SHAPE_ROWS", std::to_string(m_quadric_rows)}});
-                own.bindings = bindings_up_to(9);
-                own.bindings[1].type = BindingType::uniform_buffer;
+                own.bindings = buffer_bindings({.uniform = 2, .storage = 8});
                 own.push_constant_bytes = sizeof(ListedParameters);
                 return std::make_unique<ComposedKernel>(m_device, own);
             };
@@ -193,7 +181,7 @@ void LinePass::draw(const CutPlaneGeometry& view, const ShownComponent& componen
                     const Buffer* bending, const Buffer* shape, const LayerTarget& target, FrameCounts& counts) {
     const Picture picture{m_kernels[lines.isovalues.empty() ? 0 : 1], component, lines, bending, shape, target};
     const std::uint64_t n_pixels = target.layer.n_pixels();
-    write_reals(m_frame, m_data.precision(), std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    write_view(m_frame, m_data.precision(), view);
     m_counts.fill(0);
     // A buffer cannot be empty.
     provide_buffer(m_isovalues, m_device, std::max<std::uint64_t>(picture.n_isovalues(), 1) * real_bytes(m_data.precision()));

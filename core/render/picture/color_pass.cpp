@@ -1,6 +1,6 @@
 #include <core/render/device/pixel_kernel.hpp>
-#include <core/render/device/real_array.hpp>
 #include <core/render/picture/color_pass.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <array>
 #include <cmath>
@@ -58,26 +58,18 @@ std::array<double, 3> special_limits(const ColorTable& table, Precision precisio
 }
 
 KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines) {
-    constexpr BindingType storage = BindingType::storage_buffer;
-    KernelRequest request =
-        pixel_kernel(std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : ""), precision,
-                     {BindingType::uniform_buffer, storage, storage, storage, storage, storage}, sizeof(ColorParameters));
+    KernelRequest request = pixel_kernel(std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : ""),
+                                         precision, {.uniform = 1, .storage = is_lit ? 7u : 5u}, sizeof(ColorParameters));
     request.kernel = "picture/color.comp";
     request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
     request.defines.emplace_back("CORE_HAS_LINES", has_lines ? "1" : "0");
-    if (is_lit) {
-        for (const std::uint32_t binding : {6u, 7u}) {
-            request.bindings.push_back({binding, storage});
-        }
-    }
     return request;
 }
 
 } // namespace
 
 ColorPass::ColorPass(const Device& device, Precision precision)
-    : m_device(device), m_precision(precision),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(precision), Buffer::Use::uniform) {}
+    : m_device(device), m_precision(precision), m_frame(view_buffer(device, precision)) {}
 
 const ComposedKernel& ColorPass::provide(bool is_lit, bool has_lines) {
     std::unique_ptr<ComposedKernel>& kernel = m_kernels[(is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];
@@ -137,7 +129,7 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
     }
     const Buffer rows(m_device, numbers.size() * real_bytes(m_precision));
     write_reals(rows, m_precision, numbers);
-    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    write_view(m_frame, m_precision, view);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const ColorParameters parameters{n_pixels,
                                      pixel_groups_x,

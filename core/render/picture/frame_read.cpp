@@ -91,11 +91,7 @@ Frame background_frame(const FrameRequest& request) {
 
 void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers,
                 Frame& frame) {
-    if (precision == Precision::float64) {
-        read_as<double>(from, facts, with_buffers, frame);
-    } else {
-        read_as<float>(from, facts, with_buffers, frame);
-    }
+    with_real(precision, [&]<class Real>(Real) { read_as<Real>(from, facts, with_buffers, frame); });
 }
 
 } // namespace elvis

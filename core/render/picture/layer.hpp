@@ -4,8 +4,9 @@
  */
 #pragma once
 
-#include <core/render/device/real_array.hpp>
+#include <core/render/frame.hpp>
 #include <core/vulkan/buffer.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -93,7 +94,14 @@ struct ShownComponent {
     std::uint32_t end() const { return component < 0 ? n_components : first() + 1; }
 };
 
-/** Numbers that the passes' kernels add to, as they lie in their buffer. */
+/** What the kernels of passes count first in their buffer: evaluations, steps of Newton's method, failures of it. */
 inline constexpr std::size_t n_pass_counts = 3;
+
+inline void add_pass_counts(const Buffer& from, FrameCounts& counts) {
+    const std::vector<std::uint32_t> found = from.read_items<std::uint32_t>(n_pass_counts);
+    counts.field_evaluations += found[0];
+    counts.newton_iterations += found[1];
+    counts.newton_failures += found[2];
+}
 
 } // namespace elvis

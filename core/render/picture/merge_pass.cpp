@@ -20,23 +20,14 @@ struct PixelParameters {
     std::uint32_t n_pixels, groups_x;
 };
 
-ComposedKernel storage_kernel(const Device& device, Precision precision, const char* name, std::uint32_t n_bindings,
-                              std::size_t push_bytes) {
-    KernelRequest request = pixel_kernel(name, precision, {}, push_bytes);
-    for (std::uint32_t binding = 0; binding < n_bindings; ++binding) {
-        request.bindings.push_back({binding, BindingType::storage_buffer});
-    }
-    return ComposedKernel(device, request);
-}
-
 } // namespace
 
 MergePass::MergePass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision),
-      m_merge(storage_kernel(device, precision, "picture/merge", 11, sizeof(MergeParameters))),
-      m_take(storage_kernel(device, precision, "picture/take_layer", 5, sizeof(PixelParameters))),
-      m_order(storage_kernel(device, precision, "picture/order_layers", 4, sizeof(PixelParameters))),
-      m_blend(storage_kernel(device, precision, "picture/blend", 4, sizeof(PixelParameters))),
+      m_merge(device, pixel_kernel("picture/merge", precision, {.storage = 11}, sizeof(MergeParameters))),
+      m_take(device, pixel_kernel("picture/take_layer", precision, {.storage = 5}, sizeof(PixelParameters))),
+      m_order(device, pixel_kernel("picture/order_layers", precision, {.storage = 4}, sizeof(PixelParameters))),
+      m_blend(device, pixel_kernel("picture/blend", precision, {.storage = 4}, sizeof(PixelParameters))),
       m_counts(device, 3 * sizeof(std::uint32_t)) {}
 
 void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background) {

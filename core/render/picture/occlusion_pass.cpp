@@ -12,10 +12,7 @@ struct Parameters {
 } // namespace
 
 OcclusionPass::OcclusionPass(const Device& device, Precision precision)
-    : m_kernel(device, pixel_kernel("picture/occlude", precision,
-                                    {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
-                                     BindingType::storage_buffer},
-                                    sizeof(Parameters))),
+    : m_kernel(device, pixel_kernel("picture/occlude", precision, {.storage = 4}, sizeof(Parameters))),
       m_counts(device, sizeof(std::uint32_t)) {}
 
 void OcclusionPass::run(const Layer& layer, const Buffer& depths, Step step) const {

@@ -1,6 +1,6 @@
 #include <core/render/device/device_time.hpp>
-#include <core/render/device/real_array.hpp>
 #include <core/render/segments/segment_pass.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,10 +48,6 @@ template <class Real> struct SegmentRecord {
 
 Vector3 rounded(const Vector3& v, Precision precision) {
     return precision == Precision::float64 ? v : Vector3{double(float(v[0])), double(float(v[1])), double(float(v[2]))};
-}
-
-template <class Call> decltype(auto) with_real(Precision precision, const Call& call) {
-    return precision == Precision::float64 ? call(double{}) : call(float{});
 }
 
 /** Whether segments may be missing of a ray that has been followed as far as it was. */
@@ -105,8 +101,7 @@ struct SegmentPass::Rays {
 SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                          const std::optional<SkippedField>& skipped)
     : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()), m_skipped(skipped),
-      m_walk_data(device, volume, data),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
+      m_walk_data(device, volume, data), m_frame(view_buffer(device, data.precision())),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
 SegmentPass::Kernels& SegmentPass::kernels_for(bool are_given) {
@@ -118,9 +113,7 @@ SegmentPass::Kernels& SegmentPass::kernels_for(bool are_given) {
         for (const WalkSearch::Range& range : kernels->search.ranges()) {
             KernelRequest march = kernels->search.request(range, "segments/segments");
             march.instances = {m_data.instance(range.element_class)};
-            for (std::uint32_t binding = 1; binding <= (are_given ? 4u : 3u); ++binding) {
-                march.bindings.push_back({binding, BindingType::storage_buffer});
-            }
+            march.bindings = buffer_bindings({.uniform = 1, .storage = are_given ? 4u : 3u});
             march.push_constant_bytes = sizeof(MarchParameters);
             kernels->march.push_back(std::make_unique<ComposedKernel>(m_device, march));
         }
@@ -265,7 +258,7 @@ std::vector<double> SegmentPass::lengths(const CutPlaneGeometry& view, const Vie
                                          std::uint32_t height, SegmentCounts& counts) {
     Kernels& kernels = kernels_for(false);
     m_walk_data.look_from(start);
-    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    write_view(m_frame, m_precision, view);
     const std::size_t count = std::size_t{width} * height;
     return with_real(m_precision, [&]<class Real>(Real) {
         const DeviceTimer timer(m_device);

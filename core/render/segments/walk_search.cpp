@@ -1,6 +1,7 @@
 #include <core/base/bounds.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/segments/walk_search.hpp>
+#include <core/render/tiles/tile_list.hpp>
 
 #include <algorithm>
 #include <array>
@@ -28,20 +29,12 @@ struct SeekParameters {
     float extent;
 };
 
-std::uint32_t divided_up(std::uint32_t number, std::uint32_t by) { return (number + by - 1) / by; }
-
-void add_storage_buffers(KernelRequest& request, std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        request.bindings.push_back({static_cast<std::uint32_t>(request.bindings.size()), BindingType::storage_buffer});
-    }
-}
-
 } // namespace
 
 WalkSearch::WalkSearch(const Device& device, const DeviceVolume& data, const WalkData& walk_data, const RuntimeVolume& volume,
                        std::vector<std::pair<std::string, std::string>> defines, bool are_given)
     : m_device(device), m_data(data), m_walk_data(walk_data), m_defines(std::move(defines)), m_are_given(are_given),
-      m_tile_width(std::clamp(device.subgroup_size(), 8u, 64u)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
+      m_tile_width(tile_width_on(device)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
@@ -59,17 +52,12 @@ KernelRequest WalkSearch::request(const Range& range, const char* kernel) const 
     request.kernel = std::string(kernel) + ".comp";
     request.precision = m_data.precision();
     request.buffers = m_walk_data.host_buffers(range.element_class);
-    for (const FetchBuffer& buffer : m_data.host_buffers(range.element_class)) {
-        if (buffer.name != "core_nodes") {
-            request.buffers.push_back(buffer);
-        }
-    }
+    request.buffers.push_back(m_data.elements(range.element_class));
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                        {"CORE_LEAF_WORD", "index"},
                        m_walk_data.curved_define(range.element_class)};
     request.defines.insert(request.defines.end(), m_defines.begin(), m_defines.end());
-    request.bindings = {{0, BindingType::uniform_buffer}};
     return request;
 }
 
@@ -84,13 +72,13 @@ void WalkSearch::compile() {
             KernelRequest tiles = request(range, "tiles/ray_tiles");
             tiles.defines.emplace_back("CORE_TESTS_STARTS", "1");
             tiles.instances = {m_data.instance(range.element_class)};
-            add_storage_buffers(tiles, 2);
+            tiles.bindings = buffer_bindings({.uniform = 1, .storage = 2});
             tiles.push_constant_bytes = sizeof(TilesParameters);
             kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
         }
         KernelRequest seek = request(range, "segments/find_walk");
         seek.instances = {m_data.instance(range.element_class)};
-        add_storage_buffers(seek, 4);
+        seek.bindings = buffer_bindings({.uniform = 1, .storage = 4});
         seek.push_constant_bytes = sizeof(SeekParameters);
         kernels.seek = std::make_unique<ComposedKernel>(m_device, seek);
     }

@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include <core/render/device/in_batches.hpp>
 #include <core/render/volume/live_rays.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/segments/walk_data.hpp>
@@ -47,7 +48,7 @@ public:
 
     const std::vector<Range>& ranges() const { return m_ranges; }
     std::uint32_t tile_width() const { return m_tile_width; }
-    std::uint32_t tiles_a_row(std::uint32_t width) const { return (width + m_tile_width - 1) / m_tile_width; }
+    std::uint32_t tiles_a_row(std::uint32_t width) const { return divided_up(width, m_tile_width); }
     /** The diagonal of the volume's bounds. */
     float extent() const { return m_extent; }
 

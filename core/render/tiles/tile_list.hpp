@@ -1,16 +1,20 @@
 /**
  * @file tile_list.hpp
- * Which tiles of a picture are to be drawn.
+ * The tiles of a picture, and which of them are to be drawn.
  */
 #pragma once
 
 #include <core/vulkan/buffer.hpp>
 #include <core/vulkan/device.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
 namespace elvis {
+
+/** Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes. */
+inline std::uint32_t tile_width_on(const Device& device) { return std::clamp(device.subgroup_size(), 8u, 64u); }
 
 /**
  * Tiles that see something, as kernels put them there (shaders/tiles/list_tile.glsl): where many pixels share each

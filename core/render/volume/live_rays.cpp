@@ -28,9 +28,7 @@ constexpr std::uint32_t groups_a_work_group = 16;
 enum Count : std::size_t { live, open, n_counts };
 
 KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::uint32_t tile_height, std::size_t push_bytes) {
-    constexpr BindingType buffer = BindingType::storage_buffer;
-    KernelRequest request =
-        pixel_kernel("volume/live_rays", precision, {buffer, buffer, buffer, buffer, buffer, buffer}, push_bytes);
+    KernelRequest request = pixel_kernel("volume/live_rays", precision, {.storage = 6}, push_bytes);
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
                        {"CORE_GROUPS", std::to_string(groups_a_work_group) + "u"}};
@@ -63,7 +61,7 @@ void LiveRays::begin(const Buffer& states, const Buffer& has_starts, std::uint32
     m_has_starts = &has_starts;
     m_width = width;
     m_height = height;
-    m_all = m_all_groups.of(m_device, (width + m_tile_width - 1) / m_tile_width, height);
+    m_all = m_all_groups.of(m_device, divided_up(width, m_tile_width), height);
     m_open = m_all;
     for (std::optional<Buffer>* list : {&m_live, &m_open_lists[0], &m_open_lists[1]}) {
         provide_buffer(*list, m_device, m_all.list->bytes());
@@ -76,8 +74,7 @@ RayGroups LiveRays::run(std::uint32_t seeks, std::uint32_t first_element, std::u
     const std::array<const Buffer*, 6> bindings = {m_states, m_has_starts, m_open.list, &*m_live, &next_open, &m_counts};
     m_open.in_batches([&](std::uint32_t first, std::uint32_t count) {
         const Parameters parameters{m_width, m_height, first, count, seeks, first_element, n_elements};
-        m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                          (count + groups_a_work_group - 1) / groups_a_work_group);
+        m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, groups_a_work_group));
     });
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     if (seeks != 0) {

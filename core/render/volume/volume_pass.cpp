@@ -1,8 +1,8 @@
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/device/provide_buffer.hpp>
-#include <core/render/device/real_array.hpp>
 #include <core/render/volume/volume_pass.hpp>
 #include <core/segment/tables.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -82,19 +82,13 @@ struct VolumePass::Picture {
 VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_data(data), m_precision(data.precision()), m_walk_data(device, volume, data),
       m_search(device, data, m_walk_data, volume, {}, false), m_models(device, volume, data),
-      m_begin(device,
-              pixel_kernel("volume/volume_begin", data.precision(), {BindingType::storage_buffer}, sizeof(PixelParameters))),
-      m_transparent_layer(device, pixel_kernel("volume/volume_transparency", data.precision(),
-                                               {BindingType::storage_buffer, BindingType::storage_buffer,
-                                                BindingType::storage_buffer, BindingType::storage_buffer},
-                                               sizeof(PixelParameters))),
-      m_finish(device, pixel_kernel("volume/volume_finish", data.precision(),
-                                    {BindingType::storage_buffer, BindingType::storage_buffer, BindingType::storage_buffer,
-                                     BindingType::storage_buffer},
-                                    sizeof(PixelParameters))),
+      m_begin(device, pixel_kernel("volume/volume_begin", data.precision(), {.storage = 1}, sizeof(PixelParameters))),
+      m_transparent_layer(
+          device, pixel_kernel("volume/volume_transparency", data.precision(), {.storage = 4}, sizeof(PixelParameters))),
+      m_finish(device, pixel_kernel("volume/volume_finish", data.precision(), {.storage = 4}, sizeof(PixelParameters))),
       m_live(device, data.precision(), m_search.tile_width(), WalkSearch::tile_height),
-      m_frame(device, cut_plane_rows * 4 * real_bytes(data.precision()), Buffer::Use::uniform),
-      m_counts(device, n_counts * sizeof(std::uint32_t)), m_march(m_search.ranges().size()) {}
+      m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)),
+      m_march(m_search.ranges().size()) {}
 
 void VolumePass::choose(const VolumeRendering& wanted, double offset, const ShownComponent& component) {
     const TransferTable table = cut_at_breakpoints(wanted.transfer);
@@ -144,9 +138,7 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
     request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
     request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
     request.defines.emplace_back("CORE_HAS_JUMPS", m_has_jumps ? "1" : "0");
-    for (std::uint32_t binding = 1; binding <= 7; ++binding) {
-        request.bindings.push_back({binding, BindingType::storage_buffer});
-    }
+    request.bindings = buffer_bindings({.uniform = 1, .storage = 7});
     request.push_constant_bytes = sizeof(MarchParameters);
     return m_march[index].try_emplace(key, m_device, request).first->second;
 }
@@ -222,7 +214,7 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
                       FrameCounts& counts) {
     const Layer& layer = merged.picture();
     const Buffer& states = provide_buffer(m_states, m_device, layer.n_pixels() * state_bytes(m_precision));
-    write_reals(m_frame, m_precision, std::span<const double>(view.rows.front().data(), 4 * view.rows.size()));
+    write_view(m_frame, m_precision, view);
     m_walk_data.look_from(start);
     Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live};
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());

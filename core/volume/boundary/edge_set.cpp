@@ -1,6 +1,7 @@
 #include <core/base/vector3.hpp>
 #include <core/volume/boundary/edge_set.hpp>
 #include <core/volume/element/chebyshev.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <elvis/native/space.hpp>
 
@@ -75,8 +76,6 @@ std::vector<LocalEdge> local_edges(const ClassInfo& info, const RuntimeVolume& v
 /** Positions of order + 1 points of each edge. */
 std::vector<double> sample(const Device& device, const DeviceVolume& data, std::uint32_t element_class, std::uint32_t order,
                            std::span<const LocalEdge> edges) {
-    const bool is_double = data.precision() == Precision::float64;
-    const std::uint64_t real_bytes = is_double ? sizeof(double) : sizeof(float);
     const std::uint64_t block = std::min<std::uint64_t>(edges.size(), edges_a_dispatch);
     const std::uint32_t n_points = order + 1;
     KernelRequest request;
@@ -84,11 +83,11 @@ std::vector<double> sample(const Device& device, const DeviceVolume& data, std::
     request.kernel = "boundary/edge_samples.comp";
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
-    request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}, {2, BindingType::storage_buffer}};
+    request.bindings = buffer_bindings({.storage = 3});
     request.push_constant_bytes = sizeof(Parameters);
     const ComposedKernel kernel(device, request);
-    const Buffer output(device, 3 * block * n_points * real_bytes), input(device, 3 * block * n_points * real_bytes),
-        elements(device, block * sizeof(std::uint32_t));
+    const std::uint64_t point_bytes = 3 * block * n_points * real_bytes(data.precision());
+    const Buffer output(device, point_bytes), input(device, point_bytes), elements(device, block * sizeof(std::uint32_t));
     const std::array<const Buffer*, 3> bindings = {&output, &input, &elements};
     std::vector<double> positions, points;
     std::vector<std::uint32_t> local;
@@ -108,19 +107,10 @@ std::vector<double> sample(const Device& device, const DeviceVolume& data, std::
         elements.write_items(std::span<const std::uint32_t>(local));
         const auto n = static_cast<std::uint32_t>(own.size() * n_points);
         const Parameters parameters{static_cast<std::uint32_t>(own.size()), n_points};
-        if (is_double) {
-            input.write_items(std::span<const double>(points));
-        } else {
-            const std::vector<float> rounded(points.begin(), points.end());
-            input.write_items(std::span<const float>(rounded));
-        }
+        write_reals(input, data.precision(), points);
         kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + group_size - 1) / group_size);
-        const auto take = [&](const auto& read) { positions.insert(positions.end(), read.begin(), read.end()); };
-        if (is_double) {
-            take(output.read_items<double>(std::size_t{3} * n));
-        } else {
-            take(output.read_items<float>(std::size_t{3} * n));
-        }
+        const std::vector<double> read = read_reals(output, data.precision(), std::size_t{3} * n);
+        positions.insert(positions.end(), read.begin(), read.end());
     }
     return positions;
 }

@@ -1,4 +1,5 @@
 #include <core/volume/boundary/face_samples.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,37 +26,24 @@ void sample_faces(const Device& device, const DeviceVolume& data, std::uint32_t 
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
     request.buffers = {{"core_faces", &faces}};
-    request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
+    request.bindings = buffer_bindings({.storage = 2});
     request.push_constant_bytes = sizeof(Parameters);
     const ComposedKernel kernel(device, request);
 
-    const bool is_double = data.precision() == Precision::float64;
-    const std::uint64_t real_bytes = is_double ? sizeof(double) : sizeof(float);
+    const std::uint64_t number_bytes = real_bytes(data.precision());
     const std::uint64_t n_points = fit.n_points();
     const std::uint64_t block =
         std::min<std::uint64_t>(faces.n_records(), std::max<std::uint64_t>(1, points_a_dispatch / n_points));
-    const Buffer output(device, 3 * block * n_points * real_bytes), input(device, fit.points().size() * real_bytes);
-    if (is_double) {
-        input.write_items(fit.points());
-    } else {
-        const std::vector<float> rounded(fit.points().begin(), fit.points().end());
-        input.write_items(std::span<const float>(rounded));
-    }
+    const Buffer output(device, 3 * block * n_points * number_bytes), input(device, fit.points().size() * number_bytes);
+    write_reals(input, data.precision(), fit.points());
     const std::array<const Buffer*, 2> bindings = {&output, &input};
-    std::vector<double> positions;
     for (std::uint64_t first = 0; first < faces.n_records(); first += block) {
         const std::uint64_t count = std::min(block, faces.n_records() - first);
         const Parameters parameters{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
                                     static_cast<std::uint32_t>(n_points)};
         const auto n = static_cast<std::uint32_t>(count * n_points);
         kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + group_size - 1) / group_size);
-        if (is_double) {
-            positions = output.read_items<double>(std::size_t{3} * n);
-        } else {
-            const std::vector<float> read = output.read_items<float>(std::size_t{3} * n);
-            positions.assign(read.begin(), read.end());
-        }
-        take(first, positions);
+        take(first, read_reals(output, data.precision(), std::size_t{3} * n));
     }
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace elvis {
 
@@ -168,10 +167,7 @@ FaceSet::ClassFaces class_faces(const Device& device, const RuntimeVolume& volum
     result.points->write_reals(0, fitted.coefficients);
 
     const Hierarchy hierarchy(patches.boxes, data.centre());
-    const std::span<const HierarchyNode> nodes = hierarchy.nodes();
-    std::vector<std::uint32_t> words(8 * nodes.size());
-    std::memcpy(words.data(), nodes.data(), nodes.size_bytes());
-    result.nodes = upload(device, data.precision(), 8, words);
+    result.nodes = upload(device, data.precision(), node_size, node_words(hierarchy.nodes()));
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include <core/volume/boundary/element_faces.hpp>
 #include <core/volume/element/element_selection.hpp>
 #include <core/volume/element/jacobian_check.hpp>
+#include <core/volume/field/field_extrema.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -57,18 +58,6 @@ void keep_classes(const RuntimeVolume& volume, const ElementSelection& selection
     }
 }
 
-/** Of the length of a vector whose components have these ranges. */
-FieldRange length_range(std::span<const FieldRange> components) {
-    double lower = 0, upper = 0;
-    for (const FieldRange& range : components) {
-        const double near = range.lower > 0 ? range.lower : range.upper < 0 ? -range.upper : 0;
-        const double far = std::max(std::abs(range.lower), std::abs(range.upper));
-        lower += near * near;
-        upper += far * far;
-    }
-    return {std::sqrt(lower), std::sqrt(upper)};
-}
-
 void keep_values(const RuntimeVolume& volume, const ElementSelection& selection, std::vector<bool>& chosen,
                  const TaskControl* control) {
     if (!volume.has_field_ranges()) {
@@ -82,7 +71,7 @@ void keep_values(const RuntimeVolume& volume, const ElementSelection& selection,
         for (std::uint64_t i = 0; i < count; ++i) {
             const std::span<const FieldRange> own = std::span<const FieldRange>(ranges).subspan(i * n_components, n_components);
             const FieldRange range =
-                selection.component < 0 ? length_range(own) : own[static_cast<std::size_t>(selection.component)];
+                selection.component < 0 ? magnitude_range(own) : own[static_cast<std::size_t>(selection.component)];
             // Ranges that are not finite exclude nothing.
             const bool is_outside = range.upper < (*selection.value_range)[0] || range.lower > (*selection.value_range)[1];
             chosen[first + i] = chosen[first + i] && !is_outside;

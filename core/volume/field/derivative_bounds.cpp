@@ -1,4 +1,5 @@
 #include <core/volume/field/derivative_bounds.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <array>
@@ -92,23 +93,17 @@ public:
             m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
                               (parameters.n_elements + group_size - 1) / group_size);
         }
-        const auto take = [&](const auto& numbers) {
-            for (std::uint64_t element = 0; element < count; ++element) {
-                Row& row = rows[element * n_components + component];
-                if (row.is_complete()) {
-                    continue;
-                }
-                const auto replace = [](double& bound, double sampled) { bound = std::isfinite(bound) ? bound : sampled; };
-                replace(row.second, bend_safety * static_cast<double>(numbers[3 * element]));
-                replace(row.first, safety * static_cast<double>(numbers[3 * element + 1]));
-                replace(row.value, safety * static_cast<double>(numbers[3 * element + 2]));
-                row.certainty = 1;
+        const std::vector<double> numbers = read_reals(m_output, m_precision, 3 * count);
+        for (std::uint64_t element = 0; element < count; ++element) {
+            Row& row = rows[element * n_components + component];
+            if (row.is_complete()) {
+                continue;
             }
-        };
-        if (m_precision == Precision::float64) {
-            take(m_output.read_items<double>(3 * count));
-        } else {
-            take(m_output.read_items<float>(3 * count));
+            const auto replace = [](double& bound, double sampled) { bound = std::isfinite(bound) ? bound : sampled; };
+            replace(row.second, bend_safety * numbers[3 * element]);
+            replace(row.first, safety * numbers[3 * element + 1]);
+            replace(row.value, safety * numbers[3 * element + 2]);
+            row.certainty = 1;
         }
     }
 

@@ -346,4 +346,15 @@ std::optional<FieldExtrema> find_extrema(const RuntimeVolume& volume, std::uint3
     return search_extrema(volume, field, component, time_step, control);
 }
 
+FieldRange magnitude_range(std::span<const FieldRange> components) {
+    double lower = 0, upper = 0;
+    for (const FieldRange& range : components) {
+        const double near = range.lower > 0 ? range.lower : range.upper < 0 ? -range.upper : 0;
+        const double far = std::max(std::abs(range.lower), std::abs(range.upper));
+        lower += near * near;
+        upper += far * far;
+    }
+    return {std::sqrt(lower), std::sqrt(upper)};
+}
+
 } // namespace elvis

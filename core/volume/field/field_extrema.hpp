@@ -17,6 +17,7 @@
 #include <core/plugin_host/runtime_volume.hpp>
 
 #include <optional>
+#include <span>
 
 namespace elvis {
 
@@ -34,5 +35,8 @@ std::optional<FieldExtrema> find_extrema(const RuntimeVolume& volume, std::uint3
 /** The search alone, whatever the plugin tells. The volume must have CPU evaluation. */
 FieldExtrema search_extrema(const RuntimeVolume& volume, std::uint32_t field, int component, std::uint32_t time_step,
                             const TaskControl* control = nullptr);
+
+/** Of the magnitude of a field whose components have these ranges. */
+FieldRange magnitude_range(std::span<const FieldRange> components);
 
 } // namespace elvis

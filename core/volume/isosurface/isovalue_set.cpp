@@ -1,11 +1,11 @@
 #include <core/base/vector3.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/volume/isosurface/isovalue_set.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace elvis {
 
@@ -14,8 +14,6 @@ namespace {
 /** Elements of one dispatch, or asked for at once: bounds time and memory. */
 constexpr std::uint64_t block = 65536;
 constexpr std::uint32_t group_size = 32;
-/** Of a node. */
-constexpr std::uint32_t record_size = 8;
 constexpr std::size_t child_word = 3;
 /** Words of an octant on the device, and of what the kernel says of it: range and box, too. */
 constexpr std::uint32_t octant_size = 24, octant_words = 32;
@@ -43,12 +41,6 @@ bool holds_any(double lower, double upper, std::span<const double> isovalues) {
     const auto first = std::lower_bound(isovalues.begin(), isovalues.end(), lower);
     // A range that is no number, as of an element with such values, says nothing.
     return !(lower <= upper) || (first != isovalues.end() && *first <= upper);
-}
-
-std::vector<std::uint32_t> node_words(const Hierarchy& hierarchy) {
-    std::vector<std::uint32_t> words(record_size * hierarchy.nodes().size());
-    std::memcpy(words.data(), hierarchy.nodes().data(), hierarchy.nodes().size() * sizeof(HierarchyNode));
-    return words;
 }
 
 /** Whether an octant with this lower corner shares more than an edge with the shape. */
@@ -123,10 +115,10 @@ IsovalueSet::IsovalueSet(const Device& device, const RuntimeVolume& volume, cons
         ClassOctants& of_class = m_classes[index];
         // Room for all elements, so that kernels composed with it stay valid.
         of_class.nodes =
-            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_elements - 1, record_size);
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_elements - 1, node_size);
         const std::uint64_t n_octants = std::max(n_elements, most_octants);
         of_class.octant_nodes =
-            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_octants - 1, record_size);
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_octants - 1, node_size);
         of_class.octants = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_octants, octant_size);
         KernelRequest request;
         request.name = "octants of element class " + std::to_string(index);
@@ -134,9 +126,7 @@ IsovalueSet::IsovalueSet(const Device& device, const RuntimeVolume& volume, cons
         request.watches_loops = true;
         request.precision = data.precision();
         data.add_field(request, index, true);
-        for (std::uint32_t binding = 0; binding <= 2; ++binding) {
-            request.bindings.push_back({binding, BindingType::storage_buffer});
-        }
+        request.bindings = buffer_bindings({.storage = 3});
         request.push_constant_bytes = sizeof(OctantParameters);
         of_class.octant_kernel = std::make_unique<ComposedKernel>(device, request);
     }
@@ -198,13 +188,7 @@ IsovalueSet::Octants IsovalueSet::evaluate(const ClassOctants& of_class, std::sp
     const Buffer input(m_device, at_once * 2 * sizeof(std::uint32_t));
     const Buffer output(m_device, at_once * octant_words * sizeof(std::uint32_t));
     const Buffer centre(m_device, sizeof(m_centre));
-    if (m_precision == Precision::float64) {
-        centre.write_items(std::span<const double>(m_centre));
-    } else {
-        const std::array<float, 3> rounded{static_cast<float>(m_centre[0]), static_cast<float>(m_centre[1]),
-                                           static_cast<float>(m_centre[2])};
-        centre.write_items(std::span<const float>(rounded));
-    }
+    write_reals(centre, m_precision, m_centre);
     const std::array<const Buffer*, 3> bindings = {&input, &output, &centre};
     octants.words.reserve(n_octants * octant_words);
     for (std::size_t first = 0; first < n_octants; first += at_once) {
@@ -293,7 +277,7 @@ void IsovalueSet::write_octants(ClassOctants& of_class, std::span<const std::uin
     }
     of_class.octants->write_uints(0, records);
     const Hierarchy hierarchy(boxes, m_centre);
-    of_class.octant_nodes->write_uints(0, node_words(hierarchy));
+    of_class.octant_nodes->write_uints(0, node_words(hierarchy.nodes()));
 }
 
 void IsovalueSet::write_box(std::uint32_t* record, const double* box) const {
@@ -313,9 +297,9 @@ void IsovalueSet::provide_element_nodes(std::uint32_t element_class) {
     ClassOctants& of_class = m_classes[element_class];
     if (!of_class.has_element_nodes && !of_class.chosen.empty()) {
         const Hierarchy hierarchy(of_class.boxes, m_centre);
-        std::vector<std::uint32_t> words = node_words(hierarchy);
+        std::vector<std::uint32_t> words = node_words(hierarchy.nodes());
         for (std::size_t i = 0; i < hierarchy.nodes().size(); ++i) {
-            std::uint32_t& child = words[record_size * i + child_word];
+            std::uint32_t& child = words[node_size * i + child_word];
             child = hierarchy.nodes()[i].is_leaf() ? of_class.chosen[child] : child;
         }
         of_class.nodes->write_uints(0, words);

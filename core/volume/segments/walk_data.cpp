@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace elvis {
 
 namespace {
 
 constexpr std::uint32_t place_of_curvature = 7;
-constexpr std::uint32_t words_a_node = 8;
 /** CORE_FOLLOWED_CURVATURE of shaders/segments/segment.glsl. */
 constexpr float followed_curvature = 0.25f;
 /** Elements asked for at once. */
@@ -54,7 +52,7 @@ WalkData::WalkData(const Device& device, const RuntimeVolume& volume, const Devi
             std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), info.n_elements, links_an_element);
         // Room for all elements, so that kernels composed with it stay valid.
         walk.nodes =
-            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, words_a_node);
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, node_size);
         if (has_curved(index)) {
             walk.cones = measure_face_cones(device, volume, data, index);
         }
@@ -150,9 +148,7 @@ template <class CanStart> void WalkData::choose_starts(const CanStart& can_start
         for (HierarchyNode& node : nodes) {
             node.child = node.is_leaf() ? chosen[node.child] : node.child;
         }
-        std::vector<std::uint32_t> words(words_a_node * nodes.size());
-        std::memcpy(words.data(), nodes.data(), nodes.size() * sizeof(HierarchyNode));
-        walk.nodes->write_uints(0, words);
+        walk.nodes->write_uints(0, node_words(nodes));
     }
 }
 

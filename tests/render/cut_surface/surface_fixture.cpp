@@ -1,6 +1,6 @@
 #include "surface_fixture.hpp"
 
-#include <core/render/device/real_array.hpp>
+#include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <catch2/catch.hpp>

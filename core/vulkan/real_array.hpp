@@ -13,6 +13,11 @@ namespace elvis {
 
 inline std::size_t real_bytes(Precision precision) { return precision == Precision::float64 ? sizeof(double) : sizeof(float); }
 
+/** Calls with a number of the type that the precision stands for. */
+template <class Call> decltype(auto) with_real(Precision precision, const Call& call) {
+    return precision == Precision::float64 ? call(double{}) : call(float{});
+}
+
 /** Writes numbers from the start of a buffer. */
 inline void write_reals(const Buffer& buffer, Precision precision, std::span<const double> numbers) {
     if (precision == Precision::float64) {
