@@ -211,7 +211,9 @@ bool core_follow(const core_traced_ray ray, uint ending, const core_segment segm
     const uint global_element = core_first_element + segment.element;
     const bool is_newly_inside = is_following && segment.is_inside && !search.has_entered;
     search.has_entered = search.has_entered || is_newly_inside;
-    const bool is_at_eye = segment.enter_face < 0 && search.is_first && segment.enter <= search.from;
+    // Also where the eye lies in a face, or nearer to it than rounding tells: then the ray comes in by that face.
+    const elvis_real eye_end = search.from + (segment.enter_face < 0 ? elvis_real(0) : segment.enter_error + elvis_real(16) * ray.tolerance);
+    const bool is_at_eye = search.is_first && segment.enter <= eye_end;
     bool is_start = false;
     if (is_newly_inside && (search.is_first || core_is_behind_last(ray, segment.enter, global_element, search))) {
         is_start = is_at_eye || core_enters_volume(segment, ray);

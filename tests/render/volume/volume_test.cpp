@@ -293,4 +293,29 @@ TEST_CASE("expressions have volumes, and the eye may be in one") {
             }
 }
 
+TEST_CASE("in double precision the eye may be in a face, an edge or a corner between elements") {
+    const TemporaryFile file("eye.h5");
+    for (const std::string shape : {"hexahedron", "tetrahedron"}) {
+        generate(box(shape, {2, 2, 2}), file.path());
+        const RuntimeVolume volume = open_volume(file.path());
+        Renderer renderer(device(), volume, Precision::float64);
+        FrameRequest request = request_of({{{0, 0.3}}, {{0, {1, 0.5, 0}}}});
+        for (const Vector3& eye : {Vector3{0, 0.3, 0.2}, Vector3{0.3, 0, 0.2}, Vector3{0, 0, 0.3}, Vector3{0, 0, 1}}) {
+            request.camera.eye = eye;
+            request.camera.look_at = {-0.5, 0.2, 2.6};
+            const Frame frame = renderer.render(request);
+            std::size_t n_wrong = 0, n_flagged = 0;
+            for (std::size_t pixel = 0; pixel < frame.counts.pixels; ++pixel) {
+                const Color expected = over({1, 0.5, 0}, std::exp(-0.3 * chord(ray_of(request, pixel))), request.background);
+                const bool is_right = std::abs(frame.color[4 * pixel] - expected[0]) <= 1e-9;
+                n_flagged += frame.flags[pixel] != 0;
+                n_wrong += !is_right && frame.flags[pixel] == 0;
+            }
+            CAPTURE(shape, eye[0], eye[1], eye[2], n_flagged);
+            CHECK(n_wrong == 0);
+            CHECK(n_flagged <= frame.counts.pixels / 100);
+        }
+    }
+}
+
 } // namespace elvis::oracle
