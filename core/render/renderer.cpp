@@ -1,4 +1,5 @@
 #include <core/base/bounds.hpp>
+#include <core/base/milliseconds.hpp>
 #include <core/render/device/device_time.hpp>
 #include <core/render/layered_picture.hpp>
 #include <core/render/picture/frame_read.hpp>
@@ -17,9 +18,6 @@ namespace elvis {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /** What a colour channel may be off. */
 constexpr double channel_tolerance = 1e-3;

@@ -13,11 +13,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "picture/view.glsl"
 #include "cut_surface/surface_hit.glsl"
-
-struct core_hit_record {
-    // CORE_FAR: no crossing, and none behind.
-    elvis_real t, error;
-};
+#include "cut_surface/hit_record.glsl"
 
 layout(set = 0, binding = 2, std430) buffer core_hits_block { core_hit_record core_hits[]; };
 // Three numbers a pixel: unit, towards the viewer.

@@ -11,9 +11,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 layout(set = 0, binding = 1, std430) writeonly buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) buffer core_marks_block { core_mark core_marks[]; };
 #if !CORE_ON_PLANE
-struct core_hit_record {
-    elvis_real t, error;
-};
+#include "cut_surface/hit_record.glsl"
 layout(set = 0, binding = 3, std430) readonly buffer core_hits_block { core_hit_record core_hits[]; };
 #endif
 layout(push_constant) uniform core_parameters {

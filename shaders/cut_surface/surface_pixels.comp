@@ -11,9 +11,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "element/place.glsl"
 #include "picture/samples.glsl"
 
-struct core_hit_record {
-    elvis_real t, error;
-};
+#include "cut_surface/hit_record.glsl"
 
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
