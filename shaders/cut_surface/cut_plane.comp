@@ -80,10 +80,12 @@ void main() {
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u;
     const core_cut_column ray = core_cut_begin(elvis_real(column));
+    const elvis_real data_error = core_data_error();
     core_track track = core_no_track();
     uint row = first_row;
     while (row < end_row) {
-        const core_cut_point point = core_cut_pixel(ray, elvis_real(row));
+        core_cut_point point = core_cut_pixel(ray, elvis_real(row));
+        point.error += data_error;
         const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_vec3 xi = elvis_vec3(found.x, found.y, found.z);

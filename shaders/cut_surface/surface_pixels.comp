@@ -73,6 +73,7 @@ void main() {
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u, n_found = 0u;
     const core_cut_column along = core_cut_begin(elvis_real(column));
+    const elvis_real data_error = core_data_error();
     core_track track = core_no_track();
     uint row = core_next_row(column, first_row, end_row);
     while (row < end_row) {
@@ -87,7 +88,7 @@ void main() {
         point.position = base.xyz + point.t * direction.xyz;
         const elvis_vec3 size = (along.size + abs(down * along.base_row)).xyz + abs(point.t * direction.xyz);
         point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z) +
-                      min(core_hits[pixel].error * length(direction.xyz), elvis_real(core_most_error));
+                      min(core_hits[pixel].error * length(direction.xyz), elvis_real(core_most_error)) + data_error;
         core_normal_here = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
         const core_location found = core_locate(point, n_entries, track);
         const bool has_found = found.element != CORE_NO_ELEMENT;
