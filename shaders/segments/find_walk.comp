@@ -181,7 +181,8 @@ void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved,
 // Whether the ray enters the element through a face without neighbour, or through one that is as near within rounding.
 bool core_enters_volume(const core_segment segment, const core_traced_ray ray) {
     const elvis_vec3 at = core_predicted(segment.anchor, segment.enter), slope = abs(core_slope_of(segment.anchor));
-    const elvis_real near = elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF;
+    const elvis_real near =
+        elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF + segment.noise;
     bool enters = false;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
@@ -206,13 +207,16 @@ bool core_follow(const core_traced_ray ray, uint ending, const core_segment segm
     const uint global_element = core_first_element + segment.element;
     const bool is_newly_inside = is_following && segment.is_inside && !search.has_entered;
     search.has_entered = search.has_entered || is_newly_inside;
+    // Where rounding hides whether the ray enters, it may go on from there into an element that has an edge in the boundary, but no face.
+    const bool is_touching = is_following && segment.is_touched;
     bool is_start = false;
-    if (is_newly_inside && (search.is_first || core_is_behind_last(ray, segment.enter, global_element, search))) {
+    if ((is_newly_inside || is_touching) && (search.is_first || core_is_behind_last(ray, segment.enter, global_element, search))) {
         is_start = core_enters_volume(segment, ray);
     }
     // Where no face is met it was said too early, by estimates, that the ray is outside.
     const bool is_late = segment.enter_face < 0;
-    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, global_element, search);
+    const elvis_real error = is_late ? max(CORE_LATE_ERROR * ray.tolerance, segment.enter_error) : segment.enter_error;
+    core_take_start(is_start, segment.enter, error, global_element, search);
     search.is_following = is_following && !is_start && ending == CORE_SEGMENT_OPEN;
     return ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
 }
