@@ -9,7 +9,7 @@
 // Ends:
 //   converged  the next step would change the prediction by less than rounding does
 //   outside    the prediction violates a face constraint by more than its error can be; or by far more than it changed between two
-//              evaluations; or does so in the end from every start
+//              evaluations at different points; or does so in the end from every start
 //   failed     neither within the allowed steps, from several starts: no answer, to be counted, never to be drawn
 //
 // State is kept in scalars because of a driver that miscompiles vectors carried round a loop.
@@ -83,14 +83,13 @@ void core_newton_restart(inout core_newton state) {
 
 // Where to evaluate next. Far predictions are of no use but for their direction, and could overflow. After the first start, steps towards a
 // prediction that is clearly outside go half the way: on strongly curved elements whole ones can lead from one side to the other and back.
-void core_newton_move(elvis_vec3 xi, elvis_vec3 next, elvis_real excess, bool is_regular, inout core_newton state) {
+// `inside`: the next prediction, moved into the element.
+void core_newton_move(elvis_vec3 xi, elvis_vec3 next, elvis_vec3 inside, elvis_real excess, bool is_regular, inout core_newton state) {
     const elvis_real limit = elvis_real(16), half_way = elvis_real(0.5LF);
     const bool is_damped = state.start > 0u && excess > elvis_real(0.125LF);
-    elvis_real inside_x = next.x, inside_y = next.y, inside_z = next.z;
-    core_project(inside_x, inside_y, inside_z);
-    state.x = is_regular ? (is_damped ? half_way * (xi.x + inside_x) : clamp(next.x, -limit, limit)) : xi.x;
-    state.y = is_regular ? (is_damped ? half_way * (xi.y + inside_y) : clamp(next.y, -limit, limit)) : xi.y;
-    state.z = is_regular ? (is_damped ? half_way * (xi.z + inside_z) : clamp(next.z, -limit, limit)) : xi.z;
+    state.x = is_regular ? (is_damped ? half_way * (xi.x + inside.x) : clamp(next.x, -limit, limit)) : xi.x;
+    state.y = is_regular ? (is_damped ? half_way * (xi.y + inside.y) : clamp(next.y, -limit, limit)) : xi.y;
+    state.z = is_regular ? (is_damped ? half_way * (xi.z + inside.z) : clamp(next.z, -limit, limit)) : xi.z;
     state.steps += 1u;
     state.outside_steps = is_regular && excess > elvis_real(1e-3LF) ? state.outside_steps + 1u : 0u;
 }
@@ -121,10 +120,18 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     const bool is_predicted = was_inside && step * step <= tolerance &&
                               step * step * step <= elvis_real(0.25LF) * tolerance * state.last_step * state.last_step;
     const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));
-    const elvis_real prediction_error = min(CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step),
-                                            has_change && state.steps > 0u ? elvis_real(8) * change : CORE_UNKNOWN_CURVATURE);
-    const bool outside = is_regular && excess > prediction_error + elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
-    core_newton_move(xi, next, excess, is_regular, state);
+    const elvis_real bound = CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step);
+    const elvis_real prediction_error =
+        min(bound, has_change && state.steps > 0u ? elvis_real(8) * change : CORE_UNKNOWN_CURVATURE);
+    const elvis_real beyond = excess - elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
+    // Outside of a corner or an edge predictions may repeat themselves because each is made there, where the mapping need not be smooth.
+    // Then another start has to say the same.
+    elvis_real inside_x = next.x, inside_y = next.y, inside_z = next.z;
+    core_project(inside_x, inside_y, inside_z);
+    const bool is_stuck = beyond > elvis_real(0) && core_max_norm(elvis_vec3(inside_x, inside_y, inside_z) - xi) <= tolerance;
+    const bool says_nothing = is_stuck && state.start == 0u;
+    const bool outside = is_regular && beyond > (says_nothing ? bound : prediction_error);
+    core_newton_move(xi, next, elvis_vec3(inside_x, inside_y, inside_z), excess, is_regular, state);
     state.last_step = step;
 
     if (converged) {
@@ -133,7 +140,7 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     if (outside) {
         return CORE_NEWTON_OUTSIDE;
     }
-    if (!is_regular || state.steps >= CORE_NEWTON_STEPS) {
+    if (!is_regular || says_nothing || state.steps >= CORE_NEWTON_STEPS) {
         core_newton_restart(state);
         if (state.start >= CORE_NEWTON_STARTS) {
             // Predictions that never settle but always point out of the element, from wherever they start, say outside.

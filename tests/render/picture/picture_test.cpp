@@ -15,8 +15,10 @@ namespace {
 
 using native::Shape;
 
-// Draws a plane in both precisions and checks the promises; `size` pixels wide and high.
-void check_plane(const std::string& name, VolumeData data, const CutPlane& plane, std::uint32_t size, double tilt = 17) {
+// Draws a plane in both precisions and checks the promises; `size` pixels wide and high. Flags are for the few pixels that
+// rounding decides, whatever they show, unless the plane lies in faces.
+void check_plane(const std::string& name, VolumeData data, const CutPlane& plane, std::uint32_t size, double tilt = 17,
+                 double flagged_share = 0.001) {
     const TemporaryFile file("picture.h5");
     write_volume(file.path(), data);
     const RuntimeVolume volume = open_volume(file.path());
@@ -35,8 +37,8 @@ void check_plane(const std::string& name, VolumeData data, const CutPlane& plane
         CHECK(comparison.max_channel_error <= (is_single ? 1e-3 : 1e-9));
         CHECK(comparison.disagreement_share() <= 1e-4);
         CHECK(comparison.max_edge_distance <= 1e-5);
-        // Flags are for the few pixels that rounding decides: at most one in a thousand, whatever they show.
-        CHECK(comparison.flagged_alternatives + comparison.needless_flags <= comparison.both_inside / 1000);
+        CHECK(static_cast<double>(comparison.flagged_alternatives + comparison.needless_flags) <=
+              flagged_share * static_cast<double>(comparison.both_inside));
         CHECK(comparison.newton_failures == 0);
         CHECK(frame.counts.newton_failures == 0);
         CHECK(exact.counts.unresolved == 0);
@@ -75,7 +77,7 @@ TEST_CASE("a plane in faces of a discontinuous field shows the viewer's side") {
             // The fit leaves rounding, which would move the faces out of the plane.
             for (double& coordinate : data.classes.front().geometry_coefficients)
                 coordinate = std::round(4 * coordinate) / 4;
-            check_plane("in faces", std::move(data), {{side, 0, 0, -0.5 * side}}, 121, tilt);
+            check_plane("in faces", std::move(data), {{side, 0, 0, -0.5 * side}}, 121, tilt, 1);
         }
 }
 
