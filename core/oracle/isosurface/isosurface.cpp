@@ -247,14 +247,14 @@ void IsosurfaceTracer::search_by_samples(std::size_t element, const Line& line, 
     }
 }
 
-Crossing IsosurfaceTracer::polish(std::size_t element, const Line& line, const Root& root) {
+Crossing IsosurfaceTracer::polish(std::size_t element, const Line& line, const Root& root, double shift) {
     Crossing crossing;
     crossing.element = element;
     crossing.value = root.value;
     crossing.t = root.t;
     crossing.xi = follow(element, line.at(root.t), root.xi);
     Vector gradient;
-    const double off = m_isosurface.values[root.value] - value(element, crossing.xi, &gradient);
+    const double off = m_isosurface.values[root.value] + shift - value(element, crossing.xi, &gradient);
     // One of Newton's steps takes away what the series leaves; where the ray grazes it would lead astray.
     const double step = off / gradient.dot(line.direction);
     if (std::abs(step) <= 1e-9 * m_model.diagonal) {
@@ -314,6 +314,51 @@ RayAnswer IsosurfaceTracer::first(const Line& line, RootFinder finder) {
     if (best)
         answer.crossing = polish(best_element, line, *best);
     return answer;
+}
+
+void IsosurfaceTracer::add_roots(const FittedInterval& interval, double shift,
+                                 std::vector<std::pair<std::size_t, Root>>& roots) const {
+    const std::vector<double> values = interval.field.dense_values();
+    for (std::size_t k = 0; k < m_isosurface.values.size(); ++k) {
+        const double level = m_isosurface.values[k] + shift;
+        std::vector<double> differences = values;
+        for (double& difference : differences)
+            difference -= level;
+        const Roots found = find_roots([&](double s) { return interval.field(s); }, level,
+                                       lobatto_points(4 * interval.field.degree()), differences);
+        const auto add = [&](double s) {
+            roots.push_back({interval.element, {interval.t_of(s), k, interpolate(interval.xi, s)}});
+        };
+        for (const double s : found.at)
+            add(s);
+        for (const Roots::NearMiss& miss : found.near_misses)
+            if (std::abs(miss.at) > 1 - 1e-9 && std::abs(miss.value) <= end_rounding * (range() + std::abs(level)))
+                add(miss.at);
+    }
+}
+
+std::vector<Crossing> IsosurfaceTracer::all(const Line& line, double shift) {
+    std::vector<std::pair<std::size_t, Root>> roots;
+    for (const FittedInterval& interval : intervals(line))
+        add_roots(interval, shift, roots);
+    std::sort(roots.begin(), roots.end(), [](const auto& a, const auto& b) { return a.second.t < b.second.t; });
+    // As in first().
+    const double tie = 1e-13 * (m_model.diagonal + line.origin.norm());
+    std::vector<Crossing> crossings;
+    double last = -infinity;
+    for (const auto& [element, root] : roots) {
+        const bool is_tie = root.t <= last + tie && !crossings.empty() && crossings.back().value == root.value &&
+                            crossings.back().element != element;
+        last = root.t;
+        if (is_tie && m_model.volume.number(element) > m_model.volume.number(crossings.back().element))
+            continue;
+        const Crossing crossing = polish(element, line, root, shift);
+        if (is_tie)
+            crossings.back() = crossing;
+        else
+            crossings.push_back(crossing);
+    }
+    return crossings;
 }
 
 IsosurfacePicture draw_isosurface(const Model& model, const Isosurface& isosurface, const Camera& camera, std::uint32_t width,
