@@ -215,7 +215,8 @@ Scene make_scene(const SceneGround& ground, std::string_view kind, std::uint64_t
     scene.field = "\"" + ground.field + "\"";
     scene.camera = random_camera(random, ground);
     scene.size = size_of(kind);
-    scene.background = {0.1, 0.2, 0.3, 1};
+    // Exact in single precision, as the program keeps it.
+    scene.background = {0.125, 0.25, 0.375, 1};
     if (kind == "volume") {
         scene.volume_rendering = random_rendering(random, ground, number);
     } else if (kind == "layers") {

@@ -58,6 +58,9 @@ IsosurfaceTracer::IsosurfaceTracer(const Model& model, const Isosurface& isosurf
             m_high = std::max(m_high, sample);
         }
     }
+    // Where the field nearly vanishes its rounding is that of what cancels; positions far from the origin are rounded, too.
+    const double coordinates = std::max(model.tree.lower().cwiseAbs().maxCoeff(), model.tree.upper().cwiseAbs().maxCoeff());
+    m_rounding = 2e-15 * std::max(std::abs(m_low), std::abs(m_high)) + 1e-14 * coordinates / model.diagonal * range();
 }
 
 double IsosurfaceTracer::value(std::size_t element, const Vector& xi, Vector* gradient) const {
@@ -145,7 +148,7 @@ void IsosurfaceTracer::add_intervals(std::size_t element, const Line& line, cons
         values.push_back(value(element, xi));
     for (;; n *= 2) {
         interval.field = ChebyshevSeries(values);
-        if (interval.field.tail() <= series_tolerance * interval.field.size()) {
+        if (interval.field.tail() <= series_tolerance * interval.field.size() + m_rounding) {
             intervals.push_back(std::move(interval));
             return;
         }

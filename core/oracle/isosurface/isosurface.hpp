@@ -132,6 +132,8 @@ private:
     SegmentFinder m_segment_finder;
     Inverter m_inverter;
     double m_low = 0, m_high = 0;
+    /** What rounding leaves of the field, about. */
+    double m_rounding = 0;
     std::uint64_t m_failures = 0;
 };
 
