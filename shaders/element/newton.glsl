@@ -9,7 +9,7 @@
 // Ends:
 //   converged  the next step would change the prediction by less than rounding does
 //   outside    the prediction violates a face constraint by more than its error can be; or by far more than it changed between two
-//              evaluations at different points; or does so in the end from every start
+//              evaluations; or does so in the end from every start
 //   failed     neither within the allowed steps, from several starts: no answer, to be counted, never to be drawn
 //
 // State is kept in scalars because of a driver that miscompiles vectors carried round a loop.
@@ -27,6 +27,11 @@
 // only while far away on a strongly curved element.
 #define CORE_NEWTON_STEPS 12u
 #define CORE_NEWTON_STARTS 5u
+
+// Predictions farther beyond a pyramid's apex are not of the apex itself; and how far below it the mapping is evaluated then, as a
+// share of the way to the centroid.
+#define CORE_APEX_MARGIN elvis_real(1e-3LF)
+#define CORE_BELOW_APEX elvis_real(0.125LF)
 
 struct core_newton {
     // Prediction of the solution, which may lie outside.
@@ -83,13 +88,14 @@ void core_newton_restart(inout core_newton state) {
 
 // Where to evaluate next. Far predictions are of no use but for their direction, and could overflow. After the first start, steps towards a
 // prediction that is clearly outside go half the way: on strongly curved elements whole ones can lead from one side to the other and back.
-// `inside`: the next prediction, moved into the element.
-void core_newton_move(elvis_vec3 xi, elvis_vec3 next, elvis_vec3 inside, elvis_real excess, bool is_regular, inout core_newton state) {
+void core_newton_move(elvis_vec3 xi, elvis_vec3 next, elvis_real excess, bool is_regular, inout core_newton state) {
     const elvis_real limit = elvis_real(16), half_way = elvis_real(0.5LF);
     const bool is_damped = state.start > 0u && excess > elvis_real(0.125LF);
-    state.x = is_regular ? (is_damped ? half_way * (xi.x + inside.x) : clamp(next.x, -limit, limit)) : xi.x;
-    state.y = is_regular ? (is_damped ? half_way * (xi.y + inside.y) : clamp(next.y, -limit, limit)) : xi.y;
-    state.z = is_regular ? (is_damped ? half_way * (xi.z + inside.z) : clamp(next.z, -limit, limit)) : xi.z;
+    elvis_real inside_x = next.x, inside_y = next.y, inside_z = next.z;
+    core_project(inside_x, inside_y, inside_z);
+    state.x = is_regular ? (is_damped ? half_way * (xi.x + inside_x) : clamp(next.x, -limit, limit)) : xi.x;
+    state.y = is_regular ? (is_damped ? half_way * (xi.y + inside_y) : clamp(next.y, -limit, limit)) : xi.y;
+    state.z = is_regular ? (is_damped ? half_way * (xi.z + inside_z) : clamp(next.z, -limit, limit)) : xi.z;
     state.steps += 1u;
     state.outside_steps = is_regular && excess > elvis_real(1e-3LF) ? state.outside_steps + 1u : 0u;
 }
@@ -100,6 +106,13 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
                       out core_inverse inverse) {
     elvis_real x = state.x, y = state.y, z = state.z;
     core_project(x, y, z);
+#if ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
+    // At the apex mappings need not be smooth: what is predicted there of points elsewhere says nothing, and leads back there.
+    const bool is_beyond_apex = z >= elvis_real(1) && core_excess(state.x, state.y, state.z) > CORE_APEX_MARGIN;
+    x = is_beyond_apex ? mix(x, CORE_CENTROID.x, CORE_BELOW_APEX) : x;
+    y = is_beyond_apex ? mix(y, CORE_CENTROID.y, CORE_BELOW_APEX) : y;
+    z = is_beyond_apex ? mix(z, CORE_CENTROID.z, CORE_BELOW_APEX) : z;
+#endif
     const bool was_inside = x == state.x && y == state.y && z == state.z;
     const elvis_vec3 xi = elvis_vec3(x, y, z);
     elvis_vec3 position;
@@ -120,18 +133,10 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     const bool is_predicted = was_inside && step * step <= tolerance &&
                               step * step * step <= elvis_real(0.25LF) * tolerance * state.last_step * state.last_step;
     const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));
-    const elvis_real bound = CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step);
-    const elvis_real prediction_error =
-        min(bound, has_change && state.steps > 0u ? elvis_real(8) * change : CORE_UNKNOWN_CURVATURE);
-    const elvis_real beyond = excess - elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
-    // Outside of a corner or an edge predictions may repeat themselves because each is made there, where the mapping need not be smooth.
-    // Then another start has to say the same.
-    elvis_real inside_x = next.x, inside_y = next.y, inside_z = next.z;
-    core_project(inside_x, inside_y, inside_z);
-    const bool is_stuck = beyond > elvis_real(0) && core_max_norm(elvis_vec3(inside_x, inside_y, inside_z) - xi) <= tolerance;
-    const bool says_nothing = is_stuck && state.start == 0u;
-    const bool outside = is_regular && beyond > (says_nothing ? bound : prediction_error);
-    core_newton_move(xi, next, elvis_vec3(inside_x, inside_y, inside_z), excess, is_regular, state);
+    const elvis_real prediction_error = min(CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step),
+                                            has_change && state.steps > 0u ? elvis_real(8) * change : CORE_UNKNOWN_CURVATURE);
+    const bool outside = is_regular && excess > prediction_error + elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
+    core_newton_move(xi, next, excess, is_regular, state);
     state.last_step = step;
 
     if (converged) {
@@ -140,7 +145,7 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     if (outside) {
         return CORE_NEWTON_OUTSIDE;
     }
-    if (!is_regular || says_nothing || state.steps >= CORE_NEWTON_STEPS) {
+    if (!is_regular || state.steps >= CORE_NEWTON_STEPS) {
         core_newton_restart(state);
         if (state.start >= CORE_NEWTON_STARTS) {
             // Predictions that never settle but always point out of the element, from wherever they start, say outside.

@@ -92,6 +92,32 @@ TEST_CASE("no pixel is lost where Newton's method takes its time on strongly cur
     }
 }
 
+TEST_CASE("no pixel is lost where the search runs into the apex of a strongly bent pyramid") {
+    // Of higher order than the elements: what the fit makes of it is not smooth at the apex.
+    const auto bend = [](const Vector& x) -> Vector {
+        Vector bent;
+        for (Eigen::Index i = 0; i < 3; ++i)
+            bent[i] = x[i] + 1.2 * x[i] * (1 - x[i]) * (x[i] - 0.5) * (1 + 0.5 * (x[(i + 1) % 3] - 0.5));
+        return quadratic_bend(bent);
+    };
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(Shape::pyramid, 6), space_of(Shape::pyramid, 1),
+                                      compose(cube(Shape::pyramid, 2), bend), [](const Vector&) { return 1; }));
+    const TemporaryFile file("pyramids.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    const Model model(std::move(data));
+    const FrameRequest request = view_of(model, {{0, 0, 1, -1}}, 50, 50, 0, 2);
+    const Picture exact = draw(model, request);
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        const Frame frame = Renderer(device(), volume, precision).render(request);
+        std::size_t n_lost = 0;
+        for (std::size_t pixel = 0; pixel < frame.element.size(); ++pixel)
+            n_lost += exact.is_inside[pixel] != 0 && frame.element[pixel] < 0 && frame.flags[pixel] == 0;
+        CHECK(n_lost == 0);
+    }
+}
+
 TEST_CASE("a volume far from the origin with a large offset is drawn exactly") {
     VolumeData data;
     const auto far = [](const Vector& x) -> Vector { return quadratic_bend(x) + Vector(1000, -2000, 500); };
