@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/** Neighbouring numbers share a volume and its kernels. */
-constexpr std::uint64_t scenes_of_a_volume = 20;
+/** Neighbouring numbers share a volume and its kernels, which take longer to compile than most pictures take. */
+constexpr std::uint64_t scenes_of_a_volume = 60;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
