@@ -48,6 +48,12 @@ struct Ground {
     std::optional<Renderer> renderers[2];
 };
 
+const std::vector<std::pair<std::string, Sharing>>& sharings() {
+    static const std::vector<std::pair<std::string, Sharing>> all{
+        {"none", Sharing::none()}, {"rows", {false, true}}, {"depths", {true, false}}, {"all", Sharing::all()}};
+    return all;
+}
+
 class Hunt {
 public:
     explicit Hunt(const Options& options) : m_options(options), m_device(options.device) {
@@ -127,6 +133,10 @@ void Hunt::judge(Ground& ground, const Scene& scene, const std::string& kind, co
         Renderer& renderer = *ground.renderers[precision == Precision::float64 ? 1 : 0];
         if (!judge) {
             request = make_frame_request(scene, ground.volume, renderer.ranges());
+            const std::size_t turn = std::hash<std::string>{}(name) % sharings().size();
+            for (const auto& [sharing_name, sharing] : sharings())
+                if (m_options.sharing.empty() ? sharing_name == sharings()[turn].first : sharing_name == m_options.sharing)
+                    request.sharing = sharing;
             std::string reason;
             judge.emplace(ground.oracle, request, reason);
             if (!reason.empty()) {

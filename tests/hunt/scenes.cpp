@@ -211,6 +211,9 @@ SceneSurface random_surface(Random& random, const SceneGround& ground, std::stri
         for (int i = 0; i < n; ++i)
             isosurfaces.values.push_back(random_value(random, ground));
         std::ranges::sort(isosurfaces.values);
+        isosurfaces.skips_by_range = !random.one_in(5);
+        if (random.one_in(5))
+            isosurfaces.method = random.one_in(2) ? IsosurfaceMethod::bernstein : IsosurfaceMethod::companion;
     }
     surface.color_map = random_map(random, ground);
     surface.clip = random_clip(random, ground);
@@ -223,6 +226,7 @@ SceneVolumeRendering random_rendering(Random& random, const SceneGround& ground,
         oracle::random_transfer(number, ground.low, std::max(ground.high, ground.low + 1e-3), size_of(ground)).transfer;
     rendering.integrator = random.one_in(4) ? Integrator::adaptive_trapezoid : Integrator::exact;
     rendering.tolerance = random.one_in(3) ? 1e-5 : 1e-3;
+    rendering.skips_by_range = !random.one_in(5);
     return rendering;
 }
 
