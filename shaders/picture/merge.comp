@@ -20,6 +20,7 @@ layout(set = 0, binding = 8, std430) buffer core_depths_block { elvis_real core_
 layout(set = 0, binding = 9, std430) writeonly buffer core_beyond_block { elvis_real core_beyond[]; };
 // How many pixels want one, and between which rows these are: the first, and one more than the last.
 layout(set = 0, binding = 10, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 11, std430) readonly buffer core_background_block { elvis_vec4 core_background; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
@@ -27,9 +28,8 @@ layout(push_constant) uniform core_parameters {
     uint core_surface_number;
     // The layer has normals.
     uint core_has_normals;
-    // The picture is empty, with this colour.
+    // The picture is empty.
     uint core_is_first;
-    float core_red, core_green, core_blue, core_alpha;
     uint core_width;
 };
 
@@ -84,8 +84,7 @@ void main() {
     }
     const bool is_in_front = is_opaque && depth < opaque_depth;
     if (is_inside && (is_first || is_in_front)) {
-        const elvis_vec4 background = elvis_vec4(core_red, core_green, core_blue, core_alpha);
-        core_colors[pixel] = is_in_front ? color : background;
+        core_colors[pixel] = is_in_front ? color : core_background;
         core_depths[pixel] = is_in_front ? depth : CORE_FAR;
     }
     const bool is_wanted = is_drawn && !is_opaque && depth < opaque_depth;
