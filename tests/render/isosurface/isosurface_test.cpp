@@ -157,6 +157,30 @@ TEST_CASE("isosurfaces by eigenvalues are where the oracle finds them, or say th
     }
 }
 
+TEST_CASE("rays with too many eigenvalues for a driver's loops are drawn from the Bernstein form") {
+    const RandomVolume random = random_volume(101);
+    const TemporaryFile file("many_values.h5");
+    write_volume(file.path(), random.data);
+    const RuntimeVolume volume = open_volume(file.path());
+    Renderer renderer(device(), volume, Precision::float64);
+    FrameRequest request = isosurface_request(random, 24, IsosurfaceMethod::bernstein);
+    Isosurfaces& isosurfaces = std::get<Isosurfaces>(request.surfaces[0].geometry);
+    const FieldRange range = renderer.ranges().range({}, 0);
+    isosurfaces.values.clear();
+    for (int i = 1; i < 60; ++i) {
+        isosurfaces.values.push_back(range.lower + (range.upper - range.lower) * i / 60);
+    }
+    isosurfaces.degree = 13;
+    const Frame bernstein = renderer.render(request);
+    isosurfaces.method = IsosurfaceMethod::companion;
+    const Frame companion = renderer.render(request);
+    CHECK(bernstein.counts.hit_pixels > 100);
+    CHECK(companion.counts.hit_pixels == bernstein.counts.hit_pixels);
+    CHECK(companion.counts.work_limit_pixels == 0);
+    // More than once where the first way is given up.
+    CHECK(companion.counts.fits > bernstein.counts.fits);
+}
+
 TEST_CASE("projection of a higher degree is nearer to the isosurface") {
     const RandomVolume random = random_volume(101);
     const TemporaryFile file("degrees.h5");
