@@ -182,7 +182,7 @@ void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved,
 bool core_enters_volume(const core_segment segment, const core_traced_ray ray) {
     const elvis_vec3 at = core_predicted(segment.anchor, segment.enter), slope = abs(core_slope_of(segment.anchor));
     const elvis_real near =
-        elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF + segment.noise;
+        elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF + core_max_norm(segment.noise);
     bool enters = false;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);

@@ -79,7 +79,8 @@ struct core_segment {
     // The last prediction, from which the next point comes.
     core_ray_point anchor;
     // Length of the step that led to it, and rounding of its coordinates.
-    elvis_real newton_step, noise;
+    elvis_real newton_step;
+    elvis_vec3 noise;
     elvis_real curvature;
     uint iterations;
 };
@@ -144,7 +145,7 @@ bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begi
     segment.anchor = core_either(is_linearized, core_ray_point_at(begin, here, model.slope),
                                  core_ray_point_at(begin, CORE_CENTROID, elvis_vec3(0)));
     segment.newton_step = elvis_real(3e38LF);
-    segment.noise = elvis_real(0);
+    segment.noise = elvis_vec3(0);
     segment.iterations = 0u;
     return is_possible;
 }
@@ -251,7 +252,7 @@ void core_predict_from(const core_ray_evaluation here, elvis_real curvature, elv
     const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.newton_step)));
     segment.anchor = core_either(is_anchor, core_ray_point_at(model.anchor, model.at, model.slope), segment.anchor);
     segment.newton_step = is_anchor ? core_model_step(model, model.anchor) : segment.newton_step;
-    segment.noise = is_anchor ? core_max_norm(model.noise) : segment.noise;
+    segment.noise = is_anchor ? model.noise : segment.noise;
     const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
     const elvis_real follow_end = max(segment.anchor.t + core_follow_span(segment.curvature) / rate, segment.begin + tolerance);
     const bool is_too_far = segment.is_followed && follow_end < segment.end;

@@ -41,7 +41,7 @@ struct PixelParameters {
 };
 
 /** Bytes of one core_volume_state. */
-std::size_t state_bytes(Precision precision) { return 9 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
+std::size_t state_bytes(Precision precision) { return 10 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
 
 double largest(const std::array<double, 3>& numbers) {
     return std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
