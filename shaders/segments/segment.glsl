@@ -43,6 +43,8 @@
 // Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's
 // neighbourhood are taken for each other.
 #define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
+// Where predictions are better than this share of rounding, another one is no better.
+#define CORE_PREDICTION_SHARE elvis_real(0.5LF)
 // Of tolerances.
 #define CORE_MOST_BLUR elvis_real(64)
 // Cut elements have ends of two kinds, and are asked for more of both.
@@ -59,6 +61,8 @@
 struct core_segment {
     uint element;
     bool is_inside, is_estimated, has_failed;
+    // The last iteration has left out what may be inside: from `enter` on, over `enter_error`.
+    bool is_touched;
     // Inside as the neighbour says, which nothing has confirmed yet.
     bool is_assumed;
     // From a point in the element (core_segment_enter): predictions only count as far as they surely follow it.
@@ -123,7 +127,7 @@ bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begi
 
     segment.element = element;
     segment.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
-    segment.has_failed = false;
+    segment.has_failed = segment.is_touched = false;
     segment.curvature = segment.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
     segment.is_followed = false;
     segment.is_assumed = ELVIS_HAS_INSIDE == 0 && is_entered && !is_sure && clip.possible_from <= begin;
@@ -295,7 +299,8 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
         has_left = core_seek_leave(ray, clip, is_exact, error.parameter, segment);
     }
     if (!is_kept_in) {
-        core_seek_enter(ray, clip, is_exact, error.parameter, segment);
+        const bool is_blurred = here.is_sound && !clip.is_sure && bound <= CORE_PREDICTION_SHARE * core_max_norm(here.model.noise);
+        core_seek_enter(ray, clip, is_exact, is_blurred, error.parameter, segment);
     }
     segment.is_followed = segment.is_followed && !is_denied;
     core_predict_from(here, curvature, ray.tolerance, segment);

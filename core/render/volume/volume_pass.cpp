@@ -223,6 +223,7 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
     dispatch_pixels(m_begin, {&states}, bytes, n_pixels);
     m_search.list_starts(picture.rays);
     m_live.begin(states, m_search.has_starts(), layer.width, layer.height);
+    counts.mapping_evaluations += m_search.start_at_eyes(picture.rays, m_live.all());
     for (std::size_t i = 0; i < merged.n_transparent_layers(); ++i) {
         picture.stops = &merged.transparent_layer(i).depths;
         march_all(picture, counts);
