@@ -82,7 +82,7 @@ uint core_blur_of(const core_nearest_crossing nearest, const core_ray ray, elvis
     const elvis_vec3 xi = elvis_vec3(nearest.xi_x, nearest.xi_y, nearest.xi_z);
     const elvis_vec3 gradient = elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z);
     const elvis_real width = core_shown_rounding(is_hit ? nearest.element : 0u, xi) / abs(dot(gradient, ray.direction));
-    const bool is_blurred = is_hit && CORE_BLUR_SHARE * width * stretch > CORE_DEPTH_TOLERANCE * elvis_real(core_extent);
+    const bool is_blurred = is_hit && CORE_ROOT_SHARE * width * stretch > CORE_DEPTH_TOLERANCE * elvis_real(core_extent);
     return is_blurred ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
 #else
     return 0u;

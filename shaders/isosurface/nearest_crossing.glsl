@@ -53,7 +53,7 @@ bool core_is_ahead(const core_ray ray, elvis_real t, elvis_real slack) {
 
 // Whether it can be one of its own all the same: farther from the last one than rounding leads at worst (isosurface/isosurface_blur.glsl).
 bool core_may_be_ahead(const core_ray ray, elvis_real t, elvis_real slack) {
-    return !core_is_ahead(ray, t, slack) && t > ray.least_t + CORE_BLUR_SHARE * ray.widths_behind * slack;
+    return !core_is_ahead(ray, t, slack) && t > ray.least_t + CORE_ROOT_SHARE * ray.widths_behind * slack;
 }
 
 // The normals are equal but for what nobody sees.

@@ -62,7 +62,7 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const bool is_hit = is_crossing && core_is_ahead(ray, root_t, half_width);
     search.flags |= is_crossing && core_may_be_ahead(ray, root_t, half_width) ? CORE_FLAG_UNDECIDED : 0u;
     // The last step may be small by chance.
-    const elvis_real blur = max(abs(step), CORE_BLUR_SHARE * half_width);
+    const elvis_real blur = max(abs(step), CORE_ROOT_SHARE * half_width);
     const bool is_wide = CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size, is_blurred = is_hit && is_wide;
     // What rounding alone may have led out of the segment may be in it.
     const bool is_led_out = is_wide && !is_inside && outside <= half_width;

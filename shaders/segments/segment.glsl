@@ -44,7 +44,7 @@
 // neighbourhood are taken for each other.
 #define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
 // Where predictions are better than this share of rounding, another one is no better.
-#define CORE_BLUR_SHARE elvis_real(0.5LF)
+#define CORE_PREDICTION_SHARE elvis_real(0.5LF)
 // Of tolerances.
 #define CORE_MOST_BLUR elvis_real(64)
 // Cut elements have ends of two kinds, and are asked for more of both.
@@ -299,7 +299,7 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
         has_left = core_seek_leave(ray, clip, is_exact, error.parameter, segment);
     }
     if (!is_kept_in) {
-        const bool is_blurred = here.is_sound && !clip.is_sure && bound <= CORE_BLUR_SHARE * core_max_norm(here.model.noise);
+        const bool is_blurred = here.is_sound && !clip.is_sure && bound <= CORE_PREDICTION_SHARE * core_max_norm(here.model.noise);
         core_seek_enter(ray, clip, is_exact, is_blurred, error.parameter, segment);
     }
     segment.is_followed = segment.is_followed && !is_denied;

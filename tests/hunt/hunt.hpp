@@ -18,6 +18,8 @@ struct Options {
     std::vector<std::string> kinds;
     std::vector<std::string> precisions{"float32", "float64"};
     std::string size, folder, json, device;
+    /** What surfaces take from each other: none, rows, depths or all; in turn if empty. */
+    std::string sharing;
     std::vector<std::string> files;
     bool is_quiet = false;
 };

@@ -22,6 +22,8 @@ int main(int argc, char** argv) {
         ->delimiter(',')
         ->check(CLI::IsMember({"float32", "float64"}));
     app.add_option("--size", options.size, "Width and height of pictures, like 200x150");
+    app.add_option("--share", options.sharing, "What surfaces take from each other; in turn without")
+        ->check(CLI::IsMember({"none", "rows", "depths", "all"}));
     app.add_option("--data", options.files, "Data sets in which random scenes lie, one in four times")
         ->check(CLI::ExistingFile);
     app.add_option("--write", options.folder, "Writes scenes that have silent errors, with their volumes, into this folder");

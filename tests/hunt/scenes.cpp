@@ -156,11 +156,53 @@ std::vector<std::array<double, 4>> random_clip(Random& random, const SceneGround
     return planes;
 }
 
+CutShape random_shape(Random& random, const SceneGround& ground) {
+    const double size = size_of(ground), radius = random.between(0.05, 0.5) * size;
+    const Vector at = random_point(random, ground, random.one_in(2) ? 0 : random.whole(1, 3)), axis = random.direction();
+    const Vector from = at, to = at + random.between(0.2, 1) * size * axis;
+    switch (random.whole(0, 5)) {
+    case 0:
+        return Sphere{array_of(at), radius};
+    case 1:
+        return Cylinder{array_of(from), array_of(to), radius, random.one_in(2)};
+    case 2:
+        return Cone{array_of(from), array_of(to), random.one_in(2) ? 0 : radius, random.between(0.1, 0.5) * size,
+                    random.one_in(2)};
+    case 3:
+        return Torus{array_of(at), array_of(axis), radius, random.between(0.1, 1.2) * radius};
+    case 4: {
+        auto mesh = std::make_shared<TriangleMesh>();
+        for (int i = 0; i < 5; ++i)
+            mesh->points.push_back(array_of(at + 0.5 * size * random.in_cube()));
+        mesh->triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {1, 2, 4}};
+        return MeshSurface{mesh};
+    }
+    default: {
+        // Of both signs now and then, about a point.
+        Quadric quadric;
+        std::array<double, 10>& c = quadric.coefficients;
+        for (std::size_t i = 0; i < 6; ++i)
+            c[i] = random.between(i < 3 ? -0.3 : -0.4, i < 3 ? 1 : 0.4);
+        const double x = at.x(), y = at.y(), z = at.z();
+        c[6] = -2 * c[0] * x - c[3] * y - c[5] * z;
+        c[7] = -2 * c[1] * y - c[3] * x - c[4] * z;
+        c[8] = -2 * c[2] * z - c[4] * y - c[5] * x;
+        c[9] = c[0] * x * x + c[1] * y * y + c[2] * z * z + c[3] * x * y + c[4] * y * z + c[5] * z * x -
+               random.between(-0.2, 1) * radius * radius;
+        return quadric;
+    }
+    }
+}
+
 SceneSurface random_surface(Random& random, const SceneGround& ground, std::string_view kind) {
     SceneSurface surface;
     // A file without faces does not tell its boundary.
     if (kind == "plane" || (kind == "boundary" && !ground.has_faces)) {
         surface.geometry = random_plane(random, ground);
+    } else if (kind == "shape") {
+        surface.geometry = random_shape(random, ground);
+        if (random.one_in(3))
+            surface.outside = Rgb{0.5, 0.5, 0.5};
     } else if (kind == "boundary") {
         surface.geometry = BoundaryFaces{};
     } else {
@@ -169,6 +211,9 @@ SceneSurface random_surface(Random& random, const SceneGround& ground, std::stri
         for (int i = 0; i < n; ++i)
             isosurfaces.values.push_back(random_value(random, ground));
         std::ranges::sort(isosurfaces.values);
+        isosurfaces.skips_by_range = !random.one_in(5);
+        if (random.one_in(5))
+            isosurfaces.method = random.one_in(2) ? IsosurfaceMethod::bernstein : IsosurfaceMethod::companion;
     }
     surface.color_map = random_map(random, ground);
     surface.clip = random_clip(random, ground);
@@ -181,6 +226,7 @@ SceneVolumeRendering random_rendering(Random& random, const SceneGround& ground,
         oracle::random_transfer(number, ground.low, std::max(ground.high, ground.low + 1e-3), size_of(ground)).transfer;
     rendering.integrator = random.one_in(4) ? Integrator::adaptive_trapezoid : Integrator::exact;
     rendering.tolerance = random.one_in(3) ? 1e-5 : 1e-3;
+    rendering.skips_by_range = !random.one_in(5);
     return rendering;
 }
 
@@ -220,10 +266,10 @@ Scene make_scene(const SceneGround& ground, std::string_view kind, std::uint64_t
     if (kind == "volume") {
         scene.volume_rendering = random_rendering(random, ground, number);
     } else if (kind == "layers") {
-        static constexpr std::array<std::string_view, 3> parts{"plane", "isosurface", "boundary"};
+        static constexpr std::array<std::string_view, 4> parts{"plane", "isosurface", "boundary", "shape"};
         const int n = random.whole(1, 3);
         for (int i = 0; i < n; ++i) {
-            scene.surfaces.push_back(random_surface(random, ground, parts[static_cast<std::size_t>(random.whole(0, 2))]));
+            scene.surfaces.push_back(random_surface(random, ground, parts[static_cast<std::size_t>(random.whole(0, 3))]));
             scene.surfaces.back().opacity = random.one_in(4) ? 1 : random.between(0.1, 0.9);
         }
         if (random.one_in(3))
@@ -238,12 +284,12 @@ Scene make_scene(const SceneGround& ground, std::string_view kind, std::uint64_t
 
 std::array<std::uint32_t, 2> size_of(std::string_view kind) {
     if (kind == "plane")
-        return {320, 240};
-    if (kind == "boundary")
-        return {240, 180};
+        return {640, 480};
+    if (kind == "boundary" || kind == "shape")
+        return {400, 300};
     if (kind == "isosurface")
-        return {160, 120};
-    return {100, 75};
+        return {240, 180};
+    return {160, 120};
 }
 
 } // namespace elvis::hunt

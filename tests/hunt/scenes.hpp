@@ -16,7 +16,7 @@
 namespace elvis::hunt {
 
 /** In the order in which numbers take turns. */
-inline constexpr std::array<std::string_view, 5> kinds{"plane", "isosurface", "boundary", "volume", "layers"};
+inline constexpr std::array<std::string_view, 6> kinds{"plane", "isosurface", "boundary", "volume", "layers", "shape"};
 
 /** What scenes are made from. */
 struct SceneGround {

@@ -27,9 +27,11 @@ std::string unknown_part(const FrameRequest& request) {
             return "contours or mesh lines";
         if (const auto* iso = std::get_if<Isosurfaces>(&surface.geometry); iso != nullptr && iso->field.expression)
             return "an isosurface of an expression";
-        if (std::holds_alternative<CutShape>(surface.geometry) || std::holds_alternative<WireFrame>(surface.geometry) ||
-            std::holds_alternative<FlatElements>(surface.geometry) || std::holds_alternative<ElementFaces>(surface.geometry))
-            return "a surface that is no plane, boundary or isosurface";
+        if (const auto* shape = std::get_if<CutShape>(&surface.geometry); shape != nullptr && !is_known(*shape))
+            return "implicit surfaces or patches";
+        if (std::holds_alternative<WireFrame>(surface.geometry) || std::holds_alternative<FlatElements>(surface.geometry) ||
+            std::holds_alternative<ElementFaces>(surface.geometry))
+            return "wires, flat elements or chosen elements";
         const auto* boundary = std::get_if<BoundaryFaces>(&surface.geometry);
         if (boundary != nullptr && !boundary->groups.empty())
             return "groups of boundary faces";
@@ -103,6 +105,8 @@ SceneOracle::SceneOracle(SceneVolume& volume, const FrameRequest& request) : m_r
         look.range = sampled_range(*look.field, look.scalar);
         if (const auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
             look.tracer = plane_tracer(*m_model, *plane);
+        } else if (const auto* shape = std::get_if<CutShape>(&surface.geometry)) {
+            look.tracer = shape_tracer(*m_model, *shape, surface.outside.has_value());
         } else if (std::holds_alternative<BoundaryFaces>(surface.geometry)) {
             std::vector<elvis_face> faces;
             std::ranges::copy_if(volume.faces(), std::back_inserter(faces),
@@ -190,7 +194,11 @@ VolumeTracer& SceneOracle::volume_tracer(double shift) {
 
 Color SceneOracle::shown(const Layer& layer, const Line& line) const {
     const Surface& surface = m_request.surfaces[static_cast<std::size_t>(layer.surface)];
-    Color color = color_of(surface.colors, value(layer.surface, layer.point));
+    Color color;
+    if (layer.point.element == SurfacePoint::no_element)
+        color = {(*surface.outside)[0], (*surface.outside)[1], (*surface.outside)[2], 1};
+    else
+        color = color_of(surface.colors, value(layer.surface, layer.point));
     if (m_request.lighting && surface.is_lit)
         color = lit(*m_request.lighting, color, layer.point.normal, line.at(layer.point.t), -line.direction);
     return color;

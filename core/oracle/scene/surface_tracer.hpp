@@ -52,5 +52,8 @@ std::unique_ptr<SurfaceTracer> plane_tracer(const Model& model, const CutPlane& 
 /** Faces of elements, which neighbours may share. */
 std::unique_ptr<SurfaceTracer> face_tracer(const Model& model, const SegmentFinder& finder, std::span<const elvis_face> faces);
 std::unique_ptr<SurfaceTracer> isosurface_tracer(const Model& model, const Isosurface& isosurface);
+/** `is_seen_outside`: points that lie in no element are points, too. */
+std::unique_ptr<SurfaceTracer> shape_tracer(const Model& model, const CutShape& shape, bool is_seen_outside);
+bool is_known(const CutShape& shape);
 
 } // namespace elvis::oracle

@@ -105,4 +105,67 @@ TEST_CASE("a crossing that rounding may have put beyond a face is doubtful behin
     CHECK(n_wrong == 0);
 }
 
+TEST_CASE("of several roots in a narrow interval each is found") {
+    // Three roots a ray, this far apart, of one polynomial in one element; or of three isovalues of a linear field.
+    for (const auto& [precision, gap] : {std::pair(Precision::float32, 0.1), std::pair(Precision::float64, 0.01)})
+        for (const bool has_one_value : {true, false}) {
+            const auto u = [](const Vector& x) { return x.x() + 0.1 * x.y(); };
+            VolumeData data;
+            data.classes.push_back(make_class(space_of(native::Shape::hexahedron, 1), space_of(native::Shape::hexahedron, 3),
+                                              boxes({-1, -1, -1}, {1, 1, 1}, {1, 1, 1}), [&](const Vector& x) {
+                                                  return has_one_value ? (u(x) - gap) * u(x) * (u(x) + gap) : u(x);
+                                              }));
+            const TemporaryFile file("roots.h5");
+            write_volume(file.path(), data);
+            const RuntimeVolume volume = open_volume(file.path());
+            Renderer renderer(device(), volume, precision);
+            FrameRequest request = request_of(0.5, 0.5);
+            auto& values = std::get<Isosurfaces>(request.surfaces[0].geometry).values;
+            values = has_one_value ? std::vector<double>{0} : std::vector<double>{-gap, 0, gap};
+            const Frame frame = renderer.render(request);
+            std::size_t n_sure = 0, n_wrong = 0;
+            for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
+                if ((frame.flags[pixel] & doubtful) != 0)
+                    continue;
+                ++n_sure;
+                n_wrong += std::abs(frame.color[4 * pixel] - 0.875) > 1e-5;
+            }
+            CAPTURE(static_cast<int>(precision), has_one_value);
+            CHECK(n_sure > size * size * 99 / 100);
+            CHECK(n_wrong == 0);
+        }
+}
+
+TEST_CASE("a tile that sees more octants than its list holds misses none") {
+    // Ten sheets through 9000 elements: each tile of the small picture sees several hundred of their octants, its list holds
+    // 127.
+    VolumeData data;
+    const native::Space space = space_of(native::Shape::hexahedron, 1);
+    data.classes.push_back(make_class(space, space, boxes({-1, -1, -1}, {1, 1, 1}, {10, 30, 30}),
+                                      [](const Vector& x) { return x.x() + 0.9 + 0.01 * x.y(); }));
+    const TemporaryFile file("many.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        Renderer renderer(device(), volume, precision);
+        FrameRequest request = request_of(0.7, 0.5);
+        auto& values = std::get<Isosurfaces>(request.surfaces[0].geometry).values;
+        values.clear();
+        for (int i = 0; i < 10; ++i)
+            values.push_back(0.1 + 0.17 * i);
+        const Frame frame = renderer.render(request);
+        std::size_t n_sure = 0, n_wrong = 0;
+        for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
+            if ((frame.flags[pixel] & doubtful) != 0)
+                continue;
+            ++n_sure;
+            n_wrong += std::abs(frame.color[4 * pixel] - (1 - std::pow(0.5, 10))) > 1e-5;
+        }
+        CAPTURE(static_cast<int>(precision), n_sure);
+        CHECK(n_sure > size * size * 95 / 100);
+        CHECK(n_wrong == 0);
+        CHECK(frame.counts.work_limit_pixels == 0);
+    }
+}
+
 } // namespace elvis::oracle
