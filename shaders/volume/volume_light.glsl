@@ -12,9 +12,9 @@ struct core_light {
     elvis_real error, rounding;
 };
 
-// Of the root of those squares, what rounding does at worst. It is as good as random from step to step, so that squares add up, and most of
-// its bounds are several times what it does. Measured (float32, tolerance 1e-6, half a million pixels): a hundredth of the root in
-// most pixels, and less than a fifth in all in which rounding is most of the error.
+// Of the root of those squares, what rounding does: an estimate, no bound. It is as good as random from step to step, so that squares add up,
+// and most of its bounds are several times what it does. Measured (float32, tolerance 1e-6): a hundredth of the root in most pixels,
+// less than a quarter in 99 of 100.
 #define CORE_ROUNDING_SHOWN elvis_real(0.25LF)
 
 elvis_real core_light_error(core_light light) { return light.error + CORE_ROUNDING_SHOWN * sqrt(light.rounding); }
