@@ -37,6 +37,9 @@ ElementBoxes said_boxes(const Hierarchy& hierarchy, std::uint64_t n_elements, st
     for (std::size_t index = 0; index < said.origins.size(); ++index) {
         said.origins[index] = static_cast<float>((origins.empty() ? 0.0 : origins[index]) - centre[index % 3]);
     }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        said.world_origin[axis] = static_cast<float>(-centre[axis]);
+    }
     return said;
 }
 

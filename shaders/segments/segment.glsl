@@ -300,7 +300,9 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
         has_left = core_seek_leave(ray, clip, is_exact, error.parameter, segment);
     }
     if (!is_kept_in) {
-        const bool is_blurred = here.is_sound && !clip.is_sure && bound <= CORE_PREDICTION_SHARE * core_max_norm(here.model.noise);
+        // Where the own boundary lies, predictions of the mapping do not tell.
+        const bool is_blurred = ELVIS_HAS_INSIDE == 0 && here.is_sound && !clip.is_sure &&
+                                bound <= CORE_PREDICTION_SHARE * core_max_norm(here.model.noise);
         core_seek_enter(ray, clip, is_exact, is_blurred, error.parameter, segment);
     }
     segment.is_followed = segment.is_followed && !is_denied;

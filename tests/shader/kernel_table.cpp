@@ -56,6 +56,7 @@ void add_element_kernels(std::vector<KernelUse>& uses) {
 }
 
 void add_cut_kernels(std::vector<KernelUse>& uses) {
+    uses.push_back({.kernel = "cut_surface/other_values", .element = Element::value, .choices = {{"CORE_GROUP_SIZE", {"64"}}}});
     uses.push_back({.kernel = "cut_surface/cut_tiles", .buffers = elements, .choices = {width, height}});
     uses.push_back({.kernel = "cut_surface/cut_plane",
                     .element = Element::value,
@@ -180,6 +181,8 @@ void add_ray_kernels(std::vector<KernelUse>& uses) {
         uses.push_back(use("tiles/ray_tiles", Element::snippet, {yes("CORE_TESTS_STARTS")}));
         uses.push_back(use("segments/find_walk", Element::snippet, {}));
         uses.push_back(use("segments/find_walk", Element::snippet, for_segments));
+        uses.push_back(use("segments/start_at_eye", Element::snippet, {}));
+        uses.push_back(use("segments/start_at_eye", Element::snippet, for_segments));
         uses.push_back(use("segments/segments", Element::snippet, for_segments));
         KernelUse march = use("volume/volume_march", Element::model,
                               {{"CORE_INTEGRATOR", {"0", "1", "2", "3", "4"}}, no_or_yes("CORE_HAS_JUMPS")});

@@ -194,11 +194,9 @@ VolumeTracer& SceneOracle::volume_tracer(double shift) {
 
 Color SceneOracle::shown(const Layer& layer, const Line& line) const {
     const Surface& surface = m_request.surfaces[static_cast<std::size_t>(layer.surface)];
-    Color color;
     if (layer.point.element == SurfacePoint::no_element)
-        color = {(*surface.outside)[0], (*surface.outside)[1], (*surface.outside)[2], 1};
-    else
-        color = color_of(surface.colors, value(layer.surface, layer.point));
+        return {(*surface.outside)[0], (*surface.outside)[1], (*surface.outside)[2], 1};
+    Color color = color_of(surface.colors, value(layer.surface, layer.point));
     if (m_request.lighting && surface.is_lit)
         color = lit(*m_request.lighting, color, layer.point.normal, line.at(layer.point.t), -line.direction);
     return color;

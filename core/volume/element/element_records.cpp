@@ -25,9 +25,11 @@ struct Parameters {
     std::uint32_t first, n_elements;
 };
 
-/** `seen`: lower and upper corner of positions of an element, as bits of floats. */
-void check_box(const RuntimeVolume& volume, std::uint64_t element, std::span<const float, 6> said,
-               std::span<const float, 3> origin, std::span<const std::uint32_t, 6> seen) {
+/** Lower and upper corner of positions of an element, as bits of floats. */
+using SeenBox = std::span<const std::uint32_t, 6>;
+
+/** By how much an element was seen outside of its box, if that is more than may be. */
+float beyond_box(std::span<const float, 6> said, std::span<const float, 3> origin, SeenBox seen) {
     float size = 0, beyond = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const float lower = origin[axis] + std::bit_cast<float>(seen[axis]);
@@ -37,12 +39,23 @@ void check_box(const RuntimeVolume& volume, std::uint64_t element, std::span<con
         // Far from where they are counted from, positions are rounded.
         size = std::max(size, std::abs(origin[axis]) * 1e-3F);
     }
-    if (beyond > visible_share * size) {
-        throw Error(volume.path(),
-                    "element " + std::to_string(element) + " reaches " + std::to_string(beyond) +
-                        " beyond the bounds that the plugin tells of it (get_bounds): parts of it would be missing "
-                        "in pictures; `elvis check-plugin` tells more");
+    return beyond > visible_share * size ? beyond : 0;
+}
+
+void check_box(const RuntimeVolume& volume, std::uint64_t element, std::span<const float, 6> said,
+               std::span<const float, 3> origin, std::span<const float, 3> world_origin, SeenBox seen) {
+    const float beyond = beyond_box(said, origin, seen);
+    if (beyond == 0) {
+        return;
     }
+    const bool is_world = beyond_box(said, world_origin, seen) == 0;
+    throw Error(volume.path(),
+                "element " + std::to_string(element) + " reaches " + std::to_string(beyond) +
+                    " beyond the bounds that the plugin tells of it (get_bounds): parts of it would be missing "
+                    "in pictures; " +
+                    (is_world ? "the difference is the element's origin: with ELVIS_SNIPPET_LOCAL_ORIGIN, subtract "
+                                "elvis_fill_request.origins from positions in fill_buffer"
+                              : "`elvis check-plugin` tells more"));
 }
 
 } // namespace
@@ -81,7 +94,7 @@ std::vector<float> write_elements(const Device& device, const RuntimeVolume& vol
             curvatures.push_back(std::bit_cast<float>(from[curvature_at]));
             check_box(volume, info.first_element + first + element,
                       std::span(said.boxes).subspan(6 * (first + element)).first<6>(),
-                      std::span(said.origins).subspan(3 * (first + element)).first<3>(),
+                      std::span(said.origins).subspan(3 * (first + element)).first<3>(), said.world_origin,
                       std::span(computed).subspan(element * words_an_element + box_at).first<6>());
         }
         records.write_uints(first, words);

@@ -8,6 +8,7 @@
 #include <core/shader/composer.hpp>
 #include <core/vulkan/buffer.hpp>
 
+#include <array>
 #include <vector>
 
 namespace elvis {
@@ -19,6 +20,8 @@ inline constexpr std::uint32_t element_record_size = 8;
  */
 struct ElementBoxes {
     std::vector<float> boxes, origins;
+    /** Of positions that are the world's. */
+    std::array<float, 3> world_origin{};
 };
 
 /**
