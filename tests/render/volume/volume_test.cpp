@@ -218,6 +218,23 @@ TEST_CASE("pixels with narrow peaks are not flagged where they are right") {
     }
 }
 
+TEST_CASE("dense volumes are right where both rules of the quadrature agree by chance") {
+    const TemporaryFile file("dense.h5");
+    VolumeScene scene = sphere_scene("hexahedron", true, 0.1, file.path());
+    VolumeSettings settings;
+    settings.size = 64;
+    for (const double density : {4.0, 8.0}) {
+        scene.transfer = {{{0, 0}, {18, density}}, {{0, {0, 0, 1}}, {18, {1, 0.5, 0}}}};
+        for (const VolumeComparison& result : measure_volume(&device(), scene, settings).comparisons) {
+            CAPTURE(density, to_text(result));
+            CHECK(result.n_touched > 500);
+            // Was 3e-4.
+            CHECK(result.error <= 2e-5);
+            CHECK(result.n_flagged == 0);
+        }
+    }
+}
+
 TEST_CASE("random volumes with random transfer functions are what the oracle says") { check_random(5); }
 
 TEST_CASE("more random volumes with random transfer functions are what the oracle says", "[.long]") { check_random(40); }
