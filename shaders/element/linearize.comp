@@ -40,8 +40,9 @@ void main() {
     const elvis_vec3 offset = CORE_CENTROID - elvis_vec3(dot(row0, position), dot(row1, position), dot(row2, position));
     const bool is_usable = core_is_finite(inverse_determinant) && core_is_finite(offset.x + offset.y + offset.z);
 
+    elvis_vec3 turn;
     const elvis_real curvature =
-        core_measured_curvature(element, CORE_CENTROID, jacobian, elvis_vec3(0), elvis_real(1), CORE_CURVATURE_STAGES);
+        core_measured_curvature(element, CORE_CENTROID, jacobian, elvis_vec3(0), elvis_real(1), CORE_CURVATURE_STAGES, turn);
     const core_linearization packed =
         core_pack_linearization(vec3(row0), vec3(row1), vec3(row2), vec3(offset), float(curvature));
     core_words[8u * i] = is_usable ? packed.exponents : 0u;

@@ -11,7 +11,7 @@
 //
 //     f = value + slope . y + d,   |d| <= error.
 //
-// The curvature is that of element/prediction.glsl in the octant. Where there is no linearization, y is of the element's box, size is
+// The curvature is that of element/prediction.glsl in the octant. Where there is no linearization, y is of the octant's box, size is
 // zero, and the error CORE_VALUE_UNKNOWN.
 
 #ifndef CORE_OCTANT

@@ -25,8 +25,8 @@ layout(push_constant) uniform core_parameters {
 #define CORE_WORDS 32u
 // Of elements that are nearly linear it is not measured for each octant.
 #define CORE_SMALL_CURVATURE elvis_real(0.05LF)
-// A linearization that leaves out more than this much of the reference shape is of no use.
-#define CORE_MOST_BENDING elvis_real(2)
+// A linearization that leaves out more than this much of the octant's half side is of no use.
+#define CORE_MOST_BENDING elvis_real(0.5LF)
 
 struct core_octant_place {
     // In reference coordinates; where the mapping and the field are linearized, in the shape; and the way from there to the middle.
@@ -49,8 +49,8 @@ core_octant_place core_place_of(uint code) {
 struct core_octant_mapping {
     core_frame frame;
     elvis_mat3 jacobian;
-    // Of the middle, relative to the hierarchies' centre; and of the coordinates that rounding is judged by.
-    elvis_vec3 position, sizes;
+    // Of the middle, relative to the hierarchies' centre; of the coordinates that rounding is judged by; and half the sides of a box.
+    elvis_vec3 position, sizes, half_box;
     // What the linearization leaves out, and half the octant's side with it.
     elvis_real curvature, bending, size;
     bool is_linear;
@@ -77,12 +77,19 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
                                 place.half_side * (elvis_real(2) * defect + elvis_real(1e-4LF)) + core_max_norm(frame.xi_error);
     const elvis_real of_element = elvis_fetch_core_curvatures(element, 0u);
     const bool is_measured = (code & 7u) != 0u && of_element > CORE_SMALL_CURVATURE;
-    const elvis_real measured = core_measured_curvature(element, place.xi, mapping.jacobian, place.middle, place.half_side, 1u);
+    elvis_vec3 turn;
+    const elvis_real measured =
+        core_measured_curvature(element, place.xi, mapping.jacobian, place.middle, place.half_side, 1u, turn);
     mapping.curvature = is_measured ? measured : of_element;
     mapping.bending = mapping.curvature * place.radius * place.radius + rounding;
     mapping.size = place.half_side + mapping.bending;
     const bool is_finite = core_is_finite(mapping.size + core_max_norm(mapping.position));
-    mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING;
+    mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING * place.half_side;
+    // x = x(xi) + J d + e, |e| <= L |d|^2 / 2, with a Jacobian that changes by L |d| at most: twice as much as measured.
+    const elvis_vec3 sides = abs(mapping.jacobian[0]) + abs(mapping.jacobian[1]) + abs(mapping.jacobian[2]);
+    const elvis_vec3 bent_box = place.radius * (sides + turn) + core_max_norm(place.shift) * sides;
+    mapping.half_box = (mapping.is_linear ? min(mapping.size * sides, bent_box) : bent_box) +
+                       elvis_real(8.0 * CORE_FLOAT_ROUNDOFF) * mapping.sizes;
     return mapping;
 }
 
@@ -103,10 +110,8 @@ void core_write_mapping(uint at, core_octant_mapping mapping) {
     }
     core_words[at + 17u] = floatBitsToUint(mapping.is_linear ? float(mapping.size) : 0.0);
     core_words[at + 20u] = floatBitsToUint(float(mapping.curvature));
-    const elvis_vec3 half_box = mapping.size * (abs(mapping.jacobian[0]) + abs(mapping.jacobian[1]) + abs(mapping.jacobian[2])) +
-                                elvis_real(8.0 * CORE_FLOAT_ROUNDOFF) * mapping.sizes;
-    core_write_vector(at + 26u, middle - vec3(half_box));
-    core_write_vector(at + 29u, middle + vec3(half_box));
+    core_write_vector(at + 26u, middle - vec3(mapping.half_box));
+    core_write_vector(at + 29u, middle + vec3(mapping.half_box));
 }
 
 void core_write_field(uint at, core_model model, core_octant_place place, core_octant_mapping mapping) {

@@ -22,6 +22,8 @@ constexpr std::size_t octant_slope = 12, octant_error = 16, octant_scale = 17, o
 /** shaders/isosurface/octant.glsl */
 constexpr std::uint32_t octant_place_bits = 6, octant_is_estimated = 0x80000000u;
 constexpr std::uint32_t most_levels = 3;
+/** Of octants whose mapping is bent so much that it has no linear model. */
+constexpr std::uint32_t most_bent_levels = 6;
 /** Octants for which there is room where there are fewer elements, and octants of one level that are looked at for them. */
 constexpr std::uint64_t most_octants = 1u << 17, most_looked_at = 1u << 18;
 /**
@@ -29,8 +31,6 @@ constexpr std::uint64_t most_octants = 1u << 17, most_looked_at = 1u << 18;
  * than that: many small octants cost more to look through than they spare evaluations.
  */
 constexpr double wanted_error = 0.05, wanted_octant_error = 0.5;
-/** Elements that are bent so much that there is no linear model are divided, unless octants are, too. */
-constexpr double most_curvature = 32;
 
 struct OctantParameters {
     std::uint32_t n_octants;
@@ -87,15 +87,18 @@ struct IsovalueSet::Octants {
     bool holds_any(std::size_t octant, std::span<const double> isovalues) const {
         return elvis::holds_any(number(octant, octant_range), number(octant, octant_range + 1), isovalues);
     }
-    bool is_rough(std::size_t octant) const {
+    bool is_linear(std::size_t octant) const { return number(octant, octant_scale) > 0; }
+    /** Whether an octant of this level is to be divided. */
+    bool is_rough(std::size_t octant, std::uint32_t level) const {
+        if (!is_linear(octant)) {
+            return level < most_bent_levels;
+        }
         double slope = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             slope += std::abs(double{number(octant, octant_slope + k)});
         }
-        const bool is_octant = (word(octant, octant_code) & 7u) != 0;
-        const double wanted = is_octant ? wanted_octant_error : wanted_error;
-        const bool is_linear = number(octant, octant_scale) > 0;
-        return is_linear ? number(octant, octant_error) > wanted * slope : number(octant, octant_curvature) < most_curvature;
+        const double wanted = level > 0 ? wanted_octant_error : wanted_error;
+        return level < most_levels && number(octant, octant_error) > wanted * slope;
     }
     void add(const Octants& other, std::size_t octant) {
         const auto begin = other.words.begin() + static_cast<std::ptrdiff_t>(octant * octant_words);
@@ -213,11 +216,11 @@ void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape) {
     }
     Octants octants = evaluate(of_class, wanted);
     Octants done;
-    for (std::uint32_t level = 1; m_choice.skips_by_range; ++level) {
+    for (std::uint32_t level = 0; m_choice.skips_by_range; ++level) {
         wanted.clear();
         Octants undivided;
         for (std::size_t i = 0; i < octants.size(); ++i) {
-            if (level <= most_levels && octants.is_rough(i)) {
+            if (octants.is_rough(i, level)) {
                 add_octants(wanted, octants.word(i, octant_element), octants.word(i, octant_code), shape);
             } else {
                 undivided.add(octants, i);
@@ -253,12 +256,13 @@ void IsovalueSet::write_octants(ClassOctants& of_class, std::span<const std::uin
         const double* whole = &of_class.boxes[6 * std::size_t{place[element]}];
         std::array<double, 6> box{};
         std::copy(whole, whole + 6, box.begin());
-        const bool is_linear = octants.number(i, octant_scale) > 0;
-        for (std::size_t k = 0; is_linear && k < 3; ++k) {
+        for (std::size_t k = 0; k < 3; ++k) {
             const double least = m_centre[k] + double{octants.number(i, octant_box + k)};
             const double most = m_centre[k] + double{octants.number(i, octant_box + 3 + k)};
-            box[k] = std::clamp(least, whole[k], whole[3 + k]);
-            box[3 + k] = std::clamp(most, box[k], whole[3 + k]);
+            if (std::isfinite(most - least)) {
+                box[k] = std::clamp(least, whole[k], whole[3 + k]);
+                box[3 + k] = std::clamp(most, box[k], whole[3 + k]);
+            }
         }
         boxes.insert(boxes.end(), box.begin(), box.end());
         const auto begin = octants.words.begin() + static_cast<std::ptrdiff_t>(i * octant_words);
@@ -267,8 +271,8 @@ void IsovalueSet::write_octants(ClassOctants& of_class, std::span<const std::uin
         if (of_class.ranges[element].is_estimated && !rests_on_estimates()) {
             record[octant_code] |= octant_is_estimated;
         }
-        if (!is_linear) {
-            write_box(record, whole);
+        if (!octants.is_linear(i)) {
+            write_box(record, box.data());
         }
     }
     of_class.n_octants = octants.size();
