@@ -1,6 +1,7 @@
 #include <elvis/native/derivative_bounds.hpp>
 
 #include "bernstein_bounds.hpp"
+#include "pyramid_bounds.hpp"
 
 #include <elvis/native/conversion.hpp>
 
@@ -23,9 +24,10 @@ struct DerivativeBounder::Forms {
     device::Conversion conversion;
     device::DerivativeWeights weights;
     device::BernsteinBounds bernstein;
+    PyramidBounds pyramid;
 
     explicit Forms(const Space& space)
-        : conversion(space), weights(conversion.device_space()), bernstein(conversion.device_space()) {}
+        : conversion(space), weights(conversion.device_space()), bernstein(conversion.device_space()), pyramid(space) {}
 };
 
 DerivativeBounder::DerivativeBounder(const Space& space) : m_forms(std::make_shared<const Forms>(space)) {}
@@ -36,11 +38,14 @@ DerivativeBound DerivativeBounder::operator()(std::span<const double> coefficien
     m_forms->conversion.apply(coefficients, modes);
     device::clean_apex(m_forms->conversion.device_space(), coefficients, modes);
     DerivativeBound bound = m_forms->weights.bound(modes);
-    if (m_forms->bernstein.is_usable()) {
-        const DerivativeBound other = m_forms->bernstein.bound(modes);
+    const auto take = [&bound](const DerivativeBound& other) {
         bound.first = std::min(bound.first, other.first + single_rounding * bound.first);
         bound.second = std::min(bound.second, other.second + single_rounding * bound.second);
-    }
+    };
+    if (m_forms->bernstein.is_usable())
+        take(m_forms->bernstein.bound(modes));
+    if (m_forms->pyramid.is_usable())
+        take(m_forms->pyramid.bound(coefficients));
     return {finite_or_unknown(bound.first), finite_or_unknown(bound.second)};
 }
 

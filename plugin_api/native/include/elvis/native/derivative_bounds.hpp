@@ -11,7 +11,9 @@
 
 namespace elvis::native {
 
-/** Bounds of sum_i |df/dxi_i| and of sum_ij |d^2f/dxi_i dxi_j| (all terms, mixed ones twice) over the closed reference shape.
+/**
+ * Bounds of sum_i |df/dxi_i| and of sum_ij |d^2f/dxi_i dxi_j| (all terms, mixed ones twice) over the closed reference shape;
+ * the latter in pyramids times t = (1 - xi_3) / 2.
  */
 struct DerivativeBound {
     double first = 0, second = 0;
@@ -21,16 +23,17 @@ struct DerivativeBound {
  * Bounds for the functions of one space, rounding included. They hold as well for the function that is meant by the
  * coefficients of its device form (elvis/native/conversion.hpp) after these were rounded to single precision.
  *
- * Two bounds, of which the smaller counts: the coefficients' magnitudes times what each function has at most, and in prisms,
- * triangles and tetrahedra the Bernstein coefficients of the derivatives. Any thread may call; copies are independent.
+ * Two bounds, of which the smaller counts: the coefficients' magnitudes times what each function has at most, and in all but
+ * hexahedra, quadrilaterals and `tensor` pyramids the Bernstein coefficients of the derivatives. Any thread may call; copies
+ * are independent.
  */
 class DerivativeBounder {
 public:
     explicit DerivativeBounder(const Space& space);
 
     /**
-     * For coefficients in the order of the space. NaN where a derivative has no bound, or none is known: second derivatives at
-     * the apex of pyramids (but those of `orthogonal` basis), coefficients that are not finite.
+     * For coefficients in the order of the space. NaN where a derivative has no bound, or none is known: fields with several
+     * values at the apex of pyramids, coefficients that are not finite.
      */
     DerivativeBound operator()(std::span<const double> coefficients) const;
 
