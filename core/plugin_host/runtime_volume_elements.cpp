@@ -1,6 +1,9 @@
 // What is asked about elements: bounds, faces, ranges and derivatives of fields, values, signs of Jacobians.
 #include <core/plugin_host/runtime_volume_impl.hpp>
 
+#include <elvis/native/space.hpp>
+
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -51,9 +54,15 @@ void RuntimeVolume::faces(std::uint64_t first, std::uint64_t count, std::span<el
     }
     m_impl->call("get_faces", m_impl->table->get_faces, first, count, out.data());
     const auto n = static_cast<std::int64_t>(n_elements());
+    const auto n_local_faces = [this](std::int64_t element) {
+        const auto next =
+            std::ranges::upper_bound(classes(), static_cast<std::uint64_t>(element), {}, &ClassInfo::first_element);
+        return native::n_faces(native::Shape{std::prev(next)->shape});
+    };
     for (const elvis_face& face : out) {
         if (face.element < 0 || face.element >= n || face.neighbour >= n || face.neighbour < ELVIS_NEIGHBOUR_UNKNOWN ||
-            face.local_face < 0 || face.local_face > 5 || face.neighbour_local_face < -1 || face.neighbour_local_face > 5 ||
+            face.local_face < 0 || face.local_face >= n_local_faces(face.element) || face.neighbour_local_face < -1 ||
+            (face.neighbour >= 0 && face.neighbour_local_face >= n_local_faces(face.neighbour)) ||
             face.group < ELVIS_GROUP_NONE || face.group >= static_cast<std::int32_t>(m_impl->info.n_boundary_groups)) {
             m_impl->refuse("get_faces", "a face of element " + std::to_string(face.element) + " with numbers out of range");
         }

@@ -3,17 +3,27 @@
 #include <core/base/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace elvis {
 
 namespace {
 
+void check_values(const char* of, const std::vector<double>& values) {
+    const bool are_finite = std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+    if (values.empty() || !are_finite || !std::ranges::is_sorted(values)) {
+        throw Error(of, "needs finite values, in ascending order");
+    }
+}
+
 void check_surface(const Surface& surface, const RuntimeVolume& volume) {
     const SurfaceTraits traits = traits_of(surface.geometry);
-    if (traits.isosurfaces != nullptr &&
-        (traits.isosurfaces->values.empty() || !std::ranges::is_sorted(traits.isosurfaces->values))) {
-        throw Error("isosurface", "needs values, in ascending order");
+    if (traits.isosurfaces != nullptr) {
+        check_values("isosurface", traits.isosurfaces->values);
+    }
+    if (surface.contours && !surface.contours->values.empty()) {
+        check_values("contours", surface.contours->values);
     }
     if (traits.wires != nullptr && volume.is_cut()) {
         throw Error(volume.path(),

@@ -2,6 +2,10 @@
 
 #include <core/expression/expression.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace elvis {
 
 namespace {
@@ -20,6 +24,19 @@ struct TraitsOfKind {
 };
 
 } // namespace
+
+double ColorTable::value_change(double most) const {
+    const double extent = points.back().value - points.front().value;
+    double change = extent > 0 ? most * extent : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double width = points[i].value - points[i - 1].value;
+        for (std::size_t channel = 0; channel < 3 && width > 0; ++channel) {
+            const double rise = std::abs(points[i].rgb[channel] - points[i - 1].rgb[channel]);
+            change = std::min(change, most * width / std::max(rise, 1e-300));
+        }
+    }
+    return change;
+}
 
 bool FieldChoice::operator==(const FieldChoice& other) const {
     if (is_own_boundary || other.is_own_boundary) {

@@ -33,6 +33,9 @@ struct ColorTable {
     Color nan{};
     /** Made for equal ratios of values: all values of the points are above 0, and what is not has the colour of NaN. */
     bool is_logarithmic = false;
+
+    /** By how much a value may change without a change of a channel by more than `most`; steps are not counted. */
+    double value_change(double most) const;
 };
 
 class Expression;

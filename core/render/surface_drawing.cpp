@@ -7,6 +7,12 @@ namespace {
 /** The number of what is drawn: a layer holds one surface. Each class of faces counts as one, so that the nearest wins. */
 constexpr std::uint32_t first = 1;
 
+ShownComponent shown_component(const Surface& surface, const ShownFields& fields, Precision precision) {
+    ShownComponent component = fields.component(surface.field);
+    component.value_tolerance = static_cast<float>(surface.colors.value_change(precision == Precision::float64 ? 1e-9 : 1e-3));
+    return component;
+}
+
 } // namespace
 
 CutPlaneGeometry rays_of(const FrameRequest& request, const CutPlane* plane, const DeviceVolume& data) {
@@ -27,8 +33,8 @@ SurfaceDrawing::SurfaceDrawing(const FrameRequest& request, const Surface& surfa
                                ShownFields& fields, PassSet& passes)
     : m_request(request), m_surface(surface), m_fields(fields), m_passes(passes), m_traits(traits_of(surface.geometry)),
       m_rays(rays_of(request, m_traits.plane, data)), m_offset(fields.upload(surface.field, request.time_step)),
-      m_component(fields.component(surface.field)), m_lines(line_request(surface, m_offset)), m_own(passes.of(surface.field)),
-      m_edge_pass(data.precision()) {}
+      m_component(shown_component(surface, fields, data.precision())), m_lines(line_request(surface, m_offset)),
+      m_own(passes.of(surface.field)), m_edge_pass(data.precision()) {}
 
 void SurfaceDrawing::provide() {
     std::visit([this](const auto& kind) { provide(kind); }, m_surface.geometry);

@@ -21,6 +21,25 @@ constexpr std::uint64_t block_numbers = 4u << 20;
 
 using Clock = std::chrono::steady_clock;
 
+/** Relative to the middle of the volume. `origins`: of the class's elements, three numbers each; none if positions are the
+ * world's. */
+ElementBoxes said_boxes(const Hierarchy& hierarchy, std::uint64_t n_elements, std::span<const double> origins,
+                        const Vector3& centre) {
+    ElementBoxes said;
+    said.boxes.resize(6 * n_elements);
+    said.origins.resize(3 * n_elements);
+    for (const HierarchyNode& node : hierarchy.nodes()) {
+        for (std::size_t axis = 0; node.is_leaf() && axis < 3; ++axis) {
+            said.boxes[6 * std::size_t{node.child} + axis] = node.lower[axis];
+            said.boxes[6 * std::size_t{node.child} + axis + 3] = node.upper[axis];
+        }
+    }
+    for (std::size_t index = 0; index < said.origins.size(); ++index) {
+        said.origins[index] = static_cast<float>((origins.empty() ? 0.0 : origins[index]) - centre[index % 3]);
+    }
+    return said;
+}
+
 } // namespace
 
 FieldSelection selection_of(const std::shared_ptr<const Expression>& expression, const RuntimeVolume& volume,
@@ -159,8 +178,13 @@ void DeviceVolume::select(const FieldSelection& selection) {
     if (is_geometry_changed) {
         for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
             if (m_classes[element_class].elements) {
+                const ClassInfo& info = m_volume.classes()[element_class];
+                const std::size_t n_origins = m_classes[element_class].origins ? 3 * info.n_elements : 0;
+                const ElementBoxes said =
+                    said_boxes(m_classes[element_class].hierarchy, info.n_elements,
+                               std::span<const double>(m_origins).subspan(3 * info.first_element, n_origins), m_centre);
                 m_classes[element_class].curvatures = write_elements(m_device, m_volume, element_class, instance(element_class),
-                                                                     m_precision, *m_classes[element_class].elements);
+                                                                     m_precision, said, *m_classes[element_class].elements);
                 m_classes[element_class].curvature_records.reset();
             }
         }

@@ -12,4 +12,6 @@
 // Of the single precision that boxes are kept in.
 #define CORE_FLOAT_ROUNDOFF 5.9604644775390625e-8
 
+elvis_real core_norm1(elvis_vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+
 #endif

@@ -23,7 +23,9 @@ layout(push_constant) uniform core_parameters {
     uint core_surface_number;
     uint core_first_component;
     uint core_end_component;
+    // Two values on an edge.
     uint core_is_discontinuous;
+    float core_value_tolerance;
     uint core_has_beyond;
     uint core_wants_normals;
     uint core_wants_places;
@@ -37,8 +39,17 @@ core_location core_location_of(core_face_crossing nearest) {
     const bool has_found = nearest.face != CORE_NO_PATCH;
     const uvec4 place = elvis_fetch4_core_faces(has_found ? nearest.face : 0u, 0u);
     const elvis_vec3 xi = core_face_xi(int(place.y), nearest.u, nearest.v);
-    return core_location(has_found ? place.x : CORE_NO_ELEMENT, nearest.number, nearest.key, xi.x, xi.y, xi.z, nearest.is_on_edge,
-                         nearest.is_on_edge, nearest.n_candidates, 0u, 0u, false);
+    core_location found = core_nothing_found();
+    found.element = has_found ? place.x : CORE_NO_ELEMENT;
+    found.number = nearest.number;
+    found.key = nearest.key;
+    found.x = xi.x;
+    found.y = xi.y;
+    found.z = xi.z;
+    found.is_on_face = nearest.is_on_edge;
+    found.n_candidates = nearest.n_candidates;
+    found.is_ambiguous = nearest.is_on_edge && core_is_discontinuous != 0u;
+    return found;
 }
 
 // Evaluates the field where the ray meets the nearest face, and puts it into the picture if `is_shown`. Returns the number of

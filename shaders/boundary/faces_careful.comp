@@ -7,7 +7,8 @@
 //
 //     |g . (x - o)| > |g . x_a| + |g . x_b| + |g| . q,
 //
-// for g across one of the tangents or towards the square's middle. The linear part, seen along the ray, changes by the share L =
+// for g across one of the tangents or towards the square's middle; x - o stands for the part of it that is across the ray, which is small
+// near the ray and so keeps its digits. g itself has few where a tangent runs along the ray. The linear part, seen along the ray, changes by the share L =
 // 2 |rows| . q within the square; below one half there is one crossing at most. Where a square's remainder is below the rounding of
 // positions, and still neither is known, the ray touches the patch within rounding: the pixel is flagged as undecided, and no crossing
 // is taken there.
@@ -107,6 +108,15 @@ struct core_square_verdict {
     elvis_real slope, least_t;
 };
 
+// By how much the direction g = d x tangent shows that the ray misses: `across` leads from the ray to the square's middle.
+elvis_real core_gap(elvis_vec3 d, elvis_vec3 tangent, elvis_vec3 other_tangent, elvis_vec3 across, elvis_vec3 room) {
+    const elvis_vec3 g = cross(d, tangent);
+    // Each product in g is rounded, and they may cancel.
+    const elvis_real rounding = elvis_real(4) * CORE_ROUNDOFF * core_norm1(d) * core_norm1(tangent);
+    return abs(dot(g, across)) - abs(dot(g, other_tangent)) - dot(abs(g), room) -
+           rounding * (core_norm1(across) + core_norm1(other_tangent));
+}
+
 core_square_verdict core_judge_square(core_ray ray, core_face_newton_step s, uint patch_index, core_square patch_square,
                                       core_patch_square square, core_face_crossing nearest) {
     const uint safe_patch = patch_index == CORE_NO_PATCH ? 0u : patch_index;
@@ -118,12 +128,12 @@ core_square_verdict core_judge_square(core_ray ray, core_face_newton_step s, uin
     const elvis_vec3 noise = elvis_vec3(ray.error + s.misfit) + elvis_real(8) * CORE_ROUNDOFF * terms;
     const elvis_vec3 room = q + noise, d = ray.direction;
     const elvis_real per_length = elvis_real(1) / dot(d, d);
-    const elvis_vec3 g1 = cross(d, tangent_a), g2 = cross(d, tangent_b);
     const elvis_real t_middle = dot(d, away) * per_length;
-    const elvis_vec3 g3 = away - t_middle * d;
-    const elvis_real gap1 = abs(dot(g1, away)) - abs(dot(g1, tangent_b)) - dot(abs(g1), room);
-    const elvis_real gap2 = abs(dot(g2, away)) - abs(dot(g2, tangent_a)) - dot(abs(g2), room);
-    const elvis_real gap3 = abs(dot(g3, away)) - abs(dot(g3, tangent_a)) - abs(dot(g3, tangent_b)) - dot(abs(g3), room);
+    const elvis_vec3 across = away - t_middle * d;
+    const elvis_real gap1 = core_gap(d, tangent_a, tangent_b, across, room);
+    const elvis_real gap2 = core_gap(d, tangent_b, tangent_a, across, room);
+    const elvis_real gap3 =
+        dot(across, across) - abs(dot(across, tangent_a)) - abs(dot(across, tangent_b)) - dot(abs(across), room);
     const elvis_real t_reach = (abs(dot(d, tangent_a)) + abs(dot(d, tangent_b)) + dot(abs(d), room)) * per_length;
     const bool is_upper = patch_square.is_diagonal && square.a + square.b - elvis_real(2) * square.share > elvis_real(0);
     const bool is_elsewhere = t_middle - t_reach > nearest.t + nearest.slack || t_middle + t_reach < ray.least_t;

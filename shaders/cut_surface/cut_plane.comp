@@ -27,8 +27,10 @@ layout(push_constant) uniform core_parameters {
     // Components of the field: the only one, or all that make up the length of the vector.
     uint core_first_component;
     uint core_end_component;
-    // Two values on a face: which one is shown there may depend on rounding.
-    uint core_is_discontinuous;
+    // Elements that share a point may have other values there: one of them is listed.
+    uint core_lists_others;
+    // Of values: what makes no difference to the picture.
+    float core_value_tolerance;
     uint core_n_isovalues;
 };
 
@@ -39,6 +41,8 @@ uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE
 
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
+#define CORE_OTHERS_BINDING 7
+#include "cut_surface/other_elements.glsl"
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
@@ -80,10 +84,12 @@ void main() {
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u;
     const core_cut_column ray = core_cut_begin(elvis_real(column));
+    const elvis_real data_error = core_data_error();
     core_track track = core_no_track();
     uint row = first_row;
     while (row < end_row) {
-        const core_cut_point point = core_cut_pixel(ray, elvis_real(row));
+        core_cut_point point = core_cut_pixel(ray, elvis_real(row));
+        point.error += data_error;
         const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_vec3 xi = elvis_vec3(found.x, found.y, found.z);
@@ -99,6 +105,7 @@ void main() {
             const uint pixel = row * core_size.x + column;
             const uint n_done = core_merge(pixel, point, found, value);
             n_evaluations += n_done;
+            core_list_other(pixel, found);
 #if CORE_LINES
             if (n_done > 0u && lines.is_settled) {
                 core_marks[pixel].owner |= CORE_OWNER_SETTLED;

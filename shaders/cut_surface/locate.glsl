@@ -19,11 +19,6 @@
 #include "element/inside.glsl"
 #include "element/linearization.glsl"
 
-// Unit normal of the surface at the point: the plane's, unless the kernel knows another.
-#ifndef CORE_SURFACE_NORMAL
-#define CORE_SURFACE_NORMAL core_plane_normal.xyz
-#endif
-
 // Iterations of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is
 // far above what any sensible search takes and leaves room for a tile's other pixels.
 #define CORE_WORK_LIMIT 2000u
@@ -47,11 +42,8 @@ core_track core_no_track() {
     return track;
 }
 
-// Sine of the angle between a face and the plane below which they count as parallel: what rounding leaves of zero.
-#define CORE_PARALLEL (elvis_real(256) * CORE_ROUNDOFF)
-
 struct core_side {
-    bool is_inside, is_on_face, is_on_crossing_face;
+    bool is_inside, is_on_face;
     uint key;
 };
 
@@ -59,19 +51,14 @@ struct core_side {
 core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction) {
     const elvis_vec3 error = elvis_real(2) * elvis_vec3(inverse.error0, inverse.error1, inverse.error2);
     const elvis_vec3 towards_viewer = -elvis_vec3(dot(inverse.row0, direction), dot(inverse.row1, direction), dot(inverse.row2, direction));
-    core_side side = core_side(true, false, false, 0u);
+    core_side side = core_side(true, false, 0u);
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
         const elvis_real distance = dot(constraint.xyz, xi) + constraint.w;
         const elvis_real tolerance = dot(abs(constraint.xyz), error);
         const bool is_active = distance >= -tolerance;
-        // The face's normal in the world is J^-T times that in xi.
-        const elvis_vec3 normal = constraint.x * inverse.row0 + constraint.y * inverse.row1 + constraint.z * inverse.row2;
-        const elvis_vec3 across = cross(normal, CORE_SURFACE_NORMAL);
-        const bool is_crossing = dot(across, across) > CORE_PARALLEL * CORE_PARALLEL * dot(normal, normal);
         side.is_inside = side.is_inside && distance <= tolerance;
         side.is_on_face = side.is_on_face || is_active;
-        side.is_on_crossing_face = side.is_on_crossing_face || (is_active && is_crossing);
         side.key = is_active && dot(constraint.xyz, towards_viewer) > elvis_real(0) ? 1u : side.key;
     }
     return side;
@@ -87,10 +74,18 @@ void core_add_own_side(uint element, elvis_vec3 xi, core_inverse inverse, elvis_
     const bool is_active = g.value >= -tolerance;
     side.is_inside = side.is_inside && g.value <= tolerance;
     side.is_on_face = side.is_on_face || is_active;
-    side.is_on_crossing_face = side.is_on_crossing_face || is_active;
     side.key = is_active && dot(g.slope, towards_viewer) > elvis_real(0) ? 1u : side.key;
 }
 #endif
+
+// The data's own error: coordinates come in double precision, and a solver or converter has rounded them a few times. Neighbours'
+// faces, and a plane that is to lie in them, agree no better. Measured: 28 roundings of the volume's largest coordinate.
+elvis_real core_data_error() {
+    const core_node root = core_fetch_node(0u);
+    const vec3 centre = vec3(core_reference.xyz - core_reference_in_hierarchy.xyz);
+    const vec3 farthest = abs(centre) + max(abs(root.lower), abs(root.upper));
+    return elvis_real(3.6e-15LF) * elvis_real(max(max(farthest.x, farthest.y), farthest.z));
+}
 
 struct core_target {
     // In the snippet's coordinates, and its rounding error.
@@ -123,11 +118,6 @@ core_newton core_newton_start(uint element, elvis_vec3 target) {
 bool core_is_outside(core_newton state) {
     return core_excess(state.x, state.y, state.z) >
            CORE_CONSTRAINT_NORM * (core_prediction_error(state.curvature, state.last_step) + CORE_START_ERROR);
-}
-
-core_location core_nothing_found() {
-    const elvis_real zero = elvis_real(0);
-    return core_location(CORE_NO_ELEMENT, 0xffffffffu, 2u, zero, zero, zero, false, false, 0u, 0u, 0u, false);
 }
 
 struct core_element_candidate {
@@ -188,7 +178,7 @@ core_side core_judge_candidate(uint element, core_element_candidate candidate, c
                                bool has_converged, elvis_real excess, elvis_real most) {
     const elvis_vec3 xi = elvis_vec3(candidate.state.x, candidate.state.y, candidate.state.z);
     const bool is_inside = has_converged && excess <= most;
-    core_side side = core_side(is_inside, is_inside && excess >= -most, false, 0u);
+    core_side side = core_side(is_inside, is_inside && excess >= -most, 0u);
     if (side.is_on_face) {
         side = core_side_of(xi, inverse, direction);
     }
@@ -200,10 +190,15 @@ core_side core_judge_candidate(uint element, core_element_candidate candidate, c
     return side;
 }
 
-// Takes the candidate if it goes before what was found.
+// Takes the candidate if it goes before what was found; the other one is kept for comparison.
 void core_take_candidate(bool is_accepted, core_element_candidate candidate, uint number, core_side side, inout core_location found) {
     const bool is_better = is_accepted && (side.key < found.key || (side.key == found.key && number < found.number));
+    const bool is_other = is_accepted && !is_better, was_found = is_better && found.element != CORE_NO_ELEMENT;
     found.n_candidates += is_accepted ? 1u : 0u;
+    found.other = is_other ? candidate.element : was_found ? found.element : found.other;
+    found.other_x = is_other ? candidate.state.x : was_found ? found.x : found.other_x;
+    found.other_y = is_other ? candidate.state.y : was_found ? found.y : found.other_y;
+    found.other_z = is_other ? candidate.state.z : was_found ? found.z : found.other_z;
     found.element = is_better ? candidate.element : found.element;
     found.number = is_better ? number : found.number;
     found.key = is_better ? side.key : found.key;
@@ -211,7 +206,6 @@ void core_take_candidate(bool is_accepted, core_element_candidate candidate, uin
     found.y = is_better ? candidate.state.y : found.y;
     found.z = is_better ? candidate.state.z : found.z;
     found.is_on_face = is_better ? side.is_on_face : found.is_on_face;
-    found.is_on_crossing_face = is_better ? side.is_on_crossing_face : found.is_on_crossing_face;
 }
 
 // `is_alone`: the candidate holds the point, and no other element does.
@@ -279,5 +273,15 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
         }
     }
     found.is_cut_short = candidate.element != CORE_NO_ELEMENT || core_has_more(descent);
+    // Only two are compared (cut_surface/other_values.comp).
+    found.is_ambiguous = core_lists_others != 0u && found.n_candidates > 2u;
     return found;
+}
+
+// One of the elements that share the point but are not shown.
+void core_list_other(uint pixel, core_location found) {
+    if (core_lists_others != 0u && found.n_candidates > 1u) {
+        core_others[atomicAdd(core_n_others, 1u)] =
+            core_other_element(found.other_x, found.other_y, found.other_z, found.other, pixel);
+    }
 }

@@ -48,8 +48,6 @@ core_hit core_no_hit() {
 layout(std140, set = 0, binding = 1) uniform core_shape_block { elvis_vec4 core_shape[CORE_SHAPE_ROWS]; };
 #define CORE_SHAPE(i) core_shape[2 + (i)]
 
-elvis_real core_norm1(elvis_vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
-
 // Whether a crossing counts, and goes before what was found.
 bool core_is_next(core_surface_ray ray, elvis_real t, elvis_real error, core_hit best) {
     return t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after && t < best.t;

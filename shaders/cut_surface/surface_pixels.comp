@@ -18,7 +18,6 @@ layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint cor
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 5, std430) readonly buffer core_hits_block { core_hit_record core_hits[]; };
-layout(set = 0, binding = 6, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
 // Written if core_wants_places.
 layout(set = 0, binding = 7, std430) writeonly buffer core_places_block { core_place core_places[]; };
 layout(push_constant) uniform core_parameters {
@@ -29,8 +28,10 @@ layout(push_constant) uniform core_parameters {
     // Components of the field: the only one, or all that make up the length of the vector.
     uint core_first_component;
     uint core_end_component;
-    // Two values on a face: which one is shown there may depend on rounding.
-    uint core_is_discontinuous;
+    // Elements that share a point may have other values there: one of them is listed.
+    uint core_lists_others;
+    // Of values: what makes no difference to the picture.
+    float core_value_tolerance;
     // The most that a point's error along the ray may be; where it is more the pixel is undecided anyway.
     float core_most_error;
     uint core_wants_places;
@@ -43,10 +44,8 @@ uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE
 
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
-// Of the surface where the pixel at hand sees it.
-elvis_vec3 core_normal_here;
-#define CORE_SURFACE_NORMAL core_normal_here
-
+#define CORE_OTHERS_BINDING 6
+#include "cut_surface/other_elements.glsl"
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
@@ -73,6 +72,7 @@ void main() {
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u, n_found = 0u;
     const core_cut_column along = core_cut_begin(elvis_real(column));
+    const elvis_real data_error = core_data_error();
     core_track track = core_no_track();
     uint row = core_next_row(column, first_row, end_row);
     while (row < end_row) {
@@ -87,8 +87,7 @@ void main() {
         point.position = base.xyz + point.t * direction.xyz;
         const elvis_vec3 size = (along.size + abs(down * along.base_row)).xyz + abs(point.t * direction.xyz);
         point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z) +
-                      min(core_hits[pixel].error * length(direction.xyz), elvis_real(core_most_error));
-        core_normal_here = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+                      min(core_hits[pixel].error * length(direction.xyz), elvis_real(core_most_error)) + data_error;
         const core_location found = core_locate(point, n_entries, track);
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
@@ -97,6 +96,7 @@ void main() {
             const bool was_open = core_marks[pixel].owner >> CORE_OWNER_BITS != core_surface_number;
             const uint n_done = core_merge(pixel, point, found, value);
             n_evaluations += n_done;
+            core_list_other(pixel, found);
             if (n_done > 0u && core_wants_places != 0u) {
                 core_places[pixel] =
                     core_place(found.x, found.y, found.z, found.element, CORE_CLASS << CORE_PLACE_FACE_BITS);

@@ -1,5 +1,5 @@
 // The linearized inverse mapping of each element of a class, at its centroid (element/linearization.glsl), and how far the mapping
-// is from linear (element/prediction.glsl): once for a volume.
+// is from linear (element/prediction.glsl): once for a volume. And where it was seen to lie, for the host to compare with its bounds.
 
 layout(local_size_x = 32) in;
 
@@ -9,8 +9,10 @@ layout(local_size_x = 32) in;
 #include "element/measured_curvature.glsl"
 #include "element/shape_region.glsl"
 
+#define CORE_WORDS 14u
+
 layout(std430, set = 0, binding = 0) writeonly buffer core_output {
-    // Eight words an element: exponents, the packed numbers, and the curvature as a float.
+    // Fourteen words an element: exponents, the packed numbers, and as floats the curvature and the box of some positions.
     uint core_words[];
 };
 
@@ -45,12 +47,16 @@ void main() {
         core_measured_curvature(element, CORE_CENTROID, jacobian, elvis_vec3(0), elvis_real(1), CORE_CURVATURE_STAGES, turn);
     const core_linearization packed =
         core_pack_linearization(vec3(row0), vec3(row1), vec3(row2), vec3(offset), float(curvature));
-    core_words[8u * i] = is_usable ? packed.exponents : 0u;
-    core_words[8u * i + 1u] = packed.words[0];
-    core_words[8u * i + 2u] = packed.words[1];
-    core_words[8u * i + 3u] = packed.words[2];
-    core_words[8u * i + 4u] = packed.words[3];
-    core_words[8u * i + 5u] = packed.words[4];
-    core_words[8u * i + 6u] = packed.words[5];
-    core_words[8u * i + 7u] = floatBitsToUint(is_usable ? float(curvature) : 1e9);
+    core_words[CORE_WORDS * i] = is_usable ? packed.exponents : 0u;
+    core_words[CORE_WORDS * i + 1u] = packed.words[0];
+    core_words[CORE_WORDS * i + 2u] = packed.words[1];
+    core_words[CORE_WORDS * i + 3u] = packed.words[2];
+    core_words[CORE_WORDS * i + 4u] = packed.words[3];
+    core_words[CORE_WORDS * i + 5u] = packed.words[4];
+    core_words[CORE_WORDS * i + 6u] = packed.words[5];
+    core_words[CORE_WORDS * i + 7u] = floatBitsToUint(is_usable ? float(curvature) : 1e9);
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        core_words[CORE_WORDS * i + 8u + axis] = floatBitsToUint(float(core_seen_lower[axis]));
+        core_words[CORE_WORDS * i + 11u + axis] = floatBitsToUint(float(core_seen_upper[axis]));
+    }
 }

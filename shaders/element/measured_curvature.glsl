@@ -23,6 +23,9 @@ elvis_real core_relative_change(elvis_mat3 a, elvis_mat3 b, elvis_mat3 c) {
     return max(max(sum0, sum1), sum2) / abs(dot(a[0], cofactors0));
 }
 
+// The box of the positions that were looked at.
+elvis_vec3 core_seen_lower, core_seen_upper;
+
 // From the Jacobians on the way from a point of the element, with the Jacobian there, to the corners, and the middles of edges and
 // faces of a cube, as far as that lies in the element. `n_stages`: points on each way, for large parts. `turn`: how much the Jacobian
 // changes on these ways, by the sums of its rows.
@@ -30,6 +33,8 @@ elvis_real core_measured_curvature(uint element, elvis_vec3 from, elvis_mat3 jac
                                    uint n_stages, out elvis_vec3 turn) {
     const elvis_real determinant = dot(jacobian[0], cross(jacobian[1], jacobian[2]));
     elvis_real steepest = elvis_real(0);
+    core_seen_lower = elvis_vec3(3e38);
+    core_seen_upper = elvis_vec3(-3e38);
     turn = elvis_vec3(0);
     for (int place = 0; place < 27; ++place) {
         elvis_real x = middle.x + half_side * elvis_real(place % 3 - 1);
@@ -44,6 +49,8 @@ elvis_real core_measured_curvature(uint element, elvis_vec3 from, elvis_mat3 jac
             elvis_mat3 here;
             elvis_mapping_jacobian(element, from + elvis_real(stage) * way, position, here);
             here = core_full_jacobian(here);
+            core_seen_lower = min(core_seen_lower, position);
+            core_seen_upper = max(core_seen_upper, position);
             turn = max(turn, abs(here[0] - jacobian[0]) + abs(here[1] - jacobian[1]) + abs(here[2] - jacobian[2]));
             const elvis_real change = max(core_relative_change(jacobian, here, before), core_relative_change(here, here, before));
             const bool is_sound = dot(here[0], cross(here[1], here[2])) * determinant > elvis_real(0) && core_is_finite(change);

@@ -28,6 +28,11 @@
 #define CORE_NEWTON_STEPS 12u
 #define CORE_NEWTON_STARTS 5u
 
+// Predictions farther beyond a pyramid's apex are not of the apex itself; and how far below it the mapping is evaluated then, as a
+// share of the way to the centroid.
+#define CORE_APEX_MARGIN elvis_real(1e-3LF)
+#define CORE_BELOW_APEX elvis_real(0.125LF)
+
 struct core_newton {
     // Prediction of the solution, which may lie outside.
     elvis_real x, y, z;
@@ -101,6 +106,13 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
                       out core_inverse inverse) {
     elvis_real x = state.x, y = state.y, z = state.z;
     core_project(x, y, z);
+#if ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
+    // At the apex mappings need not be smooth: what is predicted there of points elsewhere says nothing, and leads back there.
+    const bool is_beyond_apex = z >= elvis_real(1) && core_excess(state.x, state.y, state.z) > CORE_APEX_MARGIN;
+    x = is_beyond_apex ? mix(x, CORE_CENTROID.x, CORE_BELOW_APEX) : x;
+    y = is_beyond_apex ? mix(y, CORE_CENTROID.y, CORE_BELOW_APEX) : y;
+    z = is_beyond_apex ? mix(z, CORE_CENTROID.z, CORE_BELOW_APEX) : z;
+#endif
     const bool was_inside = x == state.x && y == state.y && z == state.z;
     const elvis_vec3 xi = elvis_vec3(x, y, z);
     elvis_vec3 position;

@@ -34,9 +34,10 @@ core_root core_root_of(const core_evaluation evaluation, const core_interval_sea
     const core_linear_root candidate = evaluation.candidate;
     const core_frame frame = evaluation.frame;
     core_root root;
-    // At the ends of s +- half_width the field lies on different sides of the isovalue. It crosses once only if its slope along the ray
-    // surely keeps its sign. An end may lie beyond a face, outside of [low, high], where nothing bounds the field. Then it counts whether
-    // the root itself lies in the element: is_inside, and is_surely_inside.
+    // In [low, high] the field is within the error of the line, and surely keeps the sign of its slope: it crosses at most once. It does
+    // cross if both s +- half_width lie there, since it is on different sides of the isovalue at these. If one of them lies beyond a face,
+    // where nothing bounds the field, the crossing is at the line's root but for rounding and what the line leaves out at the root, and
+    // counts if that lies in the element: is_inside, and is_surely_inside.
     root.is_proven = interval.is_known && candidate.s - candidate.half_width >= -evaluation.reach &&
                      candidate.s + candidate.half_width <= evaluation.reach &&
                      evaluation.speed * evaluation.bend * interval.radius < abs(interval.slope);
@@ -53,15 +54,21 @@ core_root core_root_of(const core_evaluation evaluation, const core_interval_sea
     root.bend = inverse_size * inverse_size * evaluation.bend / size;
     // From xi to the root the gradient changes by this much at most, and the line's root is wrong by half the product.
     const elvis_real change = evaluation.bend * distance;
+    const bool is_mostly_rounding = evaluation.bend * interval.radius * interval.radius <= interval.error;
+    // Beside a face the half width decides, and must not be what the line leaves out elsewhere.
+    const bool is_beside_face = candidate.s - candidate.half_width < interval.low || candidate.s + candidate.half_width > interval.high;
     root.is_exact = (distance <= CORE_LAST_STEP && change * inverse_size <= CORE_NORMAL_ERROR * size &&
-                     change * distance * evaluation.speed <= CORE_NORMAL_ERROR * abs(interval.slope)) ||
+                     change * distance * evaluation.speed <= CORE_NORMAL_ERROR * abs(interval.slope) &&
+                     (is_mostly_rounding || !is_beside_face)) ||
                     distance <= core_max_norm(frame.xi_error) ||
-                    // Rounding is most of the error: nothing more is to be had.
-                    (evaluation.bend * interval.radius * interval.radius <= interval.error &&
+                    // Nothing more is to be had.
+                    (is_mostly_rounding &&
                      distance <= (search.moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * evaluation.speed * candidate.half_width);
-    // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face.
+    // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face; and so does what the
+    // line leaves out.
     const elvis_real excess = core_excess(root.xi.x, root.xi.y, root.xi.z);
-    const elvis_real along_ray = elvis_real(0.25LF) * evaluation.speed * candidate.half_width;
+    const elvis_real along_ray =
+        evaluation.speed * (elvis_real(0.25LF) * candidate.half_width + elvis_real(0.5LF) * change * distance / abs(interval.slope));
     root.is_inside = excess <= CORE_CONSTRAINT_NORM * (elvis_real(2) * interval.beyond + along_ray);
     root.is_surely_inside = excess <= -CORE_CONSTRAINT_NORM * (interval.beyond + along_ray);
 #if ELVIS_HAS_INSIDE

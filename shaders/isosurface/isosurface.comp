@@ -68,9 +68,9 @@ layout(push_constant) uniform core_parameters {
 // The root, as a crossing of the ray.
 core_nearest_crossing core_found_at(const core_evaluation evaluation, const core_root root) {
     const core_linear_root candidate = evaluation.candidate;
-    return core_nearest_crossing(evaluation.middle + candidate.s, candidate.half_width, root.xi.x, root.xi.y, root.xi.z, candidate.isovalue,
-                                 root.gradient.x, root.gradient.y, root.gradient.z, root.bend, evaluation.element,
-                                 elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
+    return core_nearest_crossing(evaluation.middle + candidate.s, candidate.half_width, evaluation.interval.slope > elvis_real(0),
+                                 root.xi.x, root.xi.y, root.xi.z, candidate.isovalue, root.gradient.x, root.gradient.y, root.gradient.z,
+                                 root.bend, evaluation.element, elvis_fetch_core_elements(evaluation.element, 0u), root.is_surely_inside);
 }
 
 // Flag of a pixel in which rounding may have led the crossing away.
@@ -82,7 +82,7 @@ uint core_blur_of(const core_nearest_crossing nearest, const core_ray ray, elvis
     const elvis_vec3 xi = elvis_vec3(nearest.xi_x, nearest.xi_y, nearest.xi_z);
     const elvis_vec3 gradient = elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z);
     const elvis_real width = core_shown_rounding(is_hit ? nearest.element : 0u, xi) / abs(dot(gradient, ray.direction));
-    const bool is_blurred = is_hit && CORE_BLUR_SHARE * width * stretch > CORE_DEPTH_TOLERANCE * elvis_real(core_extent);
+    const bool is_blurred = is_hit && CORE_ROOT_SHARE * width * stretch > CORE_DEPTH_TOLERANCE * elvis_real(core_extent);
     return is_blurred ? CORE_FLAG_ISOSURFACE_UNDECIDED : 0u;
 #else
     return 0u;
@@ -103,8 +103,9 @@ uint core_search_step(core_ray ray, inout core_interval_search search, inout cor
     const core_root root = core_root_of(evaluation, search);
     const core_verdict verdict = core_judge_interval(evaluation, root, search);
     const core_nearest_crossing found = core_found_at(evaluation, root);
-    const bool is_ahead = found.t > ray.least_t + ray.widths_behind * found.slack && found.t > ray.least_t;
-    const bool is_hit = verdict.is_finished_root && root.is_inside && is_ahead;
+    const bool is_crossing = verdict.is_finished_root && root.is_inside;
+    const bool is_hit = is_crossing && core_is_ahead(ray, found.t, found.slack);
+    const bool is_doubtful = is_crossing && core_may_be_ahead(ray, found.t, found.slack);
     core_nearest_take(is_hit, found, nearest);
     const bool is_open = core_interval_search_next(evaluation, verdict, is_hit, core_nearest_end(nearest), search);
     counts.n_evaluations += is_active ? 1u : 0u;
@@ -113,7 +114,8 @@ uint core_search_step(core_ray ray, inout core_interval_search search, inout cor
     counts.n_crossings += verdict.is_finished_root ? 1u : 0u;
     counts.n_undecided += is_open ? 1u : 0u;
     const uint open_flag = evaluation.is_finite ? CORE_FLAG_ISOSURFACE_UNDECIDED : CORE_FLAG_NAN;
-    return (is_active && core_is_model_estimated(evaluation.element) ? CORE_FLAG_ESTIMATED : 0u) | (is_open ? open_flag : 0u);
+    return (is_active && core_is_model_estimated(evaluation.element) ? CORE_FLAG_ESTIMATED : 0u) | (is_open ? open_flag : 0u) |
+           (is_doubtful ? CORE_FLAG_UNDECIDED : 0u);
 }
 
 // The nearest crossing of a ray. Returns flags of the pixel.

@@ -11,10 +11,11 @@ layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_p
 // An upper bound of the surface's normal curvatures, without sign.
 layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
 
-// `depth`: from the ray's origin. `normal`: of any length and on any side. `bend`: as in core_bending, or not finite.
-void core_store_crossing(uint pixel, uint surface, elvis_real isovalue, elvis_real depth, uint number, elvis_vec3 normal,
+// `rises`: the field does, along the ray. `depth`: from the ray's origin. `normal`: of any length and on any side. `bend`: as in
+// core_bending, or not finite.
+void core_store_crossing(uint pixel, uint surface, bool rises, elvis_real isovalue, elvis_real depth, uint number, elvis_vec3 normal,
                          elvis_vec3 direction, core_place place, elvis_real bend) {
-    core_marks[pixel].owner = surface << CORE_OWNER_BITS;
+    core_marks[pixel].owner = surface << CORE_OWNER_BITS | (rises ? CORE_OWNER_RISES : 0u);
     core_samples[pixel].value = isovalue;
     core_samples[pixel].depth = depth;
     core_samples[pixel].number = number;

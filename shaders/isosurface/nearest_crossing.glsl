@@ -3,10 +3,14 @@
 // The kernel brings isosurface/isosurface_bindings.glsl.
 
 #define CORE_NO_ELEMENT 0xffffffffu
+// Unit normals that differ by less give the same colours.
+#define CORE_SAME_NORMAL elvis_real(1e-3LF)
 
 struct core_nearest_crossing {
-    // Along the ray; within `slack` of it, crossings are the same one.
+    // Along the ray, within `slack`.
     elvis_real t, slack;
+    // The field rises along the ray.
+    bool rises;
     elvis_real xi_x, xi_y, xi_z;
     elvis_real isovalue;
     // The field's gradient in the world.
@@ -17,7 +21,8 @@ struct core_nearest_crossing {
     uint element;
     // Of the element among all of the volume: of elements that share a crossing, the least one has it.
     uint number;
-    // False as near to a face as rounding moves the crossing, unless another element has it, too: beyond the face there may be nothing.
+    // False as near to a face as rounding moves the crossing: beyond the face there may be nothing. But true if another element has it,
+    // too, with the same normal.
     bool is_certain;
 };
 
@@ -27,26 +32,55 @@ core_nearest_crossing core_nearest_begin(uint pixel, elvis_real stretch, elvis_r
     core_nearest_crossing nearest;
     nearest.t = was_hit ? core_samples[pixel].depth / stretch - reference_distance : CORE_FAR;
     nearest.slack = was_hit ? elvis_real(16) * CORE_ROUNDOFF * core_samples[pixel].depth : elvis_real(0);
-    nearest.xi_x = nearest.xi_y = nearest.xi_z = nearest.isovalue = elvis_real(0);
+    nearest.rises = (core_marks[pixel].owner & CORE_OWNER_RISES) != 0u;
+    nearest.xi_x = nearest.xi_y = nearest.xi_z = elvis_real(0);
+    nearest.isovalue = was_hit ? core_samples[pixel].value : elvis_real(0);
     nearest.gradient_x = nearest.gradient_y = nearest.gradient_z = elvis_real(0);
     nearest.bend = CORE_FAR;
     nearest.element = CORE_NO_ELEMENT;
     nearest.number = was_hit ? core_samples[pixel].number : CORE_NO_NUMBER;
-    nearest.is_certain = true;
+    nearest.is_certain = (core_marks[pixel].flags & CORE_FLAG_UNDECIDED) == 0u;
     return nearest;
 }
 
 // Where rays need not be looked at any more.
 elvis_real core_nearest_end(const core_nearest_crossing nearest) { return nearest.t + nearest.slack; }
 
+// Whether a crossing found lies ahead of where the ray starts, and behind a crossing that was found before.
+bool core_is_ahead(const core_ray ray, elvis_real t, elvis_real slack) {
+    return t > ray.least_t + ray.widths_behind * slack && t > ray.least_t;
+}
+
+// Whether it can be one of its own all the same: farther from the last one than rounding leads at worst (isosurface/isosurface_blur.glsl).
+bool core_may_be_ahead(const core_ray ray, elvis_real t, elvis_real slack) {
+    return !core_is_ahead(ray, t, slack) && t > ray.least_t + CORE_ROOT_SHARE * ray.widths_behind * slack;
+}
+
+// The normals are equal but for what nobody sees.
+bool core_has_same_normal(const core_nearest_crossing one, const core_nearest_crossing other) {
+    const elvis_vec3 a = elvis_vec3(one.gradient_x, one.gradient_y, one.gradient_z);
+    const elvis_vec3 b = elvis_vec3(other.gradient_x, other.gradient_y, other.gradient_z);
+    const elvis_vec3 sine = cross(a, b);
+    return dot(sine, sine) <= CORE_SAME_NORMAL * CORE_SAME_NORMAL * dot(a, a) * dot(b, b);
+}
+
 // Takes what was found, if it is a crossing (`is_hit`), into account. `found` as above, certain if it surely lies in its element.
+//
+// Elements that share a face find a crossing in it twice, within rounding: both rise, or both fall. If one rises and the other falls, or
+// if both surely lie in their elements, then they are two, and the first one counts, however large the bounds of rounding are.
 void core_nearest_take(bool is_hit, const core_nearest_crossing found, inout core_nearest_crossing nearest) {
-    const bool is_same = abs(found.t - nearest.t) <= max(found.slack, nearest.slack);
-    const bool is_better = is_hit && (is_same ? found.number < nearest.number : found.t < nearest.t);
-    const bool is_shared = is_same && nearest.element != found.element;
+    const bool is_near = abs(found.t - nearest.t) <= max(found.slack, nearest.slack);
+    const bool is_alike = found.rises == nearest.rises && found.isovalue == nearest.isovalue;
+    const bool is_same = is_near && is_alike && !(found.is_certain && nearest.is_certain);
+    const bool is_first = is_same && found.is_certain == nearest.is_certain ? found.number < nearest.number
+                          : is_same                                         ? found.is_certain
+                                                                            : found.t < nearest.t;
+    const bool is_better = is_hit && is_first;
+    const bool is_shared = is_same && nearest.element != found.element && core_has_same_normal(found, nearest);
     nearest.is_certain = is_better ? found.is_certain || is_shared : nearest.is_certain || (is_hit && is_shared);
     nearest.t = is_better ? found.t : nearest.t;
     nearest.slack = is_better ? found.slack : nearest.slack;
+    nearest.rises = is_better ? found.rises : nearest.rises;
     nearest.xi_x = is_better ? found.xi_x : nearest.xi_x;
     nearest.xi_y = is_better ? found.xi_y : nearest.xi_y;
     nearest.xi_z = is_better ? found.xi_z : nearest.xi_z;
@@ -64,8 +98,8 @@ uint core_nearest_store(const core_nearest_crossing nearest, uint pixel, const c
                         elvis_real reference_distance) {
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     if (is_hit) {
-        core_store_crossing(pixel, core_surface_number, nearest.isovalue, (nearest.t + reference_distance) * stretch, nearest.number,
-                            elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z), ray.direction,
+        core_store_crossing(pixel, core_surface_number, nearest.rises, nearest.isovalue, (nearest.t + reference_distance) * stretch,
+                            nearest.number, elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z), ray.direction,
                             core_place(nearest.xi_x, nearest.xi_y, nearest.xi_z, nearest.element, CORE_CLASS << CORE_PLACE_FACE_BITS),
                             nearest.bend);
     }

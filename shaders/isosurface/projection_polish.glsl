@@ -21,8 +21,8 @@ core_nearest_crossing core_polished(core_ray_sample found, core_projection_searc
     const elvis_vec3 gradient = found.gradient.x * frame.row0 + found.gradient.y * frame.row1 + found.gradient.z * frame.row2;
     const elvis_vec3 point = found.xi + found.q + (root_t - search.follower.at) * found.w;
     const elvis_real inverse_square = dot(frame.row0, frame.row0) + dot(frame.row1, frame.row1) + dot(frame.row2, frame.row2);
-    return core_nearest_crossing(root_t, half_width, point.x, point.y, point.z, search.isovalue, gradient.x, gradient.y, gradient.z,
-                                 inverse_square * bend / length(gradient), search.element,
+    return core_nearest_crossing(root_t, half_width, found.slope > elvis_real(0), point.x, point.y, point.z, search.isovalue, gradient.x,
+                                 gradient.y, gradient.z, inverse_square * bend / length(gradient), search.element,
                                  elvis_fetch_core_elements(search.element, 0u), is_surely_inside);
 }
 
@@ -58,10 +58,11 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const bool is_inside = outside <= slack;
     const bool is_surely_inside = root_t >= search.segment.enter + search.segment.enter_error + slack &&
                                   root_t <= search.segment.leave - search.segment.leave_error - slack;
-    const bool is_behind_start = root_t > ray.least_t + ray.widths_behind * half_width && root_t > ray.least_t;
-    const bool is_hit = is_settled && is_confirmed && is_inside && is_behind_start;
+    const bool is_crossing = is_settled && is_confirmed && is_inside;
+    const bool is_hit = is_crossing && core_is_ahead(ray, root_t, half_width);
+    search.flags |= is_crossing && core_may_be_ahead(ray, root_t, half_width) ? CORE_FLAG_UNDECIDED : 0u;
     // The last step may be small by chance.
-    const elvis_real blur = max(abs(step), CORE_BLUR_SHARE * half_width);
+    const elvis_real blur = max(abs(step), CORE_ROOT_SHARE * half_width);
     const bool is_wide = CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size, is_blurred = is_hit && is_wide;
     // What rounding alone may have led out of the segment may be in it.
     const bool is_led_out = is_wide && !is_inside && outside <= half_width;

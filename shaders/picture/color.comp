@@ -223,7 +223,8 @@ void main() {
     elvis_vec4 color = core_table_color(shown, is_drawn);
     if (shown.is_seen) {
 #if CORE_IS_LIT
-        color.xyz = core_lit_at(pixel, color.xyz);
+        // A colour that says "no element here" stays as it is.
+        color.xyz = shown.is_outside ? color.xyz : core_lit_at(pixel, color.xyz);
 #endif
         core_note_special(shown, limits);
 #if CORE_HAS_LINES

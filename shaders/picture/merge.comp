@@ -20,6 +20,7 @@ layout(set = 0, binding = 8, std430) buffer core_depths_block { elvis_real core_
 layout(set = 0, binding = 9, std430) writeonly buffer core_beyond_block { elvis_real core_beyond[]; };
 // How many pixels want one, and between which rows these are: the first, and one more than the last.
 layout(set = 0, binding = 10, std430) buffer core_counts_block { uint core_counts[]; };
+layout(set = 0, binding = 11, std430) readonly buffer core_background_block { elvis_vec4 core_background; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
@@ -27,19 +28,19 @@ layout(push_constant) uniform core_parameters {
     uint core_surface_number;
     // The layer has normals.
     uint core_has_normals;
-    // The picture is empty, with this colour.
+    // The picture is empty.
     uint core_is_first;
-    float core_red, core_green, core_blue, core_alpha;
     uint core_width;
 };
 
 // The picture's flags with those of a pixel of the layer. Flags of a surface that found nothing, or something that is cut away, may hide
-// something that it should have found: they stay, in the upper half.
-uint core_merged_flags(core_mark layer, uint old_flags, bool is_drawn, bool is_seen, bool is_nearest) {
+// something that it should have found: they stay, in the upper half. So does doubt about what is seen through something transparent.
+uint core_merged_flags(core_mark layer, uint old_flags, bool is_drawn, bool is_seen, bool is_nearest, bool is_seen_through) {
     const uint own_flags = is_seen ? layer.flags : 0u;
     const uint may_hide = CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED;
     const uint lost_flags = !is_drawn ? layer.flags : is_seen ? 0u : layer.flags & may_hide;
-    return (is_nearest ? (old_flags & 0xffff0000u) | own_flags : old_flags) | (lost_flags << 16);
+    const uint behind_flags = is_seen_through ? (is_nearest ? old_flags : own_flags) & (may_hide | CORE_FLAG_UNDECIDED) : 0u;
+    return (is_nearest ? (old_flags & 0xffff0000u) | own_flags : old_flags) | ((lost_flags | behind_flags) << 16);
 }
 
 void main() {
@@ -65,11 +66,6 @@ void main() {
         old_depth = core_samples[pixel].depth;
     }
     const bool is_nearest = is_seen && depth < old_depth;
-    if (is_inside) {
-        const uint low_bits = layer.owner & ((1u << CORE_OWNER_BITS) - 1u);
-        core_marks[pixel].owner = is_nearest ? (core_surface_number << CORE_OWNER_BITS) | low_bits : (is_empty ? 0u : old.owner);
-        core_marks[pixel].flags = core_merged_flags(layer, is_first ? 0u : old.flags, is_drawn, is_seen, is_nearest);
-    }
     if (is_nearest) {
         core_samples[pixel] = core_layer_samples[pixel];
     }
@@ -79,10 +75,16 @@ void main() {
         core_normals[3u * pixel + 2u] = core_layer_normals[3u * pixel + 2u];
     }
     const elvis_real opaque_depth = is_first ? CORE_FAR : core_depths[safe];
+    // Through this layer, or this layer through another one.
+    const bool is_seen_through = is_seen && (is_nearest ? !is_opaque && !is_empty : depth < opaque_depth);
+    if (is_inside) {
+        const uint low_bits = layer.owner & ((1u << CORE_OWNER_BITS) - 1u);
+        core_marks[pixel].owner = is_nearest ? (core_surface_number << CORE_OWNER_BITS) | low_bits : (is_empty ? 0u : old.owner);
+        core_marks[pixel].flags = core_merged_flags(layer, is_first ? 0u : old.flags, is_drawn, is_seen, is_nearest, is_seen_through);
+    }
     const bool is_in_front = is_opaque && depth < opaque_depth;
     if (is_inside && (is_first || is_in_front)) {
-        const elvis_vec4 background = elvis_vec4(core_red, core_green, core_blue, core_alpha);
-        core_colors[pixel] = is_in_front ? color : background;
+        core_colors[pixel] = is_in_front ? color : core_background;
         core_depths[pixel] = is_in_front ? depth : CORE_FAR;
     }
     const bool is_wanted = is_drawn && !is_opaque && depth < opaque_depth;

@@ -29,6 +29,8 @@ struct core_mark {
 
 // Rank among the elements that share the point: side first, then number.
 #define CORE_OWNER_KEY 1u
+// The same bit of isosurfaces: the field rises along the ray.
+#define CORE_OWNER_RISES 1u
 // The point lies on a face of the element, within rounding.
 #define CORE_OWNER_ON_FACE 2u
 // Other elements hold it, too.

@@ -2,7 +2,7 @@
 // viewer's side, then the lowest number.
 //
 // The kernel brings picture/view.glsl, picture/samples.glsl, core_samples, core_marks, core_surface_number, core_first_component,
-// core_end_component and core_is_discontinuous.
+// core_end_component and core_value_tolerance.
 
 #include "arithmetic/driver_limit.glsl"
 #include "field/shown_value.glsl"
@@ -15,14 +15,25 @@ struct core_location {
     uint number;
     uint key;
     elvis_real x, y, z;
-    // The point lies on a face of the element, within rounding; on one that crosses the surface.
-    bool is_on_face, is_on_crossing_face;
+    // The point lies on a face of the element, within rounding.
+    bool is_on_face;
+    // Elements of the class that hold the point within rounding. They may have other values there.
     uint n_candidates;
+    bool is_ambiguous;
+    // One of those that are not shown, and the point in it.
+    uint other;
+    elvis_real other_x, other_y, other_z;
     uint n_steps;
     uint n_failures;
     // The search was ended before it was done.
     bool is_cut_short;
 };
+
+core_location core_nothing_found() {
+    const elvis_real zero = elvis_real(0);
+    return core_location(CORE_NO_ELEMENT, 0xffffffffu, 2u, zero, zero, zero, false, 0u, false, CORE_NO_ELEMENT, zero, zero, zero, 0u,
+                         0u, false);
+}
 
 // Puts what was found into the picture, unless another surface or element goes before it. Returns the number of field evaluations.
 uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_real value) {
@@ -37,12 +48,16 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
     const bool is_better = found.key < old_key || (found.key == old_key && found.number < old_number);
     const bool is_shown = has_found && (is_same_surface ? is_better : is_nearer);
 
-    const bool is_ambiguous = found.is_on_crossing_face && core_is_discontinuous != 0u;
-    uint owner = is_shown ? (core_surface_number << CORE_OWNER_BITS) | found.key | (found.is_on_face ? CORE_OWNER_ON_FACE : 0u) |
-                                (is_ambiguous ? CORE_OWNER_AMBIGUOUS : 0u)
+    const bool is_other_class = has_found && is_same_surface;
+    uint owner = is_shown ? (core_surface_number << CORE_OWNER_BITS) | found.key | (found.is_on_face ? CORE_OWNER_ON_FACE : 0u)
                           : old_owner;
-    const bool is_shared = has_found && (is_same_surface || (is_shown && found.n_candidates > 1u));
+    const bool is_shared = is_other_class || (is_shown && found.n_candidates > 1u);
     owner |= is_shared ? CORE_OWNER_SHARED : 0u;
+    // Where classes meet; within one, the caller says so or cut_surface/other_values.comp does.
+    const bool is_other_value =
+        is_other_class && !(abs(value - core_samples[pixel].value) <= elvis_real(core_value_tolerance));
+    owner |= is_other_value || (is_shown && found.is_ambiguous) ? CORE_OWNER_AMBIGUOUS : 0u;
+    owner |= is_other_class ? old_owner & CORE_OWNER_AMBIGUOUS : 0u;
     core_marks[pixel].owner = owner;
     const uint flags = (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) |
                        (is_shown ? CORE_VALUE_FLAGS : 0u);

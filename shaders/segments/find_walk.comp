@@ -1,4 +1,5 @@
-// For rays that look for their next walk (segments/walk_state.glsl): the nearest start in the elements of one class.
+// For rays that look for their next walk (segments/walk_state.glsl): the nearest start in the elements of one class, by a face without
+// neighbour. Those that start at the eye do so before (segments/start_at_eye.comp).
 //
 // A hierarchy over the elements in which rays can start, of which each tile of pixels has a list (tiles/ray_tiles.comp). Rays that are
 // given one by one descend from its root.
@@ -61,7 +62,7 @@ struct core_start_search {
     // The last walk's start, and the nearest one so far.
     core_walk_state walk;
     elvis_real at_error;
-    // There is no last walk: this one may start at the eye. Starts before `from` do not count.
+    // There is no last walk. Starts before `from`, the eye, do not count.
     bool is_first;
     elvis_real from;
     // Where the tile's list begins, its next entry, and how many it has.
@@ -124,11 +125,10 @@ void core_follow_candidate(core_ray pixel_ray, const core_traced_ray ray, core_s
                            inout core_start_search search) {
     const elvis_real begin = search.is_first ? max(candidate.from, search.from) : candidate.from;
     const elvis_real end = min(candidate.to, begin + ray.longest);
-    const bool is_around_eye = search.is_first && candidate.from <= search.from;
+    // The last walk, if there is one, may have begun at the eye.
     const bool is_taken =
         !search.is_first && core_first_element + candidate.element == search.walk.global_start_element && search.from > pixel_ray.least_t;
-    const bool may_start =
-        is_around_eye || core_may_start(ray, candidate.element, begin, end, search.is_first ? begin : search.from, is_taken);
+    const bool may_start = core_may_start(ray, candidate.element, begin, end, search.is_first ? begin : search.from, is_taken);
     search.is_following = core_segment_begin(ray, candidate.element, begin, end, false, segment) && may_start;
     search.has_entered = false;
 }
@@ -146,15 +146,10 @@ core_start_candidate core_next_start_candidate(core_ray pixel_ray, inout core_st
 }
 
 #if CORE_HAS_CURVED
-// In an element so curved that bounds tell little: a start at the eye, and through each face by which the ray may come in.
+// In an element so curved that bounds tell little: through each face by which the ray may come in.
 void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment,
                           inout core_start_search search) {
     const uint global_element = core_first_element + segment.element;
-    if (is_curved && search.is_first && segment.anchor.t <= search.from) {
-        const bool is_in = core_segment_enter(ray, elvis_real(0), segment);
-        search.n_evaluations += segment.iterations;
-        core_take_start(is_in, search.from, search.at_error, global_element, search);
-    }
     // Bits of the faces that are still to be tried.
     uint open = 0u, start = 0u;
     core_face_exit face_exit = core_face_exit(false, elvis_vec3(0), elvis_vec3(0));
@@ -186,7 +181,8 @@ void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved,
 // Whether the ray enters the element through a face without neighbour, or through one that is as near within rounding.
 bool core_enters_volume(const core_segment segment, const core_traced_ray ray) {
     const elvis_vec3 at = core_predicted(segment.anchor, segment.enter), slope = abs(core_slope_of(segment.anchor));
-    const elvis_real near = elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF;
+    const elvis_real near =
+        elvis_real(8) * ray.tolerance * (slope.x + slope.y + slope.z) + elvis_real(64) * CORE_ROUNDOFF + core_max_norm(segment.noise);
     bool enters = false;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
@@ -211,16 +207,16 @@ bool core_follow(const core_traced_ray ray, uint ending, const core_segment segm
     const uint global_element = core_first_element + segment.element;
     const bool is_newly_inside = is_following && segment.is_inside && !search.has_entered;
     search.has_entered = search.has_entered || is_newly_inside;
-    // Also where the eye lies in a face, or nearer to it than rounding tells: then the ray comes in by that face.
-    const elvis_real eye_end = search.from + (segment.enter_face < 0 ? elvis_real(0) : segment.enter_error + elvis_real(16) * ray.tolerance);
-    const bool is_at_eye = search.is_first && segment.enter <= eye_end;
+    // Where rounding hides whether the ray enters, it may go on from there into an element that has an edge in the boundary, but no face.
+    const bool is_touching = is_following && segment.is_touched;
     bool is_start = false;
-    if (is_newly_inside && (search.is_first || core_is_behind_last(ray, segment.enter, global_element, search))) {
-        is_start = is_at_eye || core_enters_volume(segment, ray);
+    if ((is_newly_inside || is_touching) && (search.is_first || core_is_behind_last(ray, segment.enter, global_element, search))) {
+        is_start = core_enters_volume(segment, ray);
     }
     // Where no face is met it was said too early, by estimates, that the ray is outside.
-    const bool is_late = segment.enter_face < 0 && !is_at_eye;
-    core_take_start(is_start, segment.enter, is_late ? CORE_LATE_ERROR * ray.tolerance : segment.enter_error, global_element, search);
+    const bool is_late = segment.enter_face < 0;
+    const elvis_real error = is_late ? max(CORE_LATE_ERROR * ray.tolerance, segment.enter_error) : segment.enter_error;
+    core_take_start(is_start, segment.enter, error, global_element, search);
     search.is_following = is_following && !is_start && ending == CORE_SEGMENT_OPEN;
     return ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
 }

@@ -78,11 +78,13 @@ void core_follow_to(inout core_follower follower, elvis_real goal, elvis_real sp
     core_predict_point(follower, goal);
 }
 
-// The field at a point of the ray that is off by result.beyond at most, and how far it may be from a line over the span. `step`: of
+// The field at a point of the ray that is off by `off` and `rounding` at most, and how far it may be from a line over the span. `step`: of
 // Newton's method that led there; `far_step`: that to the farthest point of the span. The change of the point with the parameter is that
 // where the step began.
-void core_sample_field(uint element, elvis_vec3 point, elvis_real step, elvis_real far_step, elvis_real curvature, elvis_real span,
-                       inout core_ray_sample result) {
+void core_sample_field(uint element, elvis_vec3 point, elvis_real off, elvis_vec3 rounding, elvis_real step, elvis_real far_step,
+                       elvis_real curvature, elvis_real span, inout core_ray_sample result) {
+    result.rounding = core_max_norm(rounding);
+    result.beyond = off + result.rounding;
     elvis_real x = point.x, y = point.y, z = point.z;
     // Or at the nearest point of the shape.
     core_project(x, y, z);
@@ -99,17 +101,20 @@ void core_sample_field(uint element, elvis_vec3 point, elvis_real step, elvis_re
     const core_model model = core_shown_model(element, result.xi, region, value);
     result.gradient = model.slope;
     const elvis_real size = core_model_norm1(model.slope);
-    const elvis_real blur = size * (result.beyond + elvis_real(4) * CORE_ROUNDOFF * region.radius);
+    const elvis_real blur = dot(abs(model.slope), rounding) + size * (off + elvis_real(4) * CORE_ROUNDOFF * outside);
     result.is_known = core_model_is_known(model);
     result.value = result.is_known ? model.value + dot(model.slope, result.q) : value;
     result.slope = dot(model.slope, result.w);
     // Remainders go with the square of the distance, but for rounding.
     const elvis_real share = (outside + result.beyond) / region.radius;
     const elvis_real remainder = region.radius > elvis_real(0) ? model.remainder * share * share : model.remainder;
+#ifdef CORE_SHOWN_BY_EXPRESSION
+    const elvis_real of_value = CORE_MODEL_OPERATIONS * CORE_ROUNDOFF * (abs(model.value) + size * outside);
+#else
+    const elvis_real of_value = core_shown_rounding(element, result.xi);
+#endif
     // Without a model: what rounding alone does.
-    const elvis_real operations = CORE_MODEL_OPERATIONS * CORE_ROUNDOFF;
-    result.error = (result.is_known ? CORE_MODEL_UP * (remainder + blur) +
-                                          (elvis_real(1) - share) * operations * (abs(model.value) + size * outside)
+    result.error = (result.is_known ? CORE_MODEL_UP * (remainder + blur) + of_value
                                     : elvis_real(64) * CORE_ROUNDOFF * abs(value) + blur) +
                    elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
     result.bend = result.is_known ? model.remainder + size * core_prediction_error(curvature, max(step, far_step)) : CORE_UNKNOWN;
@@ -138,14 +143,14 @@ core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_
                                  ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(way)));
     const elvis_vec3 newton = core_to_xi(result.frame, ((shift - position) + ray.origin) + way);
     result.w = core_to_xi(result.frame, ray.direction);
-    result.rounding = core_max_norm(result.frame.xi_error);
     const elvis_vec3 found = xi + newton;
     const elvis_real change = core_max_norm(found - elvis_vec3(follower.x, follower.y, follower.z));
     const elvis_real step = core_max_norm(newton);
     // Where the bound says nothing, two predictions that agree do, as in element/newton.glsl.
-    result.beyond = min(core_prediction_error(curvature, step), change) + result.rounding;
+    const elvis_real off = min(core_prediction_error(curvature, step), change);
 
-    core_sample_field(element, found, step, core_max_norm(newton + follower.span * result.w), curvature, follower.span, result);
+    core_sample_field(element, found, off, result.frame.xi_error, step, core_max_norm(newton + follower.span * result.w), curvature,
+                      follower.span, result);
     const bool is_enough = core_sample_is_enough(result, follower.span, follower.enough);
     result.is_finite = result.is_finite && core_is_finite(core_max_norm(position));
 
@@ -178,11 +183,10 @@ core_ray_sample core_sample_predicted(const core_segment segment, elvis_real at,
     result.w = core_slope_of(segment.anchor);
     const elvis_real speed = core_max_norm(result.w), step = segment.newton_step + abs(at - segment.anchor.t) * speed;
     const elvis_real off = core_prediction_error(segment.curvature, step);
-    result.rounding = segment.noise;
-    result.beyond = off + segment.noise;
-    core_sample_field(segment.element, core_predicted(segment.anchor, at), step, step + abs(span) * speed, segment.curvature, span, result);
+    core_sample_field(segment.element, core_predicted(segment.anchor, at), off, segment.noise, step, step + abs(span) * speed,
+                      segment.curvature, span, result);
     const bool is_enough = core_sample_is_enough(result, span, enough);
-    const bool has_converged = result.is_known && off <= elvis_real(3) * segment.noise;
+    const bool has_converged = result.is_known && off <= elvis_real(3) * result.rounding;
     result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(span) * result.slope_error;
     result.status = (is_enough || has_converged) && result.is_finite && step < elvis_real(1) ? CORE_SAMPLE_FOUND : CORE_SAMPLE_RUNNING;
     return result;

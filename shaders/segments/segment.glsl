@@ -43,6 +43,8 @@
 // Least curvature of elements in which rays are followed from there: with less, no two points that are both in the element's
 // neighbourhood are taken for each other.
 #define CORE_FOLLOWED_CURVATURE elvis_real(0.25LF)
+// Where predictions are better than this share of rounding, another one is no better.
+#define CORE_PREDICTION_SHARE elvis_real(0.5LF)
 // Of tolerances.
 #define CORE_MOST_BLUR elvis_real(64)
 // Cut elements have ends of two kinds, and are asked for more of both.
@@ -59,6 +61,8 @@
 struct core_segment {
     uint element;
     bool is_inside, is_estimated, has_failed;
+    // The last iteration has left out what may be inside: from `enter` on, over `enter_error`.
+    bool is_touched;
     // Inside as the neighbour says, which nothing has confirmed yet.
     bool is_assumed;
     // From a point in the element (core_segment_enter): predictions only count as far as they surely follow it.
@@ -75,7 +79,8 @@ struct core_segment {
     // The last prediction, from which the next point comes.
     core_ray_point anchor;
     // Length of the step that led to it, and rounding of its coordinates.
-    elvis_real newton_step, noise;
+    elvis_real newton_step;
+    elvis_vec3 noise;
     elvis_real curvature;
     uint iterations;
 };
@@ -123,7 +128,7 @@ bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begi
 
     segment.element = element;
     segment.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
-    segment.has_failed = false;
+    segment.has_failed = segment.is_touched = false;
     segment.curvature = segment.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
     segment.is_followed = false;
     segment.is_assumed = ELVIS_HAS_INSIDE == 0 && is_entered && !is_sure && clip.possible_from <= begin;
@@ -140,7 +145,7 @@ bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begi
     segment.anchor = core_either(is_linearized, core_ray_point_at(begin, here, model.slope),
                                  core_ray_point_at(begin, CORE_CENTROID, elvis_vec3(0)));
     segment.newton_step = elvis_real(3e38LF);
-    segment.noise = elvis_real(0);
+    segment.noise = elvis_vec3(0);
     segment.iterations = 0u;
     return is_possible;
 }
@@ -247,7 +252,7 @@ void core_predict_from(const core_ray_evaluation here, elvis_real curvature, elv
     const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.newton_step)));
     segment.anchor = core_either(is_anchor, core_ray_point_at(model.anchor, model.at, model.slope), segment.anchor);
     segment.newton_step = is_anchor ? core_model_step(model, model.anchor) : segment.newton_step;
-    segment.noise = is_anchor ? core_max_norm(model.noise) : segment.noise;
+    segment.noise = is_anchor ? model.noise : segment.noise;
     const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
     const elvis_real follow_end = max(segment.anchor.t + core_follow_span(segment.curvature) / rate, segment.begin + tolerance);
     const bool is_too_far = segment.is_followed && follow_end < segment.end;
@@ -295,7 +300,8 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
         has_left = core_seek_leave(ray, clip, is_exact, error.parameter, segment);
     }
     if (!is_kept_in) {
-        core_seek_enter(ray, clip, is_exact, error.parameter, segment);
+        const bool is_blurred = here.is_sound && !clip.is_sure && bound <= CORE_PREDICTION_SHARE * core_max_norm(here.model.noise);
+        core_seek_enter(ray, clip, is_exact, is_blurred, error.parameter, segment);
     }
     segment.is_followed = segment.is_followed && !is_denied;
     core_predict_from(here, curvature, ray.tolerance, segment);

@@ -1,7 +1,9 @@
 // How the interval in which an end of a segment is looked for shrinks, by what an iteration tells of it (segments/segment.glsl).
 
 // Before the ray enters: where the interval is open, and whether the ray enters in it.
-void core_seek_enter(const core_traced_ray ray, core_ray_clip clip, bool is_exact, elvis_real error, inout core_segment segment) {
+// `is_blurred`: what is open is rounding's, and no evaluation tells more of it.
+void core_seek_enter(const core_traced_ray ray, core_ray_clip clip, bool is_exact, bool is_blurred, elvis_real error,
+                     inout core_segment segment) {
     const elvis_real begin = segment.begin, end = segment.end;
     const bool is_nothing = clip.possible_from > clip.possible_to;
     segment.last = end == segment.last ? (is_nothing ? begin : clip.possible_to) : segment.last;
@@ -14,11 +16,12 @@ void core_seek_enter(const core_traced_ray ray, core_ray_clip clip, bool is_exac
     const bool is_shrunk = open_end - clip.possible_from <= elvis_real(0.5LF) * (end - begin);
     const elvis_real middle = elvis_real(0.5LF) * (clip.possible_from + open_end);
     // Too short to matter, and not decided: left out.
-    const bool is_left_out = !is_nothing && !is_found && open_end - clip.possible_from <= ray.tolerance;
+    const bool is_left_out = !is_nothing && !is_found && (is_blurred || open_end - clip.possible_from <= ray.tolerance);
     const bool is_over = is_nothing || is_left_out;
-    segment.enter = is_found ? clamp(clip.from, clip.possible_from, clip.sure_from) : segment.enter;
-    segment.enter_error = is_found ? error : segment.enter_error;
-    segment.enter_face = is_found ? clip.from_face : segment.enter_face;
+    segment.is_touched = is_left_out;
+    segment.enter = is_found ? clamp(clip.from, clip.possible_from, clip.sure_from) : is_left_out ? clip.possible_from : segment.enter;
+    segment.enter_error = is_found ? error : is_left_out ? open_end - clip.possible_from : segment.enter_error;
+    segment.enter_face = is_found ? clip.from_face : is_left_out ? CORE_NO_FACE : segment.enter_face;
     segment.is_inside = is_found;
     segment.begin = is_found ? segment.known_to : is_nothing ? end : is_left_out ? open_end : clip.possible_from;
     const bool is_bounded = segment.known_to == clip.sure_to && clip.possible_to < end;

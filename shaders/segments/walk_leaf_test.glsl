@@ -1,5 +1,4 @@
-// Whether the rays of a tile can come into an element through one of its faces without neighbour, or begin in it; for
-// tiles/ray_tiles.comp.
+// Whether the rays of a tile can come into an element through one of its faces without neighbour; for tiles/ray_tiles.comp.
 
 #include "segments/ray_motion.glsl"
 
@@ -12,7 +11,7 @@ bool core_leaf_is_met(uint item, core_frustum frustum, vec2 span) {
         motions[corner] = core_motion_along(linearization, curvature, elvis_vec3(frustum.directions[corner]));
     }
     // The element's own boundary is anywhere in it.
-    bool may_start = ELVIS_HAS_INSIDE == 1 || span.x <= frustum.eye_t;
+    bool may_start = ELVIS_HAS_INSIDE == 1;
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const bool leaves = core_surely_leaves(motions[0], item, face) && core_surely_leaves(motions[1], item, face) &&
                             core_surely_leaves(motions[2], item, face) && core_surely_leaves(motions[3], item, face);

@@ -64,6 +64,10 @@ core_transfer_piece core_piece_of(const core_held_piece held) {
                                elvis_vec3(held.red_slope, held.green_slope, held.blue_slope));
 }
 
+elvis_real core_color_slope(const core_held_piece held) {
+    return max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
+}
+
 void core_hold_value(inout core_held_piece held, elvis_real value) {
     const bool is_held = value >= held.lower && value < held.upper;
     if (!is_held) {

@@ -126,13 +126,15 @@ void core_try_step(inout core_integral integral, inout core_light light, elvis_r
     const elvis_real step_error = light.transmittance * max(off, min(hidden, elvis_real(1)));
     const elvis_real rounding = light.transmittance * width * steepness * integral.error;
     // What is flagged already is not looked at more closely than what is not.
-    const elvis_real budget = light.error < wanted.tolerance ? wanted.tolerance - light.error : wanted.tolerance;
+    const elvis_real error = core_light_error(light);
+    const elvis_real budget = error < wanted.tolerance ? wanted.tolerance - error : wanted.tolerance;
     const elvis_real rest = wanted.ahead - step * elvis_real(integral.index);
     const elvis_real allowed = budget * max(step / max(rest, step), CORE_LEAST_SHARE);
     const bool has_room = integral.n_samples < CORE_MOST_SAMPLES, is_bounded = integral.level < CORE_MOST_LEVELS && has_room;
     const bool is_taken = step_error <= max(allowed, rounding) || !is_bounded;
     if (is_taken) {
-        light.error += step_error + rounding;
+        light.error += step_error;
+        light.rounding += rounding * rounding;
         core_add_light(light, two.xyz, two.w);
     }
     integral.n_steps += is_taken ? 1u : 0u;

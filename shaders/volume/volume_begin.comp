@@ -18,6 +18,6 @@ void main() {
         core_walk_state(-CORE_FAR, CORE_FAR, -CORE_FAR, CORE_NO_ELEMENT, CORE_NO_ELEMENT, CORE_RAY_SEEKS, 0u);
     const elvis_real none = elvis_real(0);
     if (pixel < core_n_pixels) {
-        core_states[pixel] = core_volume_state(walk, CORE_FAR, core_light(none, none, none, elvis_real(1), none));
+        core_states[pixel] = core_volume_state(walk, CORE_FAR, core_light(none, none, none, elvis_real(1), none, none));
     }
 }

@@ -16,6 +16,9 @@
 // Breakpoints met and intervals halved in one step. After this many, the step is given up and counts as inexact.
 #define CORE_MOST_ITERATIONS 256u
 #define CORE_BREAKPOINT_ITERATIONS 48u
+// How fast the error of a step's polynomial changes with the parameter, over its largest: t^2 (1 - t)^2 (t - a)^2, of a quintic, by 6.9
+// where a = CORE_INNER_AT, and rounding that changes its sign from sample to sample by as much.
+#define CORE_ERROR_CHANGE elvis_real(8)
 // Of the parameter: intervals are not halved further.
 #define CORE_SMALLEST_INTERVAL elvis_real(1.52587890625e-5LF)
 // Share of what a step may be off that quadrature may be off in a section: little, as its estimate may be far too small where both rules
@@ -73,7 +76,8 @@ elvis_real core_power_bend(const core_polynomial powers) {
 struct core_fitted {
     // In the Bernstein basis, and by powers of the step's parameter.
     core_polynomial p, powers;
-    elvis_real error;
+    // What it is off, and how much of that is rounding.
+    elvis_real error, rounding;
 };
 
 // The light of a section.
@@ -218,12 +222,57 @@ core_section core_next_section(const core_polynomial powers, const core_step_int
     return section;
 }
 
-// Light of the section, if quadrature is good enough, which is returned. `missed`: the sum of what it is off; `allowed`: in this section.
+// What the field's error E does to light along a step. With the density r, the colour c, the transmittance T, and the light R from behind
+// over T, a channel is off by
+//
+//     integral of T (c - R) r'(f) E + integral of T r c'(f) E.
+//
+// T (c - R) changes along the ray with the colour only. So with G the integral of r'(f) from the step's beginning, the first is
+//
+//     T (c - R) G E at the step's end - integral of G (T (c - R) E)'.
+//
+// In a peak that is narrow in the step G comes back to zero: what the error takes on one side, it gives on the other.
+struct core_field_effect {
+    // Bounds of all without regard to signs, and of all but what stands at the step's end in the other form.
+    elvis_real unsigned_bound, signed_bound;
+    // G.
+    elvis_real swing;
+    // What it does where the field may be on the other side of a breakpoint; and where it may be all beyond a jump, or not.
+    elvis_real at_breakpoints, at_jumps;
+};
+
+// `before`: the transmittance up to the section; `length`: of the step.
+void core_add_field_effect(inout core_field_effect effect, const core_step_interval interval, const core_section section,
+                           const core_held_piece held, elvis_real before, elvis_real length, elvis_real error) {
+    const elvis_real swing = effect.swing + section.width * held.density_slope;
+    const elvis_real mean_swing = elvis_real(0.5LF) * (abs(effect.swing) + abs(swing));
+    const elvis_real change = interval.is_monotone ? abs(section.end - interval.first) : interval.greatest - interval.least;
+    const elvis_real of_color = held.steepness - abs(held.density_slope);
+    effect.unsigned_bound += before * section.ray_length * error * held.steepness;
+    effect.signed_bound += before * error * (section.ray_length * (CORE_ERROR_CHANGE * mean_swing + of_color) +
+                                             length * mean_swing * core_color_slope(held) * change);
+    effect.swing = swing;
+}
+
+// At least what it comes to in the end.
+elvis_real core_least_effect(const core_field_effect effect) {
+    return effect.at_breakpoints + effect.at_jumps + min(effect.unsigned_bound, effect.signed_bound);
+}
+
+// Of the whole step, into what light is off. `transmittance`: up to its end.
+void core_add_effect(inout core_light light, const core_field_effect effect, const core_fitted fitted, elvis_real length) {
+    const elvis_real at_end = light.transmittance * length * fitted.error * abs(effect.swing);
+    const elvis_real all = effect.at_breakpoints + min(effect.unsigned_bound, effect.signed_bound + at_end);
+    const elvis_real of_rounding = fitted.rounding / fitted.error * all;
+    light.error += all - of_rounding + effect.at_jumps;
+    light.rounding += of_rounding * of_rounding;
+}
+
+// Light of the section, if quadrature is good enough, which is returned. `missed`: the sum of what it is off; `allowed`: in this section;
+// `of_field`: what the field's error does to it.
 bool core_add_section(inout core_light light, const core_attenuation attenuation, const core_section section,
-                      const core_held_piece held, elvis_real error, elvis_real allowed, inout elvis_real missed) {
-    const elvis_real color_slope = max(max(abs(held.red_slope), abs(held.green_slope)), abs(held.blue_slope));
-    const elvis_real before = light.transmittance, miss = before * color_slope * attenuation.missed;
-    const elvis_real of_field = before * section.ray_length * held.steepness * error;
+                      const core_held_piece held, elvis_real of_field, elvis_real allowed, inout elvis_real missed) {
+    const elvis_real before = light.transmittance, miss = before * core_color_slope(held) * attenuation.missed;
     // Quadrature need not be better than the field.
     const bool is_good = miss <= max(allowed, elvis_real(0.25LF) * (miss + of_field)) || section.is_smallest;
     const bool is_done = section.is_simple && is_good;
@@ -233,33 +282,38 @@ bool core_add_section(inout core_light light, const core_attenuation attenuation
     light.green += absorbed * held.green + weighted * held.green_slope;
     light.blue += absorbed * held.blue + weighted * held.blue_slope;
     light.transmittance *= is_done ? attenuation.transmittance : elvis_real(1);
-    light.error += is_done ? miss + of_field : elvis_real(0);
+    light.error += is_done ? miss : elvis_real(0);
     missed += is_done ? miss : elvis_real(0);
     return is_done;
 }
 
-// Where the polynomial comes so near to a breakpoint that the field may be on the other side. If the section touches a breakpoint without
-// crossing, the whole section may be on the wrong side; if it crosses, only the crossing width may be. `before`: the transmittance up to
-// the section; `length`: of the step.
-void core_add_breakpoint_error(inout core_light light, const core_polynomial powers, const core_step_interval interval,
-                               const core_section section, const core_held_piece held, elvis_real before, elvis_real length,
-                               elvis_real error, bool is_done, bool crosses) {
+// How far from t the polynomial may stay as near to its value there as `reach`. `bend`: core_power_bend.
+elvis_real core_stay(const core_polynomial powers, elvis_real t, elvis_real bend, elvis_real reach) {
+    const elvis_real slope = abs(core_power_slope(powers, t)), rest = slope * slope - elvis_real(4) * bend * reach;
+    return rest > elvis_real(0) ? elvis_real(2) * reach / (slope + sqrt(rest)) : CORE_FAR;
+}
+
+// Where the polynomial comes so near to a breakpoint that the field may be on the other side: there the density's slope is another one, by
+// twice the steepest at most, for half of that way on average. `before`: the transmittance up to the section; `length`: of the step.
+void core_add_breakpoint_effect(inout core_field_effect effect, const core_polynomial powers, const core_step_interval interval,
+                                const core_section section, const core_held_piece held, elvis_real before, elvis_real length,
+                                elvis_real bend, elvis_real error, bool is_done, bool crosses) {
     const elvis_real first = interval.first, end = section.end;
     const elvis_real reach = (section.is_small ? elvis_real(3) : elvis_real(1.25LF)) * error;
-    const elvis_real across = min(elvis_real(4) * reach / max(abs((crosses ? section.next : end) - first), reach), elvis_real(1));
     const bool is_uncertain = is_done && !section.is_whole;
     const bool touches_first = is_uncertain && (section.rises ? first - held.lower : held.upper - first) <= reach;
     const bool touches_last = is_uncertain && !crosses && (section.rises ? held.upper - end : end - held.lower) <= reach;
-    const elvis_real first_share = touches_first ? (interval.has_crossed ? across : elvis_real(1)) : elvis_real(0);
-    const elvis_real last_share = crosses ? across : touches_last ? elvis_real(1) : elvis_real(0);
-    light.error += before * section.ray_length * (reach + error) * elvis_real(core_steepest) * (first_share + last_share);
+    const elvis_real stay_first = touches_first ? core_stay(powers, interval.from, bend, reach) : elvis_real(0);
+    const elvis_real stay_last = crosses || touches_last ? core_stay(powers, section.until, bend, reach) : elvis_real(0);
+    effect.at_breakpoints += before * length * reach * elvis_real(core_steepest) *
+                             (min(stay_first, section.width) + min(stay_last, section.width));
 #if CORE_HAS_JUMPS
     if ((touches_first && !interval.has_crossed) || touches_last) {
-        light.error += before * section.ray_length * core_jump_at(held, touches_last == section.rises);
+        effect.at_jumps += before * section.ray_length * core_jump_at(held, touches_last == section.rises);
     }
     if (crosses) {
         const elvis_real width = core_uncertain_width(powers, section.until, section.next, error);
-        light.error += before * length * width * core_jump_at(held, section.rises);
+        effect.at_breakpoints += before * length * width * core_jump_at(held, section.rises);
     }
 #endif
 }
@@ -289,10 +343,13 @@ void core_add_polynomial(inout core_light light, const core_fitted fitted, elvis
                          inout core_held_piece held, inout uint n_breakpoints, inout elvis_real missed, inout uint work) {
     const core_polynomial p = fitted.p;
     const elvis_real bend = core_power_bend(fitted.powers), error = fitted.error;
+    const elvis_real of_fit = elvis_real(1) - fitted.rounding / error;
     core_step_interval interval = core_step_interval(elvis_real(0), elvis_real(1), elvis_real(1), p.c[0], p.c[CORE_FIT_DEGREE],
                                                      core_least(p), core_most(p), core_is_monotone(p), false, false);
+    core_field_effect effect = core_field_effect(elvis_real(0), elvis_real(0), elvis_real(0), elvis_real(0), elvis_real(0));
     uint n_iterations = 0u;
-    while (interval.from < elvis_real(1) && light.error <= most && n_iterations < CORE_MOST_ITERATIONS) {
+    while (interval.from < elvis_real(1) && light.error + of_fit * core_least_effect(effect) <= most &&
+           n_iterations < CORE_MOST_ITERATIONS) {
         n_iterations += 1u;
         work += CORE_WORK_AN_ITERATION;
         if (interval.is_new) {
@@ -302,18 +359,25 @@ void core_add_polynomial(inout core_light light, const core_fitted fitted, elvis
         const core_attenuation attenuation = core_attenuate(fitted.powers, held, interval.from, section.width,
                                                             interval.first - held.from, section.end - held.from, section.ray_length);
         const elvis_real before = light.transmittance;
-        const bool is_done = core_add_section(light, attenuation, section, held, error, allowed, missed);
+        core_field_effect next = effect;
+        core_add_field_effect(next, interval, section, held, before, length, error);
+        const elvis_real of_field = core_least_effect(next) - core_least_effect(effect);
+        const bool is_done = core_add_section(light, attenuation, section, held, of_field, allowed, missed);
         const bool crosses = is_done && section.meets;
-        core_add_breakpoint_error(light, fitted.powers, interval, section, held, before, length, error, is_done, crosses);
+        effect.unsigned_bound = is_done ? next.unsigned_bound : effect.unsigned_bound;
+        effect.signed_bound = is_done ? next.signed_bound : effect.signed_bound;
+        effect.swing = is_done ? next.swing : effect.swing;
+        core_add_breakpoint_effect(effect, fitted.powers, interval, section, held, before, length, bend, error, is_done, crosses);
         if (crosses) {
             held = core_load_piece(section.rises ? held.index + 1u : held.index - 1u);
         }
         n_breakpoints += crosses ? 1u : 0u;
         core_choose_interval(section, is_done, crosses, interval);
-        if (interval.from >= elvis_real(1) || light.error > most) {
+        if (interval.from >= elvis_real(1) || light.error + of_fit * core_least_effect(effect) > most) {
             break;
         }
     }
+    core_add_effect(light, effect, fitted, length);
     // Not all of it is there.
     const elvis_real lost = interval.from < elvis_real(1) ? elvis_real(1) : elvis_real(0);
     light.error += lost;

@@ -24,7 +24,8 @@ void main() {
     const core_volume_state state = core_states[min(pixel, core_n_pixels - 1u)];
     const core_light light = state.light;
     const bool is_drawn = is_inside && light.transmittance < elvis_real(1);
-    const uint inexact = light.error > elvis_real(core_tolerance) ? CORE_FLAG_VOLUME_TOLERANCE : 0u;
+    // Or no number.
+    const uint inexact = core_light_error(light) <= elvis_real(core_tolerance) ? 0u : CORE_FLAG_VOLUME_TOLERANCE;
     const uint cut_short = state.walk.status == CORE_RAY_ENDS ? 0u : CORE_FLAG_WORK_LIMIT;
     if (is_drawn) {
         // Colours are not multiplied by opacity, so that an opaque background stays what it is; light is.

@@ -135,8 +135,8 @@ core_fitted core_step_polynomial(const core_integral integral) {
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_SHARE * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(left.slope), abs(right.slope));
-    fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + integral.error +
-                   elvis_real(8) * CORE_ROUNDOFF * size;
+    fitted.rounding = integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + fitted.rounding;
     return fitted;
 }
 
@@ -153,13 +153,14 @@ core_judgement core_judge_step(const core_integral integral, const core_fitted f
                                const core_held_piece held) {
     const elvis_real width = integral.right - integral.left, tolerance = wanted.tolerance;
     // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
-    const elvis_real budget = light.error < tolerance ? max(tolerance - light.error, CORE_LEAST_SHARE * tolerance) : tolerance;
+    const elvis_real error = core_light_error(light);
+    const elvis_real budget = error < tolerance ? max(tolerance - error, CORE_LEAST_SHARE * tolerance) : tolerance;
     const bool is_whole = core_least(fitted.p) - fitted.error >= held.lower && core_most(fitted.p) + fitted.error < held.upper;
     // What cannot be good, and a cubic that may not be, is not tried: another sample is.
-    const elvis_real worst = light.transmittance * width * wanted.per_parameter * fitted.error;
+    const elvis_real worst = light.transmittance * width * wanted.per_parameter * (fitted.error - fitted.rounding);
     core_judgement judgement;
     judgement.allowed = budget * max(width / max(wanted.ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
-    judgement.is_exhausted = integral.has_inner && (core_is_shortest(integral) || fitted.error <= elvis_real(2) * integral.error);
+    judgement.is_exhausted = integral.has_inner && (core_is_shortest(integral) || fitted.error <= elvis_real(2) * fitted.rounding);
     // The bound of a line is what it may well be off.
     const elvis_real acceptable = integral.is_line ? CORE_LINE_SHARE * judgement.allowed : judgement.allowed;
     const bool is_hopeful = is_whole ? worst * held.steepness <= acceptable
@@ -246,7 +247,7 @@ void core_integrate_step(inout core_integral integral, inout core_light light, c
             core_add_polynomial(next, fitted, length, most, CORE_QUADRATURE_SHARE * allowed, held, n_breakpoints, missed, work);
         }
         // The rest is not of the polynomial's making.
-        const bool is_rounding = fitted.error <= elvis_real(2) * integral.error && missed <= allowed;
+        const bool is_rounding = fitted.error <= elvis_real(2) * fitted.rounding && missed <= allowed;
         const bool is_good = (judgement.is_tried && next.error - light.error <= allowed) ||
                              (integral.has_inner && (core_is_shortest(integral) || is_rounding));
         integral.n_steps += is_good ? 1u : 0u;

@@ -139,7 +139,7 @@ TEST_CASE("bounds, ranges, numbers and faces out of range are refused") {
     std::array<elvis_face, 6> faces{};
     CHECK_NOTHROW(open("faces").faces(0, 6, faces));
     CHECK(faces[5].local_face == 5);
-    for (const char* name : {"faces-element", "faces-neighbour", "faces-local", "faces-group"}) {
+    for (const char* name : {"faces-element", "faces-neighbour", "faces-local", "faces-tetrahedron", "faces-group"}) {
         INFO(name);
         CHECK_THAT(error_of([&] { open(name).faces(0, 6, faces); }), blames("get_faces"));
     }

@@ -21,6 +21,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -144,6 +145,16 @@ void run(const RenderArguments& arguments) {
     }
 }
 
+/** The option's library takes nan and inf for numbers, and nan for one in any range. */
+CLI::Validator finite_number() {
+    return {[](std::string& text) {
+                double number = 0;
+                const bool is_finite = CLI::detail::lexical_cast(text, number) && std::isfinite(number);
+                return is_finite ? std::string() : "'" + text + "' is no finite number";
+            },
+            ""};
+}
+
 void add_surfaces(CLI::App& command, RenderArguments& a) {
     command.add_option("input", a.input, "Scene file (JSON) or volume");
     command.add_option("-o,--output", a.output, "Picture to write (PNG), or folder for those of an animation");
@@ -156,7 +167,8 @@ void add_surfaces(CLI::App& command, RenderArguments& a) {
         ->expected(0, 1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option("--isosurface", a.isovalues, "Value of the field where a surface is drawn; may be repeated")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->check(finite_number());
 }
 
 void add_volume(CLI::App& command, RenderArguments& a) {
@@ -170,11 +182,13 @@ void add_volume(CLI::App& command, RenderArguments& a) {
     command.add_option("--integrator", a.integrator, "Along rays through the volume; exact by default")
         ->check(CLI::IsMember(integrators));
     command.add_option("--volume-step", a.volume_step, "World length of steps, of riemann, trapezoid and categories")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::PositiveNumber)
+        ->check(finite_number());
     command
         .add_option("--volume-tolerance", a.volume_tolerance,
                     "Of a color channel, of exact and adaptive-trapezoid; by default 0.001")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::PositiveNumber)
+        ->check(finite_number());
 }
 
 void add_lines_and_colors(CLI::App& command, RenderArguments& a) {
@@ -199,8 +213,12 @@ void add_camera(CLI::App& command, RenderArguments& a) {
     command.add_option("--eye", a.eye, "x,y,z of the camera");
     command.add_option("--look-at", a.look_at, "x,y,z in the middle of the picture");
     command.add_option("--up", a.up, "x,y,z of the direction that is up in the picture");
-    command.add_option("--fov", a.field_of_view, "Full vertical angle in degrees")->check(CLI::Range(1e-9, 179.999999));
-    command.add_option("--orthographic", a.orthographic, "Height of an orthographic picture")->check(CLI::PositiveNumber);
+    command.add_option("--fov", a.field_of_view, "Full vertical angle in degrees")
+        ->check(CLI::Range(1e-9, 179.999999))
+        ->check(finite_number());
+    command.add_option("--orthographic", a.orthographic, "Height of an orthographic picture")
+        ->check(CLI::PositiveNumber)
+        ->check(finite_number());
 }
 
 void add_picture(CLI::App& command, RenderArguments& a) {

@@ -145,9 +145,6 @@ void check_derivative_bounds(Context& context) {
                         context.fail(where + ": first derivatives sum to " + text_of(slope) + ", L is " +
                                      text_of(bounds[component].first));
                     }
-                    if (shape == ELVIS_SHAPE_PYRAMID) {
-                        bend[i] *= 0.5 * (1 - xi[i][2]);
-                    }
                     // Differences of gradients are good to about 1e-8 of the gradients.
                     if (bend[i] > bounds[component].second + 1e-7 * (slope + bounds[component].second) && n_complaints < 5) {
                         ++n_complaints;

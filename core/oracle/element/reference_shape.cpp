@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace elvis::oracle {
 
@@ -25,6 +26,21 @@ std::span<const FaceConstraint> face_constraints(Shape shape) {
         return tetrahedron;
     default:
         throw std::invalid_argument("the oracle knows three-dimensional shapes only");
+    }
+}
+
+std::size_t constraint_of_local_face(Shape shape, std::size_t local_face) {
+    static const std::vector<std::size_t> hexahedron{4, 2, 1, 3, 0, 5}, prism{3, 1, 4, 2, 0}, pyramid{2, 1, 3, 4, 0},
+        tetrahedron{2, 1, 3, 0};
+    switch (shape) {
+    case Shape::hexahedron:
+        return hexahedron.at(local_face);
+    case Shape::prism:
+        return prism.at(local_face);
+    case Shape::pyramid:
+        return pyramid.at(local_face);
+    default:
+        return tetrahedron.at(local_face);
     }
 }
 

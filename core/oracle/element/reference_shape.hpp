@@ -23,6 +23,9 @@ struct FaceConstraint {
 
 std::span<const FaceConstraint> face_constraints(native::Shape shape);
 
+/** Index among them of a local face as elvis/element.h counts. */
+std::size_t constraint_of_local_face(native::Shape shape, std::size_t local_face);
+
 /** Largest normal . xi - offset; negative inside. */
 double excess(native::Shape shape, const Vector& xi);
 

@@ -58,6 +58,9 @@ IsosurfaceTracer::IsosurfaceTracer(const Model& model, const Isosurface& isosurf
             m_high = std::max(m_high, sample);
         }
     }
+    // Where the field nearly vanishes its rounding is that of what cancels; positions far from the origin are rounded, too.
+    const double coordinates = std::max(model.tree.lower().cwiseAbs().maxCoeff(), model.tree.upper().cwiseAbs().maxCoeff());
+    m_rounding = 2e-15 * std::max(std::abs(m_low), std::abs(m_high)) + 1e-14 * coordinates / model.diagonal * range();
 }
 
 double IsosurfaceTracer::value(std::size_t element, const Vector& xi, Vector* gradient) const {
@@ -145,7 +148,7 @@ void IsosurfaceTracer::add_intervals(std::size_t element, const Line& line, cons
         values.push_back(value(element, xi));
     for (;; n *= 2) {
         interval.field = ChebyshevSeries(values);
-        if (interval.field.tail() <= series_tolerance * interval.field.size()) {
+        if (interval.field.tail() <= series_tolerance * interval.field.size() + m_rounding) {
             intervals.push_back(std::move(interval));
             return;
         }
@@ -247,14 +250,14 @@ void IsosurfaceTracer::search_by_samples(std::size_t element, const Line& line, 
     }
 }
 
-Crossing IsosurfaceTracer::polish(std::size_t element, const Line& line, const Root& root) {
+Crossing IsosurfaceTracer::polish(std::size_t element, const Line& line, const Root& root, double shift) {
     Crossing crossing;
     crossing.element = element;
     crossing.value = root.value;
     crossing.t = root.t;
     crossing.xi = follow(element, line.at(root.t), root.xi);
     Vector gradient;
-    const double off = m_isosurface.values[root.value] - value(element, crossing.xi, &gradient);
+    const double off = m_isosurface.values[root.value] + shift - value(element, crossing.xi, &gradient);
     // One of Newton's steps takes away what the series leaves; where the ray grazes it would lead astray.
     const double step = off / gradient.dot(line.direction);
     if (std::abs(step) <= 1e-9 * m_model.diagonal) {
@@ -314,6 +317,51 @@ RayAnswer IsosurfaceTracer::first(const Line& line, RootFinder finder) {
     if (best)
         answer.crossing = polish(best_element, line, *best);
     return answer;
+}
+
+void IsosurfaceTracer::add_roots(const FittedInterval& interval, double shift,
+                                 std::vector<std::pair<std::size_t, Root>>& roots) const {
+    const std::vector<double> values = interval.field.dense_values();
+    for (std::size_t k = 0; k < m_isosurface.values.size(); ++k) {
+        const double level = m_isosurface.values[k] + shift;
+        std::vector<double> differences = values;
+        for (double& difference : differences)
+            difference -= level;
+        const Roots found = find_roots([&](double s) { return interval.field(s); }, level,
+                                       lobatto_points(4 * interval.field.degree()), differences);
+        const auto add = [&](double s) {
+            roots.push_back({interval.element, {interval.t_of(s), k, interpolate(interval.xi, s)}});
+        };
+        for (const double s : found.at)
+            add(s);
+        for (const Roots::NearMiss& miss : found.near_misses)
+            if (std::abs(miss.at) > 1 - 1e-9 && std::abs(miss.value) <= end_rounding * (range() + std::abs(level)))
+                add(miss.at);
+    }
+}
+
+std::vector<Crossing> IsosurfaceTracer::all(const Line& line, double shift) {
+    std::vector<std::pair<std::size_t, Root>> roots;
+    for (const FittedInterval& interval : intervals(line))
+        add_roots(interval, shift, roots);
+    std::sort(roots.begin(), roots.end(), [](const auto& a, const auto& b) { return a.second.t < b.second.t; });
+    // As in first().
+    const double tie = 1e-13 * (m_model.diagonal + line.origin.norm());
+    std::vector<Crossing> crossings;
+    double last = -infinity;
+    for (const auto& [element, root] : roots) {
+        const bool is_tie = root.t <= last + tie && !crossings.empty() && crossings.back().value == root.value &&
+                            crossings.back().element != element;
+        last = root.t;
+        if (is_tie && m_model.volume.number(element) > m_model.volume.number(crossings.back().element))
+            continue;
+        const Crossing crossing = polish(element, line, root, shift);
+        if (is_tie)
+            crossings.back() = crossing;
+        else
+            crossings.push_back(crossing);
+    }
+    return crossings;
 }
 
 IsosurfacePicture draw_isosurface(const Model& model, const Isosurface& isosurface, const Camera& camera, std::uint32_t width,

@@ -77,6 +77,12 @@ public:
      */
     RayAnswer first(const Line& line, RootFinder finder = RootFinder::series);
 
+    /**
+     * All crossings with t > 0, ascending, as if the field were lower by `shift`. Crossings of different elements that touch
+     * are one.
+     */
+    std::vector<Crossing> all(const Line& line, double shift = 0);
+
     /** All intervals up to a distance, element by element in the order in which their boxes are met. */
     std::vector<FittedInterval> intervals(const Line& line, double until = std::numeric_limits<double>::infinity());
 
@@ -118,13 +124,16 @@ private:
     void search(const FittedInterval& interval, RootFinder finder, Found& found) const;
     void search_by_samples(std::size_t element, const Line& line, const RaySegment& segment, Found& found);
     void keep(const Roots& roots, const FittedInterval& interval, std::size_t value, Found& found) const;
-    Crossing polish(std::size_t element, const Line& line, const Root& root);
+    Crossing polish(std::size_t element, const Line& line, const Root& root, double shift = 0);
+    void add_roots(const FittedInterval& interval, double shift, std::vector<std::pair<std::size_t, Root>>& roots) const;
 
     const Model& m_model;
     Isosurface m_isosurface;
     SegmentFinder m_segment_finder;
     Inverter m_inverter;
     double m_low = 0, m_high = 0;
+    /** What rounding leaves of the field, about. */
+    double m_rounding = 0;
     std::uint64_t m_failures = 0;
 };
 

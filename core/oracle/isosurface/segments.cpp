@@ -103,6 +103,22 @@ Matrix2 mean_slope(const SeenPatch& patch) {
     return slope;
 }
 
+// The constraint that holds as an equation on a side of the cube of collapsed coordinates that is no edge or corner.
+std::size_t constraint_of_side(native::Shape shape, std::size_t direction, bool is_upper) {
+    native::Point eta{};
+    eta[direction] = is_upper ? 1 : -1;
+    const native::Point middle = native::expand(shape, eta);
+    const auto constraints = face_constraints(shape);
+    const auto room = [&](const FaceConstraint& face) {
+        return std::abs(face.normal.dot(Vector(middle[0], middle[1], middle[2])) - face.offset);
+    };
+    return static_cast<std::size_t>(std::ranges::min_element(constraints, {}, room) - constraints.begin());
+}
+
+double scale_of(const Enclosure& box, const Line& line) {
+    return (box.upper - box.lower).norm() + (0.5 * (box.lower + box.upper) - line.origin).norm();
+}
+
 // Bound of |to_unit J - 1| in the maximum norm over the patch: below 1 the patch is one to one as the line sees it.
 double nonlinearity(const SeenPatch& patch, const Matrix2& to_unit) {
     std::array<Vector2, 2> off{Vector2::Zero(), Vector2::Zero()};
@@ -155,6 +171,7 @@ SegmentFinder::SegmentFinder(const Model& model) : m_model(model), m_faces(model
             for (const std::size_t side : {std::size_t{0}, std::size_t{patch.order[direction]}}) {
                 const std::size_t first = direction == 0 ? 1 : 0, second = direction == 2 ? 1 : 2;
                 Face face;
+                face.constraint = constraint_of_side(model.volume.shape(element), direction, side > 0);
                 face.order = {patch.order[first], patch.order[second]};
                 std::array<double, 2> extent{};
                 for (std::size_t j = 0; j <= face.order[1]; ++j)
@@ -251,9 +268,17 @@ void SegmentFinder::cross(const Face& face, const Line& line, double scale, std:
     }
 }
 
+std::vector<double> SegmentFinder::crossings(std::size_t element, std::size_t constraint, const Line& line) const {
+    std::vector<double> crossings;
+    for (const Face& face : m_faces[element])
+        if (face.constraint == constraint)
+            cross(face, line, scale_of(m_model.enclosures[element], line), crossings);
+    return crossings;
+}
+
 std::vector<RaySegment> SegmentFinder::find(std::size_t element, const Line& line, Inverter& inverter) const {
     const Enclosure& box = m_model.enclosures[element];
-    const double scale = (box.upper - box.lower).norm() + (0.5 * (box.lower + box.upper) - line.origin).norm();
+    const double scale = scale_of(box, line);
     std::vector<double> crossings;
     for (const Face& face : m_faces[element])
         cross(face, line, scale, crossings);

@@ -42,9 +42,14 @@ public:
     /** Segments in one element, ascending. The inverter is the caller's thread's. */
     std::vector<RaySegment> find(std::size_t element, const Line& line, Inverter& inverter) const;
 
+    /** Where the line meets one face, the one of face_constraints(shape)[constraint]; t may be negative. */
+    std::vector<double> crossings(std::size_t element, std::size_t constraint, const Line& line) const;
+
 private:
     /** A face as a Bernstein patch. */
     struct Face {
+        /** Index of its constraint. */
+        std::size_t constraint = 0;
         std::array<std::size_t, 2> order{};
         std::vector<Vector> points;
     };

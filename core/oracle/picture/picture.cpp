@@ -16,10 +16,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_color_difference = 1e-6;
 
 // Whether the point moves into the element, or along its faces, on a step towards the viewer.
-bool steps_inside(native::Shape shape, const Solution& solution, const Vector& direction) {
+bool steps_inside(native::Shape shape, const Solution& solution, const Vector& direction, double inside) {
     const Vector motion = -(solution.jacobian.inverse() * direction);
     return std::ranges::all_of(face_constraints(shape), [&](const FaceConstraint& face) {
-        const bool is_active = face.normal.dot(solution.xi) - face.offset >= -inside_tolerance;
+        const bool is_active = face.normal.dot(solution.xi) - face.offset >= -inside;
         // Along a face the derivative is zero but for rounding.
         return !is_active || face.normal.dot(motion) <= 1e-10 * motion.norm();
     });
@@ -111,19 +111,19 @@ Model::Model(VolumeData data)
       diagonal((tree.upper() - tree.lower()).norm()) {}
 
 std::vector<Candidate> locate(const Model& model, Inverter& inverter, const Vector& x, const Vector& direction,
-                              double tolerance) {
+                              double tolerance, double inside) {
     std::vector<Candidate> candidates;
     for (const std::size_t element : model.tree.find(x, tolerance)) {
         // A world length in reference units, by the largest stretching at the element's middle; curved and slender elements
         // vary, hence the factor.
         const double in_reference = 4 * tolerance * model.enclosures[element].to_reference.norm();
         const native::Shape shape = model.volume.shape(element);
-        for (const Solution& solution : inverter.find(element, x, std::clamp(in_reference, inside_tolerance, 1e-2)))
-            candidates.push_back({element, solution, steps_inside(shape, solution, direction) ? 0 : 1});
+        for (const Solution& solution : inverter.find(element, x, std::clamp(in_reference, inside, 1e-2)))
+            candidates.push_back({element, solution, steps_inside(shape, solution, direction, inside) ? 0 : 1});
     }
     std::sort(candidates.begin(), candidates.end(), [&](const Candidate& a, const Candidate& b) {
-        const bool a_inside = a.solution.excess <= inside_tolerance;
-        const bool b_inside = b.solution.excess <= inside_tolerance;
+        const bool a_inside = a.solution.excess <= inside;
+        const bool b_inside = b.solution.excess <= inside;
         if (a_inside != b_inside)
             return a_inside;
         if (!a_inside)

@@ -38,15 +38,16 @@ struct Candidate {
     int key = 0;
 };
 
+/** x counts as inside an element up to this excess in reference coordinates, for rounding. */
+inline constexpr double inside_tolerance = 1e-10;
+
 /**
  * Elements that contain x, enlarged by `tolerance` (world length): first those that contain it in double precision, best one
  * first by (key, element number), then the others by how far x lies outside. `direction` points away from the viewer.
+ * `inside`: the largest excess of an element that contains x.
  */
 std::vector<Candidate> locate(const Model& model, Inverter& inverter, const Vector& x, const Vector& direction,
-                              double tolerance);
-
-/** x counts as inside an element up to this excess in reference coordinates, for rounding. */
-inline constexpr double inside_tolerance = 1e-10;
+                              double tolerance, double inside = inside_tolerance);
 
 /** Another element that rounding could choose at a pixel, with a colour of its own. */
 struct Alternative {

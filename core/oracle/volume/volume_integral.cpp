@@ -17,6 +17,8 @@ namespace {
 
 using Rgb = Eigen::Array3d;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 // What is behind this cannot be seen: it is left out.
 constexpr double least_transmittance = 1e-20;
 // Of each interval's integral over its transmittance; rounding is a few 1e-16.
@@ -249,6 +251,22 @@ VolumeLight VolumeTracer::integrate(const Line& line, double until, VolumeFormul
     for (const OwnedInterval& owned : owned_intervals(line, until))
         add(owned, formula, light);
     return light;
+}
+
+std::vector<VolumeLight> VolumeTracer::integrate_between(const Line& line, std::span<const double> stops) {
+    std::vector<VolumeLight> lights(stops.size() - 1);
+    for (const OwnedInterval& owned : owned_intervals(line, stops.back())) {
+        const double from = owned.interval.from, to = owned.interval.to;
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            OwnedInterval part = owned;
+            const auto s_of = [&](double t) { return t == infinity ? 1 : (2 * t - from - to) / (to - from); };
+            part.begin = std::max(owned.begin, s_of(stops[i]));
+            part.end = std::min(owned.end, s_of(stops[i + 1]));
+            if (part.begin < part.end)
+                add(part, VolumeFormula::emission, lights[i]);
+        }
+    }
+    return lights;
 }
 
 VolumePicture draw_volume(const Model& model, const VolumeOptics& optics, const Camera& camera, std::uint32_t width,

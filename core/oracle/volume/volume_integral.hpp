@@ -71,6 +71,8 @@ public:
     /** Of the volume in front of a distance. */
     VolumeLight integrate(const Line& line, double until = std::numeric_limits<double>::infinity(),
                           VolumeFormula formula = VolumeFormula::emission);
+    /** Of the volume between neighbouring `stops`, ascending: one answer fewer than these. */
+    std::vector<VolumeLight> integrate_between(const Line& line, std::span<const double> stops);
 
     /**
      * From front to back. Where elements overlap, the one entered first owns the ray to its exit; where two are entered at

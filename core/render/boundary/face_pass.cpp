@@ -32,6 +32,7 @@ struct Parameters {
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
     std::uint32_t is_discontinuous;
+    float value_tolerance;
     std::uint32_t has_beyond;
     std::uint32_t wants_normals;
     std::uint32_t wants_places;
@@ -123,6 +124,7 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                               component.first(),
                               component.end(),
                               component.is_discontinuous ? 1u : 0u,
+                              component.value_tolerance,
                               target.beyond ? 1u : 0u,
                               target.wants_normals ? 1u : 0u,
                               target.places ? 1u : 0u};

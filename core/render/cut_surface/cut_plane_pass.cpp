@@ -30,7 +30,8 @@ struct PixelsParameters {
     std::uint32_t first_listed;
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
-    std::uint32_t is_discontinuous;
+    std::uint32_t lists_others;
+    float value_tolerance;
     std::uint32_t n_isovalues;
 };
 
@@ -58,7 +59,7 @@ CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, co
                            const KernelEdit& edit)
     : m_device(device), m_data(data), m_precision(data.precision()), m_with_lines(with_lines),
       m_tile_width(tile_width_on(device)), m_listed(device), m_frame(view_buffer(device, data.precision())),
-      m_counts(device, n_pass_counts * sizeof(std::uint32_t)) {
+      m_counts(device, n_pass_counts * sizeof(std::uint32_t)), m_others(device, data) {
     compile(volume, data, edit);
 }
 
@@ -78,6 +79,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.bindings = buffer_bindings({.uniform = 1, .storage = 2});
         request.push_constant_bytes = sizeof(TilesParameters);
         ClassKernels kernels;
+        kernels.element_class = index;
         kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
 
         data.add_field(request, index, m_with_lines);
@@ -87,7 +89,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "cut_surface/cut_plane.comp";
-        request.bindings = buffer_bindings({.uniform = 1, .storage = 6});
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 7});
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(m_device, request);
         if (m_with_lines) {
@@ -117,7 +119,7 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
         write_reals(*m_isovalues, m_precision, lines.isovalues);
     }
     for (ClassKernels& kernels : m_kernels) {
-        draw_pixels(kernels, surface, component, n_isovalues, target);
+        draw_pixels(kernels, surface, component, n_isovalues, target, counts);
     }
     add_pass_counts(m_counts, counts);
 }
@@ -145,7 +147,7 @@ void CutPlanePass::draw_outside(const CutPlaneGeometry& geometry, std::uint32_t 
 }
 
 void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, const ShownComponent& component,
-                               std::uint32_t n_isovalues, const LayerTarget& target) {
+                               std::uint32_t n_isovalues, const LayerTarget& target, FrameCounts& counts) {
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
     const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
@@ -156,8 +158,14 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
     kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)), divided_up(tiles.n_tiles, tiles_group_size));
     // Isovalues are not read without lines: anything of reals.
     const Buffer& isovalues = m_with_lines ? *m_isovalues : layer.samples;
-    const std::array<const Buffer*, 7> bindings = {&m_frame,   &layer.samples, &*kernels.tile_nodes, &m_counts, &layer.marks,
-                                                   &isovalues, &listed};
+    const std::array<const Buffer*, 8> bindings = {&m_frame,
+                                                   &layer.samples,
+                                                   &*kernels.tile_nodes,
+                                                   &m_counts,
+                                                   &layer.marks,
+                                                   &isovalues,
+                                                   &listed,
+                                                   &m_others.begin(layer.n_pixels(), component)};
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     const TileList::Range range = m_listed.read().shallow;
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
@@ -168,9 +176,11 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
                                       component.first(),
                                       component.end(),
                                       component.is_discontinuous ? 1u : 0u,
+                                      component.value_tolerance,
                                       n_isovalues};
         kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), count);
     });
+    m_others.compare(kernels.element_class, component, layer, counts);
 }
 
 void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent& component, const LineRequest& lines,

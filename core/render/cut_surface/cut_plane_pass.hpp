@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/render/cut_surface/cut_plane_geometry.hpp>
+#include <core/render/cut_surface/other_values.hpp>
 #include <core/render/cut_surface/outside_pass.hpp>
 #include <core/render/frame.hpp>
 #include <core/render/lines/line_request.hpp>
@@ -39,6 +40,7 @@ public:
 
 private:
     struct ClassKernels {
+        std::uint32_t element_class;
         /** Which nodes of the hierarchy each tile of pixels can touch; then the pixels. */
         std::unique_ptr<ComposedKernel> tiles;
         std::unique_ptr<ComposedKernel> pixels;
@@ -49,7 +51,7 @@ private:
 
     void compile(const RuntimeVolume& volume, const DeviceVolume& data, const KernelEdit& edit);
     void draw_pixels(ClassKernels& kernels, std::uint32_t surface, const ShownComponent& component, std::uint32_t n_isovalues,
-                     const LayerTarget& target);
+                     const LayerTarget& target, FrameCounts& counts);
     void draw_lines(const ClassKernels& kernels, const ShownComponent& component, const LineRequest& lines,
                     const LayerTarget& target, FrameCounts& counts);
 
@@ -65,6 +67,7 @@ private:
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;
     std::optional<Buffer> m_list;
+    OtherValues m_others;
     std::unique_ptr<OutsidePass> m_outside;
 };
 

@@ -35,7 +35,8 @@ struct PixelsParameters {
     std::uint32_t first_listed;
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
-    std::uint32_t is_discontinuous;
+    std::uint32_t lists_others;
+    float value_tolerance;
     float most_error;
     std::uint32_t wants_places;
 };
@@ -57,7 +58,8 @@ std::array<double, 6> box_of(const CutShape& shape, const std::array<double, 6>&
 SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_data(data), m_precision(data.precision()), m_listed(device),
       m_frame(view_buffer(device, data.precision())), m_hit_counts(device, sizeof(std::uint32_t)),
-      m_counts(device, (n_pass_counts + 1) * sizeof(std::uint32_t)), m_nothing(device, 4 * sizeof(double)) {
+      m_counts(device, (n_pass_counts + 1) * sizeof(std::uint32_t)), m_nothing(device, 4 * sizeof(double)),
+      m_others(device, data) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -72,6 +74,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         request.bindings = buffer_bindings({.storage = 3});
         request.push_constant_bytes = sizeof(TilesParameters);
         ClassKernels kernels;
+        kernels.element_class = index;
         kernels.tiles = std::make_unique<ComposedKernel>(device, request);
 
         request.name = "surface_pixels of element class " + std::to_string(index);
@@ -120,7 +123,7 @@ std::uint32_t SurfacePass::find_hits(const Picture& picture, std::uint32_t round
 }
 
 /** The elements of one class that hold crossings, and the field there. */
-void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& picture) {
+void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& picture, FrameCounts& counts) {
     const Layer& layer = picture.target.layer;
     const std::uint32_t tiles_a_row = picture.tiles_a_row;
     const TilesParameters tiles{tiles_a_row, tiles_a_row * picture.tile_rows, picture.wanted.first * tiles_a_row,
@@ -131,8 +134,9 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
                             divided_up(tiles.end_tile - tiles.first_tile, tiles_group_size));
     // Places are not written if they are not wanted: anything of reals.
     const Buffer& places = picture.target.places != nullptr ? *picture.target.places : layer.normals;
+    const Buffer& others = m_others.begin(layer.n_pixels(), picture.component);
     const std::array<const Buffer*, 9> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,
-                                                   &*m_hits, &layer.normals, &places,   &listed};
+                                                   &*m_hits, &others,        &places,   &listed};
     const TileList::Range range = m_listed.read().shallow;
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height);
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
@@ -143,10 +147,12 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
                                       picture.component.first(),
                                       picture.component.end(),
                                       picture.component.is_discontinuous ? 1u : 0u,
+                                      picture.component.value_tolerance,
                                       static_cast<float>(picture.most_error),
                                       picture.target.places != nullptr ? 1u : 0u};
         kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), count);
     });
+    m_others.compare(kernels.element_class, picture.component, layer, counts);
 }
 
 void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver, const CutShape& shape, std::uint32_t surface,
@@ -171,7 +177,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
             break;
         }
         for (const ClassKernels& kernels : m_kernels) {
-            draw_pixels(kernels, picture);
+            draw_pixels(kernels, picture, counts);
         }
         if (shows_outside) {
             draw_outside(picture);

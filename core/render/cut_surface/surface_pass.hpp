@@ -8,6 +8,7 @@
 #pragma once
 
 #include <core/render/cut_surface/cut_plane_geometry.hpp>
+#include <core/render/cut_surface/other_values.hpp>
 #include <core/render/cut_surface/outside_pass.hpp>
 #include <core/render/cut_surface/surface_solver.hpp>
 #include <core/render/frame.hpp>
@@ -41,12 +42,13 @@ public:
 
 private:
     struct ClassKernels {
+        std::uint32_t element_class;
         std::unique_ptr<ComposedKernel> tiles;
         std::unique_ptr<ComposedKernel> pixels;
     };
     struct Picture;
     std::uint32_t find_hits(const Picture& picture, std::uint32_t round) const;
-    void draw_pixels(const ClassKernels& kernels, const Picture& picture);
+    void draw_pixels(const ClassKernels& kernels, const Picture& picture, FrameCounts& counts);
     void draw_outside(const Picture& picture);
     void provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t boxes_a_tile);
 
@@ -60,6 +62,7 @@ private:
     Buffer m_counts;
     /** Stands where a buffer is not used. */
     Buffer m_nothing;
+    OtherValues m_others;
     std::unique_ptr<OutsidePass> m_outside;
     std::optional<Buffer> m_hits, m_bending, m_boxes, m_tiles;
 };

@@ -112,21 +112,31 @@ void IsosurfacePass::choose(const Isosurfaces& wanted, double offset, const Show
 void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
                           FrameCounts& counts) {
     const Layer& layer = target.layer;
-    const Buffer& bending = provide_buffer(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
+    provide_buffer(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
     const Buffer& isovalues = provide_buffer(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
     write_reals(isovalues, m_precision, m_values);
     write_view(m_frame, m_precision, view);
     if (m_isovalue_set.rests_on_estimates()) {
         layer.marks.write_items(std::span<const Mark>(std::vector<Mark>(layer.n_pixels(), Mark{0, pixel_flag::estimated})));
     }
-    std::uint32_t left = 0;
+    constexpr std::uint32_t left_open = pixel_flag::isosurface_undecided | pixel_flag::work_limit;
     if (m_method == IsosurfaceMethod::interval) {
         draw_by_intervals(first_surface, target, counts);
-        left = pixel_flag::isosurface_undecided | pixel_flag::work_limit;
+        draw_by_projection(m_method, left_open, first_surface, target, counts);
+    } else {
+        draw_by_projection(m_method, 0, first_surface, target, counts);
     }
-    const IsosurfaceProjection::Picture picture{m_frame, isovalues,   bending,
-                                                target,  m_component, static_cast<std::uint32_t>(m_values.size())};
-    if (m_projection.list(target.layer, left) == 0) {
+    // Drivers end the many loops of eigenvalues where rays have many of them.
+    if (m_method == IsosurfaceMethod::companion) {
+        draw_by_projection(IsosurfaceMethod::bernstein, left_open, first_surface, target, counts);
+    }
+}
+
+void IsosurfacePass::draw_by_projection(IsosurfaceMethod method, std::uint32_t flags, std::uint32_t first_surface,
+                                        const LayerTarget& target, FrameCounts& counts) {
+    const IsosurfaceProjection::Picture picture{m_frame, *m_isovalues, *m_bending,
+                                                target,  m_component,  static_cast<std::uint32_t>(m_values.size())};
+    if (m_projection.list(target.layer, flags) == 0) {
         return;
     }
     for (const ClassKernels& kernels : m_kernels) {
@@ -134,8 +144,8 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
             m_isovalue_set.provide_element_nodes(kernels.element_class);
             KernelRequest request = kernels.request;
             request.buffers.insert(request.buffers.end(), kernels.elements.begin(), kernels.elements.end());
-            m_projection.draw(request, kernels.element_class, m_method, m_degree, picture,
-                              first_surface + kernels.element_class, counts);
+            m_projection.draw(request, kernels.element_class, method, m_degree, picture, first_surface + kernels.element_class,
+                              counts);
         }
     }
 }

@@ -56,6 +56,9 @@ private:
     };
 
     void draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
+    /** Pixels that carry one of these flags, afresh; all if there are none. */
+    void draw_by_projection(IsosurfaceMethod method, std::uint32_t flags, std::uint32_t first_surface,
+                            const LayerTarget& target, FrameCounts& counts);
 
     const Device& m_device;
     Precision m_precision;

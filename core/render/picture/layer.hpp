@@ -89,6 +89,8 @@ struct ShownComponent {
     std::int32_t component = 0;
     std::uint32_t n_components = 1;
     bool is_discontinuous = false;
+    /** Values that differ by no more look the same. */
+    float value_tolerance = 0;
 
     std::uint32_t first() const { return component < 0 ? 0 : static_cast<std::uint32_t>(component); }
     std::uint32_t end() const { return component < 0 ? n_components : first() + 1; }

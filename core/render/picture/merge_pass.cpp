@@ -12,7 +12,6 @@ struct MergeParameters {
     std::uint32_t surface;
     std::uint32_t has_normals;
     std::uint32_t is_first;
-    float red, green, blue, alpha;
     std::uint32_t width;
 };
 
@@ -24,11 +23,11 @@ struct PixelParameters {
 
 MergePass::MergePass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision),
-      m_merge(device, pixel_kernel("picture/merge", precision, {.storage = 11}, sizeof(MergeParameters))),
+      m_merge(device, pixel_kernel("picture/merge", precision, {.storage = 12}, sizeof(MergeParameters))),
       m_take(device, pixel_kernel("picture/take_layer", precision, {.storage = 5}, sizeof(PixelParameters))),
       m_order(device, pixel_kernel("picture/order_layers", precision, {.storage = 4}, sizeof(PixelParameters))),
       m_blend(device, pixel_kernel("picture/blend", precision, {.storage = 4}, sizeof(PixelParameters))),
-      m_counts(device, 3 * sizeof(std::uint32_t)) {}
+      m_counts(device, 3 * sizeof(std::uint32_t)), m_background_color(device, 4 * real_bytes(precision)) {}
 
 void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background) {
     if (!m_picture || m_picture->width != width || m_picture->height != height) {
@@ -40,21 +39,19 @@ void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows
     m_picture->rows = rows;
     m_n_transparent_layers = 0;
     m_background = background;
+    write_reals(m_background_color, m_precision, background);
     m_is_empty = true;
 }
 
 MergePass::Wanted MergePass::merge(const Layer& layer, std::uint32_t surface, bool has_normals, bool is_see_through) {
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const auto channel = [this](std::size_t i) { return static_cast<float>(m_background[i]); };
-    const MergeParameters parameters{
-        n_pixels,   pixel_groups_x, surface,    has_normals ? 1u : 0u, m_is_empty ? 1u : 0u, channel(0), channel(1),
-        channel(2), channel(3),     layer.width};
+    const MergeParameters parameters{n_pixels,   pixel_groups_x, surface, has_normals ? 1u : 0u, m_is_empty ? 1u : 0u,
+                                     layer.width};
     constexpr std::array<std::uint32_t, 3> no_rows = {0, 0xffffffffu, 0};
     m_counts.write_items(std::span<const std::uint32_t>(no_rows));
     const std::vector<const Buffer*> bindings = {
-        &layer.samples,    &layer.marks,        &layer.normals,     &layer.colors,  &m_picture->samples,
-        &m_picture->marks, &m_picture->normals, &m_picture->colors, m_depths.get(), m_beyond.get(),
-        &m_counts};
+        &layer.samples,      &layer.marks,       &layer.normals, &layer.colors,  &m_picture->samples, &m_picture->marks,
+        &m_picture->normals, &m_picture->colors, m_depths.get(), m_beyond.get(), &m_counts,           &m_background_color};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
     if (m_is_empty) {
         // The background, too.

@@ -57,7 +57,7 @@ private:
     ComposedKernel m_merge, m_take, m_order, m_blend;
     std::unique_ptr<Layer> m_picture;
     std::unique_ptr<Buffer> m_depths, m_beyond;
-    Buffer m_counts;
+    Buffer m_counts, m_background_color;
     /** Kept from frame to frame; the first m_n_transparent_layers are in use. */
     std::vector<TransparentLayer> m_transparent_layers;
     std::size_t m_n_transparent_layers = 0;

@@ -147,6 +147,7 @@ template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, 
     const std::uint32_t tiles_a_row = kernels.search.tiles_a_row(rays.walk.width);
     AllRayGroups all;
     const RayGroups groups = rays.walk.given ? RayGroups{} : all.of(m_device, tiles_a_row, rays.walk.height);
+    counts.seek_evaluations += kernels.search.start_at_eyes(rays.walk, groups);
     bool is_open = true;
     for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
         const DeviceTimer timer(m_device);

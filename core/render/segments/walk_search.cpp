@@ -15,9 +15,18 @@ namespace {
 constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
 enum Count : std::size_t { seeking, evaluations, n_counts };
+enum EyeCount : std::size_t { eye_evaluations, eye_overlaps };
 
 struct TilesParameters {
     std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
+};
+
+struct EyeParameters {
+    std::uint32_t width, height;
+    std::uint32_t first_group;
+    std::uint32_t first_element;
+    std::uint32_t zero;
+    float extent;
 };
 
 struct SeekParameters {
@@ -99,6 +108,41 @@ void WalkSearch::list_starts(const WalkRays& rays) {
                                     divided_up(parameters.n_tiles, group_size));
         }
     }
+}
+
+const ComposedKernel& WalkSearch::eye_kernel(std::size_t index) {
+    std::unique_ptr<ComposedKernel>& kernel = m_kernels[index].start_at_eye;
+    if (!kernel) {
+        const Range& range = m_ranges[index];
+        KernelRequest wanted = request(range, "segments/start_at_eye");
+        wanted.instances = {m_data.instance(range.element_class)};
+        wanted.bindings = buffer_bindings({.uniform = 1, .storage = 3});
+        wanted.push_constant_bytes = sizeof(EyeParameters);
+        kernel = std::make_unique<ComposedKernel>(m_device, wanted);
+    }
+    return *kernel;
+}
+
+std::uint64_t WalkSearch::start_at_eyes(const WalkRays& rays, const RayGroups& groups) {
+    m_counts.fill(0);
+    for (std::size_t index = 0; index < m_ranges.size(); ++index) {
+        if (!m_walk_data.may_hold_eye(m_ranges[index].element_class)) {
+            continue;
+        }
+        EyeParameters parameters{rays.width, rays.height, 0, m_ranges[index].first_element, 0, m_extent};
+        const std::array<const Buffer*, 4> bindings = {&rays.frame, &rays.states, &m_counts,
+                                                       m_are_given ? rays.given : groups.list};
+        const auto dispatch = [&](std::uint32_t first, std::uint32_t count) {
+            parameters.first_group = first;
+            eye_kernel(index).dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
+        };
+        if (m_are_given) {
+            dispatch(0, tiles_a_row(rays.width));
+        } else {
+            groups.in_batches(dispatch);
+        }
+    }
+    return m_counts.read_items<std::uint32_t>(n_counts)[eye_evaluations];
 }
 
 WalkSearch::Found WalkSearch::seek(std::size_t index, const WalkRays& rays, const RayGroups& groups) {

@@ -1,7 +1,7 @@
 /**
  * @file walk_search.hpp
- * Finds where rays begin their walk through the elements (shaders/tiles/ray_tiles.comp, shaders/segments/find_walk.comp), for
- * all that goes along rays.
+ * Finds where rays begin their walk through the elements (shaders/segments/start_at_eye.comp, shaders/tiles/ray_tiles.comp,
+ * shaders/segments/find_walk.comp), for all that goes along rays.
  */
 #pragma once
 
@@ -62,6 +62,9 @@ public:
     /** A word for each tile, 0 where no class has a list. Valid until list_starts(). */
     const Buffer& has_starts() const { return *m_has_starts; }
 
+    /** Rays that begin in an element; before the first seek(). Evaluations that it took. */
+    std::uint64_t start_at_eyes(const WalkRays& rays, const RayGroups& groups);
+
     struct Found {
         /** Whether any ray looked for a start here. */
         bool is_seeking = false;
@@ -74,8 +77,12 @@ public:
 private:
     struct Kernels {
         std::unique_ptr<ComposedKernel> tiles, seek;
+        /** When it is needed first: few pictures have the eye in an element. */
+        std::unique_ptr<ComposedKernel> start_at_eye;
         std::optional<Buffer> lists;
     };
+
+    const ComposedKernel& eye_kernel(std::size_t index);
 
     const Device& m_device;
     const DeviceVolume& m_data;

@@ -41,7 +41,7 @@ struct PixelParameters {
 };
 
 /** Bytes of one core_volume_state. */
-std::size_t state_bytes(Precision precision) { return 9 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
+std::size_t state_bytes(Precision precision) { return 10 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
 
 double largest(const std::array<double, 3>& numbers) {
     return std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
@@ -223,6 +223,7 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
     dispatch_pixels(m_begin, {&states}, bytes, n_pixels);
     m_search.list_starts(picture.rays);
     m_live.begin(states, m_search.has_starts(), layer.width, layer.height);
+    counts.mapping_evaluations += m_search.start_at_eyes(picture.rays, m_live.all());
     for (std::size_t i = 0; i < merged.n_transparent_layers(); ++i) {
         picture.stops = &merged.transparent_layer(i).depths;
         march_all(picture, counts);

@@ -132,9 +132,15 @@ template <class CanStart> void WalkData::choose_starts(const CanStart& can_start
     for (ClassWalk& walk : m_classes) {
         boxes.clear();
         chosen.clear();
+        walk.may_hold_eye = false;
         for (std::size_t element = 0; element < walk.is_open.size(); ++element) {
             const auto box = std::span<const double>(walk.boxes).subspan(6 * element, 6);
-            if (walk.is_kept[element] && (walk.is_open[element] || can_start(box))) {
+            if (!walk.is_kept[element]) {
+                continue;
+            }
+            const bool may_hold_eye = can_start(box);
+            walk.may_hold_eye = walk.may_hold_eye || may_hold_eye;
+            if (walk.is_open[element] || may_hold_eye) {
                 chosen.push_back(static_cast<std::uint32_t>(element));
                 boxes.insert(boxes.end(), box.begin(), box.end());
             }

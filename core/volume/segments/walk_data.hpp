@@ -55,12 +55,15 @@ public:
      * (shaders/segments/segment.glsl). */
     std::pair<std::string, std::string> curved_define(std::uint32_t element_class) const;
     std::uint64_t n_starts(std::uint32_t element_class) const { return m_classes[element_class].n_starts; }
+    /** Whether an eye may lie in one of the class's elements. */
+    bool may_hold_eye(std::uint32_t element_class) const { return m_classes[element_class].may_hold_eye; }
 
 private:
     struct ClassWalk {
         std::unique_ptr<RecordBuffer> nodes, links, cones;
         std::vector<bool> is_kept, is_open;
         std::uint64_t n_starts = 0;
+        bool may_hold_eye = false;
         /** Six numbers an element. */
         std::vector<double> boxes;
     };

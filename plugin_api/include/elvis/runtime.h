@@ -357,9 +357,6 @@ typedef struct elvis_runtime {
      *   L >= sum over i    of |d f / d xi_i|
      *   H >= sum over i, j of |d^2 f / d xi_i d xi_j|    (all nine terms, so mixed ones twice)
      *
-     * In pyramids, whose spaces are rational, second derivatives may grow without bound towards the apex: there H need only be
-     * as large as t times the sum, t = (1 - xi_3) / 2.
-     *
      * Each is finite and >= 0, or NaN where the plugin cannot tell: for that element and component, the host samples and says
      * so. They hold for the field as the snippet evaluates it from coefficients that were rounded to single precision, too; the
      * rounding of the evaluation itself is the host's affair. *certainty is about all numbers that are not NaN. Certified

@@ -126,6 +126,24 @@ TEST_CASE("where a part of the ray in a strongly bent element may be missed, the
     CHECK(comparison.n_flagged > comparison.n_pixels / 2);
 }
 
+TEST_CASE("random fields of which bounds leave many rays open are where the oracle finds them") {
+    // Of 1473 nearly all rays are left to projection, of 1393 one in six in single precision.
+    const std::vector<Precision> precisions{Precision::float32, Precision::float64};
+    for (const std::uint64_t seed : {1393, 1473}) {
+        const RandomVolume random = random_volume(seed);
+        const RandomAccuracy one = measure_random(device(), plugins(), random, 32, precisions);
+        for (std::size_t i = 0; i < precisions.size(); ++i) {
+            const IsosurfaceComparison& comparison = one.comparisons[i];
+            CAPTURE(seed, random.description, i, to_text(comparison), comparison.worst_pixel);
+            CHECK(comparison.n_hits > comparison.n_pixels / 2);
+            CHECK(comparison.n_wrong + comparison.n_wrong_masks + comparison.n_other_element == 0);
+            CHECK(one.counts[i].projected_pixels > 0);
+        }
+        CHECK(one.comparisons[1].n_wrong_grazing == 0);
+        CHECK(one.comparisons[1].n_flagged <= one.comparisons[1].n_pixels / 100);
+    }
+}
+
 TEST_CASE("isosurfaces by projection are where the oracle finds them") {
     const std::vector<Precision> precisions{Precision::float32, Precision::float64};
     // Fields of high order in few curved elements: five values let one of 148 pass as a parabola, 145 is mostly rounding.
@@ -155,6 +173,30 @@ TEST_CASE("isosurfaces by eigenvalues are where the oracle finds them, or say th
         CHECK(comparison.n_wrong + comparison.n_wrong_grazing + comparison.n_wrong_masks + comparison.n_other_element == 0);
         CHECK(comparison.n_flagged <= comparison.n_pixels / 10);
     }
+}
+
+TEST_CASE("rays with too many eigenvalues for a driver's loops are drawn from the Bernstein form") {
+    const RandomVolume random = random_volume(101);
+    const TemporaryFile file("many_values.h5");
+    write_volume(file.path(), random.data);
+    const RuntimeVolume volume = open_volume(file.path());
+    Renderer renderer(device(), volume, Precision::float64);
+    FrameRequest request = isosurface_request(random, 24, IsosurfaceMethod::bernstein);
+    Isosurfaces& isosurfaces = std::get<Isosurfaces>(request.surfaces[0].geometry);
+    const FieldRange range = renderer.ranges().range({}, 0);
+    isosurfaces.values.clear();
+    for (int i = 1; i < 60; ++i) {
+        isosurfaces.values.push_back(range.lower + (range.upper - range.lower) * i / 60);
+    }
+    isosurfaces.degree = 13;
+    const Frame bernstein = renderer.render(request);
+    isosurfaces.method = IsosurfaceMethod::companion;
+    const Frame companion = renderer.render(request);
+    CHECK(bernstein.counts.hit_pixels > 100);
+    CHECK(companion.counts.hit_pixels == bernstein.counts.hit_pixels);
+    CHECK(companion.counts.work_limit_pixels == 0);
+    // More than once where the first way is given up.
+    CHECK(companion.counts.fits > bernstein.counts.fits);
 }
 
 TEST_CASE("projection of a higher degree is nearer to the isosurface") {

@@ -67,4 +67,32 @@ TEST_CASE("surfaces show through each other in the order of depth, whatever thei
     }
 }
 
+TEST_CASE("the background has all digits of the precision beside and behind surfaces") {
+    VolumeData data;
+    data.classes.push_back(make_class(space_of(native::Shape::hexahedron, 1), space_of(native::Shape::hexahedron, 1),
+                                      cube(native::Shape::hexahedron, 2), [](const Vector& x) { return x.z(); }));
+    const TemporaryFile file("background.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request;
+    request.width = request.height = 16;
+    request.camera.eye = {0.51, 0.52, 4};
+    request.camera.look_at = {0.51, 0.52, 0};
+    request.camera.up = {0, 1, 0};
+    request.background = {0.1, 0.2, 0.3, 1};
+    const std::array<double, 3> red = {1, 0, 0};
+    request.surfaces = {plane(0.9, red, 0.5), plane(0.5, red, 0.5)};
+    request.surfaces[0].clip = {{1, 0, 0, -0.5}};
+    request.surfaces[1].clip = {{0, 1, 0, -0.5}};
+    const Frame frame = Renderer(device(), volume, Precision::float64).render(request);
+    double error = 0;
+    for (std::size_t pixel = 0; pixel < 16 * 16; ++pixel) {
+        // Each layer before the background leaves half of it.
+        const double red_share = (frame.color[4 * pixel] - request.background[0]) / (1 - request.background[0]);
+        for (std::size_t channel = 1; channel < 3; ++channel)
+            error = std::max(error, std::abs(frame.color[4 * pixel + channel] - (1 - red_share) * request.background[channel]));
+    }
+    CHECK(error < 1e-14);
+}
+
 } // namespace elvis::oracle

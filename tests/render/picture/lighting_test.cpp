@@ -293,4 +293,30 @@ TEST_CASE("it is told which values beyond the colour table a picture shows") {
     }
 }
 
+TEST_CASE("where a surface lies in no element, light does not change its colour") {
+    const TemporaryFile file("outside.h5");
+    generate(R"({"generator": 1, "mesh": "box", "shape": "hexahedron", "elements": [1, 1, 1], "order": 1, "field": "sphere"})",
+             file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request;
+    request.width = request.height = 40;
+    request.camera.eye = {1, 2, 5};
+    request.camera.up = {0, 1, 0};
+    request.surfaces = {Surface{CutPlane{{0, 0, 1, 0}}}};
+    request.surfaces[0].colors.points = {{0, {1, 1, 1}}};
+    request.surfaces[0].outside = {0.4, 0.6, 0.8};
+    request.lighting = Lighting{};
+    request.lighting->headlight = {0.2, 0.2, 0.2};
+    const Frame frame = Renderer(device(), volume, Precision::float64).render(request);
+    std::size_t n_outside = 0;
+    for (std::size_t pixel = 0; pixel < frame.element.size(); ++pixel) {
+        if (frame.element[pixel] < 0 && std::isfinite(frame.depth[pixel])) {
+            ++n_outside;
+            CHECK(frame.color[4 * pixel] == Approx(0.4));
+            CHECK(frame.color[4 * pixel + 2] == Approx(0.8));
+        }
+    }
+    CHECK(n_outside > 10);
+}
+
 } // namespace elvis::oracle

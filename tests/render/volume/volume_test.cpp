@@ -202,6 +202,22 @@ TEST_CASE("three peaks in the sphere field are what the oracle says") {
     }
 }
 
+TEST_CASE("pixels with narrow peaks are not flagged where they are right") {
+    const TemporaryFile file("narrow_peaks.h5");
+    VolumeSettings settings;
+    settings.size = 48;
+    settings.precisions = {Precision::float32};
+    // Rounding of the field is about a ten thousandth of the narrow peaks.
+    for (const auto& [width, tolerance] : {std::pair(1e-3, 1e-3), std::pair(0.1, 1e-5)}) {
+        settings.tolerance = tolerance;
+        const VolumeScene scene = sphere_scene("hexahedron", false, width, file.path());
+        const VolumeComparison result = measure_volume(&device(), scene, settings).comparisons[0];
+        CAPTURE(width, tolerance, to_text(result));
+        CHECK(result.n_wrong == 0);
+        CHECK(result.n_flagged < result.n_pixels / 100);
+    }
+}
+
 TEST_CASE("random volumes with random transfer functions are what the oracle says") { check_random(5); }
 
 TEST_CASE("more random volumes with random transfer functions are what the oracle says", "[.long]") { check_random(40); }
@@ -293,29 +309,59 @@ TEST_CASE("expressions have volumes, and the eye may be in one") {
             }
 }
 
-TEST_CASE("in double precision the eye may be in a face, an edge or a corner between elements") {
+// Of a box full of the same density, seen from within: wrong pixels without a flag, and pixels with one.
+struct EyeCheck {
+    std::size_t n_wrong = 0, n_flagged = 0;
+};
+
+EyeCheck check_eye(Renderer& renderer, FrameRequest& request, double tolerance) {
+    const Frame frame = renderer.render(request);
+    EyeCheck check;
+    for (std::size_t pixel = 0; pixel < frame.counts.pixels; ++pixel) {
+        const Color expected = over({1, 0.5, 0}, std::exp(-0.3 * chord(ray_of(request, pixel))), request.background);
+        const bool is_right = std::abs(frame.color[4 * pixel] - expected[0]) <= tolerance;
+        check.n_flagged += frame.flags[pixel] != 0;
+        check.n_wrong += !is_right && frame.flags[pixel] == 0;
+    }
+    return check;
+}
+
+TEST_CASE("the eye may be in a face, an edge or a corner between elements, or beside them") {
     const TemporaryFile file("eye.h5");
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const double tolerance = precision == Precision::float32 ? 1e-4 : 1e-9;
     for (const std::string shape : {"hexahedron", "tetrahedron"}) {
         generate(box(shape, {2, 2, 2}), file.path());
         const RuntimeVolume volume = open_volume(file.path());
-        Renderer renderer(device(), volume, Precision::float64);
+        Renderer renderer(device(), volume, precision);
         FrameRequest request = request_of({{{0, 0.3}}, {{0, {1, 0.5, 0}}}});
-        for (const Vector3& eye : {Vector3{0, 0.3, 0.2}, Vector3{0.3, 0, 0.2}, Vector3{0, 0, 0.3}, Vector3{0, 0, 1}}) {
+        for (const Vector3& eye : {Vector3{0, 0.3, 0.2}, Vector3{0.3, 0, 0.2}, Vector3{0, 0, 0.3}, Vector3{0, 0, 1},
+                                   Vector3{0.3, 0.3, 1 + 1e-7}, Vector3{1e-7, -1e-7, 0.3}}) {
             request.camera.eye = eye;
             request.camera.look_at = {-0.5, 0.2, 2.6};
-            const Frame frame = renderer.render(request);
-            std::size_t n_wrong = 0, n_flagged = 0;
-            for (std::size_t pixel = 0; pixel < frame.counts.pixels; ++pixel) {
-                const Color expected = over({1, 0.5, 0}, std::exp(-0.3 * chord(ray_of(request, pixel))), request.background);
-                const bool is_right = std::abs(frame.color[4 * pixel] - expected[0]) <= 1e-9;
-                n_flagged += frame.flags[pixel] != 0;
-                n_wrong += !is_right && frame.flags[pixel] == 0;
-            }
-            CAPTURE(shape, eye[0], eye[1], eye[2], n_flagged);
-            CHECK(n_wrong == 0);
-            CHECK(n_flagged <= frame.counts.pixels / 100);
+            const EyeCheck check = check_eye(renderer, request, tolerance);
+            CAPTURE(shape, eye[0], eye[1], eye[2], check.n_flagged);
+            CHECK(check.n_wrong == 0);
+            CHECK(check.n_flagged <= 96 * 96 / 100);
         }
     }
+}
+
+TEST_CASE("rays of a parallel view may begin in a face between elements") {
+    const TemporaryFile file("eye.h5");
+    generate(box("prism", {2, 2, 2}), file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request = request_of({{{0, 0.3}}, {{0, {1, 0.5, 0}}}});
+    request.camera.eye = {0, 0, 1};
+    request.camera.look_at = {0, 0, GENERATE(-2, 4)};
+    request.camera.up = {0, 1, 0};
+    request.camera.orthographic = true;
+    request.camera.height = 1.9;
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    Renderer renderer(device(), volume, precision);
+    const EyeCheck check = check_eye(renderer, request, precision == Precision::float32 ? 1e-4 : 1e-9);
+    CHECK(check.n_wrong == 0);
+    CHECK(check.n_flagged == 0);
 }
 
 } // namespace elvis::oracle
