@@ -1,4 +1,5 @@
 #include <core/volume/field/field_extrema.hpp>
+#include <core/volume/field/weighted_derivatives.hpp>
 
 #include <core/base/vector3.hpp>
 
@@ -66,6 +67,7 @@ public:
 
 private:
     void read_facts();
+    void read_facts_of(std::uint32_t element_class, std::uint64_t first, std::uint64_t count);
     void look_at_corners();
     FieldExtremum largest(int sign);
     std::vector<Box> octants_of(const Box& box, int sign);
@@ -79,9 +81,10 @@ private:
         return m_facts.derivatives[element * m_n_components + component];
     }
     bool is_bounded(std::uint64_t element) const {
+        const bool needs_first = shape_of(element) == native::Shape::pyramid;
         for (std::uint32_t component = m_first; component < m_end; ++component) {
             const DerivativeBounds& bounds = derivatives(element, component);
-            if (!std::isfinite(bounds.first) || !std::isfinite(bounds.second)) {
+            if (!std::isfinite(bounds.second) || (needs_first && !std::isfinite(bounds.first))) {
                 return false;
             }
         }
@@ -111,22 +114,25 @@ void Search::read_facts() {
     m_facts.ranges.assign(n * m_n_components, {-infinity, infinity});
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     m_facts.derivatives.assign(n * m_n_components, {unknown, unknown});
-    std::vector<DerivativeBounds> bounds;
-    for (std::uint64_t first = 0; first < n; first += elements_at_once) {
-        if (m_control) {
-            m_control->check();
+    for (std::uint32_t element_class = 0; element_class < m_volume.classes().size(); ++element_class) {
+        const ClassInfo& info = m_volume.classes()[element_class];
+        for (std::uint64_t done = 0; done < info.n_elements; done += elements_at_once) {
+            if (m_control) {
+                m_control->check();
+            }
+            read_facts_of(element_class, info.first_element + done, std::min(elements_at_once, info.n_elements - done));
         }
-        const std::uint64_t count = std::min(elements_at_once, n - first);
-        const std::span<FieldRange> ranges = std::span(m_facts.ranges).subspan(first * m_n_components, count * m_n_components);
-        if (m_volume.has_field_ranges() &&
-            m_volume.field_ranges(m_field, m_time_step, first, count, ranges) != ELVIS_CERTIFIED) {
-            std::ranges::fill(ranges, FieldRange{-infinity, infinity});
-        }
-        bounds.resize(count * m_n_components);
-        if (m_volume.has_derivative_bounds() &&
-            m_volume.derivative_bounds(m_field, m_time_step, first, count, bounds) == ELVIS_CERTIFIED) {
-            std::ranges::copy(bounds, m_facts.derivatives.begin() + static_cast<std::ptrdiff_t>(first * m_n_components));
-        }
+    }
+}
+
+void Search::read_facts_of(std::uint32_t element_class, std::uint64_t first, std::uint64_t count) {
+    const std::span<FieldRange> ranges = std::span(m_facts.ranges).subspan(first * m_n_components, count * m_n_components);
+    if (m_volume.has_field_ranges() && m_volume.field_ranges(m_field, m_time_step, first, count, ranges) != ELVIS_CERTIFIED) {
+        std::ranges::fill(ranges, FieldRange{-infinity, infinity});
+    }
+    std::vector<DerivativeBounds> bounds(count * m_n_components);
+    if (read_weighted_derivatives(m_volume, element_class, m_field, m_time_step, first, count, bounds) == ELVIS_CERTIFIED) {
+        std::ranges::copy(bounds, m_facts.derivatives.begin() + static_cast<std::ptrdiff_t>(first * m_n_components));
     }
 }
 
@@ -210,7 +216,7 @@ double Search::reach(std::uint64_t element, std::size_t point, const Box& box) c
         }
     }
     const double r_most = std::max({r[0], r[1], r[2]});
-    // Second derivatives in pyramids are bounded by H/t.
+    // Second derivatives in pyramids are bounded by B/t.
     const double least_t = shape == native::Shape::pyramid ? 0.5 * (1 - box.middle[2] - box.half) : 1;
     double sum = 0;
     for (std::uint32_t component = m_first; component < m_end; ++component) {

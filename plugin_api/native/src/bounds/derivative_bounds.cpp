@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace elvis::native {
@@ -24,13 +25,17 @@ struct DerivativeBounder::Forms {
     device::Conversion conversion;
     device::DerivativeWeights weights;
     device::BernsteinBounds bernstein;
-    PyramidBounds pyramid;
+    std::optional<PyramidBounds> pyramid;
 
-    explicit Forms(const Space& space)
-        : conversion(space), weights(conversion.device_space()), bernstein(conversion.device_space()), pyramid(space) {}
+    Forms(const Space& space, SecondDerivatives second)
+        : conversion(space), weights(conversion.device_space(), second), bernstein(conversion.device_space()) {
+        if (second == SecondDerivatives::apex_weighted && PyramidBounds::has_bounds(space))
+            pyramid.emplace(space);
+    }
 };
 
-DerivativeBounder::DerivativeBounder(const Space& space) : m_forms(std::make_shared<const Forms>(space)) {}
+DerivativeBounder::DerivativeBounder(const Space& space, SecondDerivatives second)
+    : m_forms(std::make_shared<const Forms>(space, second)) {}
 
 DerivativeBound DerivativeBounder::operator()(std::span<const double> coefficients) const {
     thread_local std::vector<double> modes;
@@ -44,8 +49,8 @@ DerivativeBound DerivativeBounder::operator()(std::span<const double> coefficien
     };
     if (m_forms->bernstein.is_usable())
         take(m_forms->bernstein.bound(modes));
-    if (m_forms->pyramid.is_usable())
-        take(m_forms->pyramid.bound(coefficients));
+    if (m_forms->pyramid)
+        take(m_forms->pyramid->bound(coefficients));
     return {finite_or_unknown(bound.first), finite_or_unknown(bound.second)};
 }
 

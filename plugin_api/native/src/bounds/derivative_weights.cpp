@@ -130,7 +130,7 @@ std::array<int, 2> split_exponent(int exponent, int p) {
 
 } // namespace
 
-DerivativeWeights::DerivativeWeights(const DeviceSpace& space) {
+DerivativeWeights::DerivativeWeights(const DeviceSpace& space, SecondDerivatives second_derivatives) {
     LastFactor last;
     const auto jet_of = [&space](int p) {
         return [&space, p](const Jet& u) {
@@ -170,7 +170,7 @@ DerivativeWeights::DerivativeWeights(const DeviceSpace& space) {
                     const std::array<int, 2> powers = is_tetrahedron ? std::array<int, 2>{p, q} : split_exponent(exponent, p);
                     Product product;
                     product.exponent = exponent;
-                    product.spare = is_tetrahedron ? 0 : 1;
+                    product.spare = !is_tetrahedron && second_derivatives == SecondDerivatives::apex_weighted ? 1 : 0;
                     product.a = Homogeneous{p, powers[0], is_tetrahedron ? 2 : 1}.bounds(jet_of(p), 0);
                     const Homogeneous second{q, powers[1], 1};
                     for (int taken = 0; taken < 3; ++taken)

@@ -14,8 +14,8 @@ namespace elvis::native::device {
 
 /**
  * One pair of weights for each function of the space, in the order of the record, from suprema of their one-dimensional
- * factors. For a sum f of these functions with coefficients c, sum_ij |d_ij f| <= sum_m |c_m| second_m; in pyramids that bounds
- * t sum_ij |d_ij f|, since t x1/t x2/t has no second derivative at the apex.
+ * factors. For a sum f of these functions with coefficients c, sum_ij |d_ij f| <= sum_m |c_m| second_m. Second derivatives may
+ * be `apex_weighted`, since that of t x1/t x2/t at the apex of a pyramid is not bounded.
  *
  * A factor that depends on x/t, times t^k, is a homogeneous function, and so are its derivatives, with k less by one each:
  * d/dx (t^k g(x/t)) = t^(k-1) g'(u), and along a direction in which x grows by 1/2 and t falls by 1/2,
@@ -25,12 +25,12 @@ namespace elvis::native::device {
  */
 class DerivativeWeights {
 public:
-    explicit DerivativeWeights(const DeviceSpace& space);
+    explicit DerivativeWeights(const DeviceSpace& space, SecondDerivatives second_derivatives = SecondDerivatives::plain);
 
     /** For device coefficients; an infinite number where a function with a coefficient has no bound. */
     DerivativeBound bound(std::span<const double> coefficients) const;
 
-    /** Infinite where the function's derivatives are not bounded (functions with several values at the apex of a pyramid). */
+    /** Infinite where the function's derivatives are not bounded (apex of a pyramid). */
     const std::vector<double>& first() const { return m_first; }
     const std::vector<double>& second() const { return m_second; }
 

@@ -37,20 +37,18 @@ double steepest(const DerivativeForms::Column& f, const double* forms, std::size
 
 } // namespace
 
-PyramidBounds::PyramidBounds(const Space& space) {
-    // Tensor spaces hold functions with several values at the apex, whose derivatives are no polynomials.
-    if (space.shape == Shape::pyramid && space.basis != Basis::tensor && space.order[0] > 0)
-        m_forms.emplace(space);
+bool PyramidBounds::has_bounds(const Space& space) {
+    return space.shape == Shape::pyramid && space.basis != Basis::tensor && space.order[0] > 0;
 }
 
 DerivativeBound PyramidBounds::bound(std::span<const double> coefficients) const {
-    assert(is_usable() && coefficients.size() == m_forms->n_modes());
+    assert(coefficients.size() == m_forms.n_modes());
     thread_local std::vector<double> forms, workspace;
-    forms.resize(m_forms->size());
-    workspace.resize(m_forms->workspace_size());
+    forms.resize(m_forms.size());
+    workspace.resize(m_forms.workspace_size());
     double magnitude = 0;
-    m_forms->evaluate<1>(coefficients.data(), workspace.data(), forms.data(), &magnitude);
-    const auto& f = m_forms->columns();
+    m_forms.evaluate<1>(coefficients.data(), workspace.data(), forms.data(), &magnitude);
+    const auto& f = m_forms.columns();
     const auto along = [&](std::size_t direction, std::size_t column) { return steepest(f[column], forms.data(), direction); };
     // t f_13 and t f_23 count twice, and once more in t f_33.
     const double second = along(0, 0) + along(1, 1) + 2 * std::min(along(1, 0), along(0, 1)) + 3 * (along(0, 2) + along(1, 2)) +

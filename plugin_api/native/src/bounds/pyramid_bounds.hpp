@@ -8,7 +8,6 @@
 
 #include <elvis/native/derivative_bounds.hpp>
 
-#include <optional>
 #include <span>
 
 namespace elvis::native {
@@ -23,16 +22,16 @@ namespace elvis::native {
  */
 class PyramidBounds {
 public:
-    explicit PyramidBounds(const Space& space);
-
-    /** Whether there are bounds for the space: else bound() must not be called. */
-    bool is_usable() const { return m_forms.has_value(); }
+    /** Not for other shapes, nor for `tensor` spaces, whose derivatives are no polynomials. */
+    static bool has_bounds(const Space& space);
+    /** Of a space that has bounds. */
+    explicit PyramidBounds(const Space& space) : m_forms(space) {}
 
     /** For coefficients in the order of the space. */
     DerivativeBound bound(std::span<const double> coefficients) const;
 
 private:
-    std::optional<DerivativeForms> m_forms;
+    DerivativeForms m_forms;
 };
 
 } // namespace elvis::native
