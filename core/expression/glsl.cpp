@@ -116,7 +116,8 @@ std::string model_glsl(const Expression& expression, const ExpressionClass& elem
     const auto leaf = [&](const Node& node) -> std::string {
         if (node.operation == Operation::field) {
             const std::string at = LeafWriter::field_suffix(leaves.slot(node.field), node.component);
-            return call("core_model_leaf", {"core_f" + at, "core_s" + at, call("core_leaf_bounds", {row(node)}), "region"});
+            const std::string bounds = call("core_leaf_bounds", {row(node), "xi", "region.radius"});
+            return call("core_model_leaf", {"core_f" + at, "core_s" + at, bounds, "region"});
         }
         if (node.operation == Operation::position) {
             const std::string i = std::to_string(node.index[0]);

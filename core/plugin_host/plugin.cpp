@@ -18,6 +18,7 @@ struct Plugin::Impl {
     std::optional<elvis_runtime> runtime;
     std::optional<elvis_converter> converter;
     std::optional<elvis_extrema> extrema;
+    std::optional<elvis_apex_bounds> apex_bounds;
 };
 
 namespace {
@@ -71,6 +72,10 @@ const char* missing_function(const elvis_converter& table) {
 }
 
 const char* missing_function(const elvis_extrema& table) { return table.get_field_extrema ? nullptr : "get_field_extrema"; }
+
+const char* missing_function(const elvis_apex_bounds& table) {
+    return table.get_field_apex_bounds ? nullptr : "get_field_apex_bounds";
+}
 
 template <class Table>
 std::optional<Table> read_interface(const std::filesystem::path& library, const elvis_plugin_descriptor& descriptor,
@@ -134,6 +139,7 @@ std::shared_ptr<const Plugin> Plugin::load(const std::filesystem::path& library)
     impl.runtime = read_interface<elvis_runtime>(library, descriptor, ELVIS_RUNTIME_INTERFACE);
     impl.converter = read_interface<elvis_converter>(library, descriptor, ELVIS_CONVERTER_INTERFACE);
     impl.extrema = read_interface<elvis_extrema>(library, descriptor, ELVIS_EXTREMA_INTERFACE);
+    impl.apex_bounds = read_interface<elvis_apex_bounds>(library, descriptor, ELVIS_APEX_BOUNDS_INTERFACE);
     if (!impl.runtime && !impl.converter) {
         refuse(library, "offers neither " ELVIS_RUNTIME_INTERFACE " nor " ELVIS_CONVERTER_INTERFACE);
     }
@@ -150,6 +156,7 @@ std::uint32_t Plugin::abi_version() const { return m_impl->abi_version; }
 const elvis_runtime* Plugin::runtime() const { return m_impl->runtime ? &*m_impl->runtime : nullptr; }
 const elvis_converter* Plugin::converter() const { return m_impl->converter ? &*m_impl->converter : nullptr; }
 const elvis_extrema* Plugin::extrema() const { return m_impl->extrema ? &*m_impl->extrema : nullptr; }
+const elvis_apex_bounds* Plugin::apex_bounds() const { return m_impl->apex_bounds ? &*m_impl->apex_bounds : nullptr; }
 
 std::string abi_version_text(std::uint32_t version) {
     return std::to_string(version >> 16) + "." + std::to_string(version & 0xffffu);

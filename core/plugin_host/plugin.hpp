@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <elvis/apex_bounds.h>
 #include <elvis/converter.h>
 #include <elvis/extrema.h>
 #include <elvis/plugin.h>
@@ -40,6 +41,7 @@ public:
     const elvis_runtime* runtime() const;
     const elvis_converter* converter() const;
     const elvis_extrema* extrema() const;
+    const elvis_apex_bounds* apex_bounds() const;
 
 private:
     Plugin();

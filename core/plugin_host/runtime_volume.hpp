@@ -90,10 +90,10 @@ struct FieldExtrema {
     FieldRange range() const { return {minimum.value, maximum.value}; }
 };
 
-/** See elvis_runtime.get_field_derivative_bounds; NaN where the plugin cannot tell. */
+/** See elvis_runtime.get_field_derivative_bounds and elvis_apex_bounds; NaN where the plugin cannot tell. */
 struct DerivativeBounds {
     double first = 0;  ///< L
-    double second = 0; ///< H
+    double second = 0; ///< H, or B
 };
 
 /** See elvis_jacobian_check. */
@@ -161,6 +161,12 @@ public:
     /** n_components entries an element. Needs has_derivative_bounds(). Checked: each finite and >= 0, or NaN. */
     elvis_certainty derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
                                       std::span<DerivativeBounds> out) const;
+
+    /** Whether the plugin offers elvis_apex_bounds. */
+    bool has_apex_bounds() const;
+    /** As derivative_bounds, of pyramids alone. Needs has_apex_bounds(). */
+    elvis_certainty apex_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
+                                std::span<DerivativeBounds> out) const;
 
     /** See elvis_runtime.fill_buffer; `destination` holds count * record_size doubles or uint32_t. */
     void fill_buffer(const elvis_fill_request& request, void* destination) const;

@@ -115,26 +115,42 @@ std::optional<FieldExtrema> RuntimeVolume::extrema(std::uint32_t field, int comp
     return FieldExtrema{read(minimum), read(maximum), certainty};
 }
 
-bool RuntimeVolume::has_derivative_bounds() const { return m_impl->table->get_field_derivative_bounds != nullptr; }
-
-elvis_certainty RuntimeVolume::derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
-                                                 std::uint64_t count, std::span<DerivativeBounds> out) const {
+elvis_certainty RuntimeVolume::Impl::bound_derivatives(const char* name,
+                                                       decltype(elvis_runtime::get_field_derivative_bounds) function,
+                                                       std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+                                                       std::uint64_t count, std::span<DerivativeBounds> out) const {
     static_assert(sizeof(DerivativeBounds) == 2 * sizeof(double));
-    assert(has_derivative_bounds() && out.size() == count * m_impl->fields[field].n_components);
-    constexpr const char* function = "get_field_derivative_bounds";
+    assert(out.size() == count * fields[field].n_components);
     elvis_certainty certainty = ELVIS_ESTIMATED;
-    m_impl->call(function, m_impl->table->get_field_derivative_bounds, field, time_step, first, count,
-                 reinterpret_cast<double*>(out.data()), &certainty);
-    m_impl->check_certainty(certainty, function);
+    call(name, function, field, time_step, first, count, reinterpret_cast<double*>(out.data()), &certainty);
+    check_certainty(certainty, name);
     for (std::size_t index = 0; index < out.size(); ++index) {
         for (const double bound : {out[index].first, out[index].second}) {
             if (bound < 0 || std::isinf(bound)) {
-                m_impl->refuse(function, "the bound " + std::to_string(bound) + " for element " +
-                                             std::to_string(first + index / m_impl->fields[field].n_components));
+                refuse(name, "the bound " + std::to_string(bound) + " for element " +
+                                 std::to_string(first + index / fields[field].n_components));
             }
         }
     }
     return certainty;
+}
+
+bool RuntimeVolume::has_derivative_bounds() const { return m_impl->table->get_field_derivative_bounds != nullptr; }
+
+elvis_certainty RuntimeVolume::derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+                                                 std::uint64_t count, std::span<DerivativeBounds> out) const {
+    assert(has_derivative_bounds());
+    return m_impl->bound_derivatives("get_field_derivative_bounds", m_impl->table->get_field_derivative_bounds, field,
+                                     time_step, first, count, out);
+}
+
+bool RuntimeVolume::has_apex_bounds() const { return m_impl->plugin->apex_bounds() != nullptr; }
+
+elvis_certainty RuntimeVolume::apex_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+                                           std::uint64_t count, std::span<DerivativeBounds> out) const {
+    assert(has_apex_bounds());
+    return m_impl->bound_derivatives("get_field_apex_bounds", m_impl->plugin->apex_bounds()->get_field_apex_bounds, field,
+                                     time_step, first, count, out);
 }
 
 bool RuntimeVolume::has_evaluation() const { return m_impl->table->evaluate_mapping && m_impl->table->evaluate_field; }

@@ -53,6 +53,11 @@ struct RuntimeVolume::Impl {
         }
     }
 
+    /** By one of the functions that bound derivatives. */
+    elvis_certainty bound_derivatives(const char* name, decltype(elvis_runtime::get_field_derivative_bounds) function,
+                                      std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
+                                      std::span<DerivativeBounds> out) const;
+
     void read_info();
     void read_classes();
     void read_fields();

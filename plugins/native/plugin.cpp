@@ -213,7 +213,16 @@ public:
         check_field(field);
         check_time_step(time_step);
         check_elements(first, n);
-        m_volume.derivative_bounds(field, time_step, first, n, bounds);
+        m_volume.derivative_bounds(field, time_step, native::SecondDerivatives::plain, first, n, bounds);
+        return ELVIS_CERTIFIED;
+    }
+
+    elvis_certainty get_field_apex_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t n,
+                                          std::span<double> bounds) {
+        check_field(field);
+        check_time_step(time_step);
+        check_elements(first, n);
+        m_volume.derivative_bounds(field, time_step, native::SecondDerivatives::apex_weighted, first, n, bounds);
         return ELVIS_CERTIFIED;
     }
 
@@ -274,4 +283,5 @@ private:
 ELVIS_PLUGIN(.id = "org.elvis.native", .name = "Native volume", .version = "0.1.0", .vendor = "ElVis",
              .description = "Serves ElVis's own HDF5 volumes for rendering.",
              .runtime = elvis::api::runtime_table<elvis::native_plugin::NativeVolume>(),
-             .extrema = elvis::api::extrema_table<elvis::native_plugin::NativeVolume>());
+             .extrema = elvis::api::extrema_table<elvis::native_plugin::NativeVolume>(),
+             .apex_bounds = elvis::api::apex_bounds_table<elvis::native_plugin::NativeVolume>());

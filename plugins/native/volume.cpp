@@ -212,13 +212,13 @@ const Conversion& Volume::conversion(const Space& space) const {
     return *m_conversions.back().second;
 }
 
-const native::DerivativeBounder& Volume::derivative_bounder(const Space& space) const {
+const native::DerivativeBounder& Volume::derivative_bounder(const Space& space, native::SecondDerivatives second) const {
     const std::lock_guard lock(m_conversions_mutex);
-    for (const auto& [known, bounder] : m_derivative_bounders)
-        if (known == space)
-            return *bounder;
-    m_derivative_bounders.emplace_back(space, std::make_unique<const native::DerivativeBounder>(space));
-    return *m_derivative_bounders.back().second;
+    for (const KnownBounder& known : m_derivative_bounders)
+        if (known.space == space && known.second == second)
+            return *known.bounder;
+    m_derivative_bounders.push_back({space, second, std::make_unique<const native::DerivativeBounder>(space, second)});
+    return *m_derivative_bounders.back().bounder;
 }
 
 } // namespace elvis::native_plugin

@@ -62,11 +62,12 @@ public:
     void check_jacobians(std::uint64_t first, double tolerance, std::span<native::JacobianCheck> checks) const;
 
     /**
-     * Two numbers (L, H) an element and component, as elvis_runtime.get_field_derivative_bounds: certified, or NaN where the
-     * field has a transform, is not finite, or has derivatives that may grow without bound at the apex of a pyramid.
+     * Two numbers an element and component, as elvis_runtime.get_field_derivative_bounds (`plain`) or
+     * elvis_apex_bounds.get_field_apex_bounds: certified, or NaN where the field has a transform, is not finite, or has
+     * derivatives that may grow without bound at the apex of a pyramid.
      */
-    void derivative_bounds(std::size_t field, std::size_t time_step, std::uint64_t first, std::uint64_t count,
-                           std::span<double> bounds) const;
+    void derivative_bounds(std::size_t field, std::size_t time_step, native::SecondDerivatives second, std::uint64_t first,
+                           std::uint64_t count, std::span<double> bounds) const;
 
     /** Numbers in a record of the class's buffers; see buffers.cpp. */
     std::size_t geometry_record_size(std::size_t element_class) const;
@@ -113,7 +114,7 @@ private:
     Coefficients element_field(std::size_t field, std::size_t time_step, Place place) const;
 
     const Conversion& conversion(const native::Space& space) const;
-    const native::DerivativeBounder& derivative_bounder(const native::Space& space) const;
+    const native::DerivativeBounder& derivative_bounder(const native::Space& space, native::SecondDerivatives second) const;
     /** Runs `read` with the file to itself; its errors become ours. */
     template <class Read> void read_file(Read read) const;
     api::Error error(elvis_result code, const std::string& what) const { return {code, m_path, what}; }
@@ -134,7 +135,12 @@ private:
     mutable BlockCache m_cache;
     mutable std::mutex m_conversions_mutex;
     mutable std::vector<std::pair<native::Space, std::unique_ptr<const Conversion>>> m_conversions;
-    mutable std::vector<std::pair<native::Space, std::unique_ptr<const native::DerivativeBounder>>> m_derivative_bounders;
+    struct KnownBounder {
+        native::Space space;
+        native::SecondDerivatives second;
+        std::unique_ptr<const native::DerivativeBounder> bounder;
+    };
+    mutable std::vector<KnownBounder> m_derivative_bounders;
     /** Filled when faces are first asked for. */
     mutable std::unordered_map<std::int64_t, std::int64_t> m_positions;
 };

@@ -11,4 +11,4 @@ ELVIS_PLUGIN(.id = "org.elvis.nektarpp", .name = "Nektar++ reader", .version = "
              .description = "Draws and converts Nektar++ meshes (.xml) and fields (.fld, .chk): all shapes, curved and "
                             "mixed-order elements, partitioned directories.",
              .runtime = nektarpp::runtime_interface(), .converter = nektarpp::converter_interface(),
-             .extrema = nektarpp::extrema_interface());
+             .extrema = nektarpp::extrema_interface(), .apex_bounds = nektarpp::apex_bounds_interface());

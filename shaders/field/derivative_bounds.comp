@@ -1,4 +1,5 @@
-// Largest size, slope and second derivatives of a field at samples of each element: estimates, for plugins that cannot tell.
+// Largest size, slope and second derivatives of a field at samples of each element: estimates, for plugins that cannot tell. In pyramids,
+// second derivatives count times (1 - xi_3)/2 (field/leaf_bounds.glsl).
 //
 // Samples lie in collapsed coordinates at a grid of 4 x 4 x 4 points, where polynomials are steepest near the ends. Second
 // derivatives along each collapsed direction come from the difference to the gradient at a point CORE_STEP further inside. With the
@@ -93,7 +94,8 @@ void main() {
         const elvis_vec3 column1 = (normal1.x * change1 + normal2.x * change2 + normal3.x * change) / volume;
         const elvis_vec3 column2 = (normal1.y * change1 + normal2.y * change2 + normal3.y * change) / volume;
         const elvis_vec3 column3 = (normal1.z * change1 + normal2.z * change2 + normal3.z * change) / volume;
-        const elvis_real sum = core_sum(column1) + core_sum(column2) + core_sum(column3);
+        const elvis_real share = ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID ? elvis_real(0.5LF) * (one - here.z) : one;
+        const elvis_real sum = share * (core_sum(column1) + core_sum(column2) + core_sum(column3));
         is_sound = is_sound && (direction != 3u || core_is_finite(sum));
         bend = direction == 3u ? max(bend, sum) : bend;
     }

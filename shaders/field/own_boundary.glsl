@@ -32,7 +32,8 @@ core_model core_shown_model(uint element, elvis_vec3 xi, core_region region, out
 #else
     const elvis_vec2 bounds = elvis_vec2(0);
 #endif
-    return core_model_leaf(value, gradient, core_leaf_bounds(elvis_vec4(bounds.y, bounds.x, abs(value) + bounds.x, 0)), region);
+    return core_model_leaf(value, gradient, core_leaf_bounds(elvis_vec4(bounds.y, bounds.x, abs(value) + bounds.x, 0), xi, region.radius),
+                           region);
 }
 
 bool core_is_model_estimated(uint element) { return false; }

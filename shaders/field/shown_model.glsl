@@ -13,7 +13,8 @@
 core_model core_component_model(uint element, elvis_vec3 xi, uint component, core_region region, out elvis_real value) {
     elvis_vec3 gradient;
     elvis_field_gradient(element, xi, component, value, gradient);
-    return core_model_leaf(value, gradient, core_leaf_bounds(elvis_fetch4_core_bounds(element, component)), region);
+    const elvis_vec3 bounds = core_leaf_bounds(elvis_fetch4_core_bounds(element, component), xi, region.radius);
+    return core_model_leaf(value, gradient, bounds, region);
 }
 
 core_model core_shown_model(uint element, elvis_vec3 xi, core_region region, out elvis_real value) {
@@ -38,7 +39,7 @@ core_model core_shown_model(uint element, elvis_vec3 xi, core_region region, out
 elvis_real core_shown_rounding(uint element, elvis_vec3 xi) {
     elvis_real sum = elvis_real(0);
     for (uint component = core_first_component; component < core_end_component; ++component) {
-        sum += core_leaf_bounds(elvis_fetch4_core_bounds(element, component)).y;
+        sum += core_leaf_bounds(elvis_fetch4_core_bounds(element, component), xi, elvis_real(0)).y;
     }
     return sum;
 }

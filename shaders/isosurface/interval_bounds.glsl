@@ -2,6 +2,8 @@
 //
 // The kernel brings isosurface/ray_interval.glsl and isosurface/nearest_crossing.glsl.
 
+#include "field/leaf_bounds.glsl"
+
 // Offsets from xi, in reference coordinates, below which rounding counts more than what the linearization leaves out.
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_NARROW elvis_real(6e-8LF)
@@ -57,8 +59,13 @@ struct core_evaluation {
 #endif
 };
 
-// From here on the remainder of a model tells second derivatives, not rounding.
+// From here on the remainder of a model tells second derivatives, not rounding. In pyramids these grow towards the apex, and a bound from
+// elsewhere does not hold: each interval has its own, rounding and all.
+#if ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
+#define CORE_WIDE_ENOUGH elvis_real(0)
+#else
 #define CORE_WIDE_ENOUGH (elvis_real(8) * CORE_NARROW)
+#endif
 
 core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search search) {
     core_evaluation evaluation;
@@ -88,7 +95,9 @@ core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search 
     evaluation.slope = model.slope;
     evaluation.candidate = core_first_linear_root(evaluation.interval);
     const elvis_real radius = evaluation.interval.radius;
-    search.bend = radius > CORE_WIDE_ENOUGH ? elvis_real(2) * model.remainder / (radius * radius) : search.bend;
+    search.bend = !core_is_away_from_apex(evaluation.xi, radius) ? CORE_FAR
+                  : radius > CORE_WIDE_ENOUGH                     ? elvis_real(2) * model.remainder / (radius * radius)
+                                                                  : search.bend;
     evaluation.bend = search.bend + elvis_real(2) * search.curvature * core_model_norm1(model.slope);
     evaluation.is_finite = core_is_finite(value + core_max_norm(position));
     return evaluation;

@@ -129,6 +129,8 @@ TEST_CASE("bounds, ranges, numbers and faces out of range are refused") {
         INFO(name);
         CHECK_THAT(error_of([&] { (void)open(name).derivative_bounds(0, 0, 0, 1, std::span(&slope, 1)); }),
                    blames("get_field_derivative_bounds"));
+        CHECK_THAT(error_of([&] { (void)open(name).apex_bounds(0, 0, 0, 1, std::span(&slope, 1)); }),
+                   blames("get_field_apex_bounds"));
     }
     // "Cannot tell" is an answer.
     CHECK_NOTHROW((void)open("unknown-bend").derivative_bounds(0, 0, 0, 1, std::span(&slope, 1)));

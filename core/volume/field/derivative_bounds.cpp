@@ -1,4 +1,5 @@
 #include <core/volume/field/derivative_bounds.hpp>
+#include <core/volume/field/weighted_derivatives.hpp>
 #include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
@@ -43,18 +44,18 @@ static_assert(sizeof(Row) == 4 * sizeof(double));
 /** What the plugin tells of a block of elements; the rest stays unknown. */
 class FromPlugin {
 public:
-    FromPlugin(const RuntimeVolume& volume, const BoundedField& field) : m_volume(volume), m_field(field) {}
+    FromPlugin(const RuntimeVolume& volume, std::uint32_t element_class, const BoundedField& field)
+        : m_volume(volume), m_class(element_class), m_field(field) {}
 
     void read(std::uint64_t first, std::uint64_t count, std::vector<Row>& rows) {
         const std::size_t n_components = m_field.offset.size();
-        if (m_volume.has_derivative_bounds()) {
-            m_bounds.resize(rows.size());
-            const auto certainty = m_volume.derivative_bounds(m_field.field, m_field.time_step, first, count, m_bounds);
-            for (std::size_t i = 0; i < rows.size(); ++i) {
-                rows[i].second = m_bounds[i].second;
-                rows[i].first = m_bounds[i].first;
-                rows[i].certainty = certainty == ELVIS_CERTIFIED ? 0 : 1;
-            }
+        m_bounds.resize(rows.size());
+        const elvis_certainty of_derivatives =
+            read_weighted_derivatives(m_volume, m_class, m_field.field, m_field.time_step, first, count, m_bounds);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            rows[i].second = m_bounds[i].second;
+            rows[i].first = m_bounds[i].first;
+            rows[i].certainty = of_derivatives == ELVIS_CERTIFIED ? 0 : 1;
         }
         if (m_volume.has_field_ranges()) {
             m_ranges.resize(rows.size());
@@ -71,6 +72,7 @@ public:
 
 private:
     const RuntimeVolume& m_volume;
+    std::uint32_t m_class;
     const BoundedField& m_field;
     std::vector<DerivativeBounds> m_bounds;
     std::vector<FieldRange> m_ranges;
@@ -137,7 +139,7 @@ std::unique_ptr<RecordBuffer> make_derivative_bounds(const Device& device, const
     const ClassInfo& info = volume.classes()[element_class];
     const auto n_components = static_cast<std::uint32_t>(field.offset.size());
     auto records = std::make_unique<RecordBuffer>(device, RecordKind::real, precision, info.n_elements, 4 * n_components);
-    FromPlugin plugin(volume, field);
+    FromPlugin plugin(volume, element_class, field);
     std::optional<Sampler> sampler;
     std::vector<Row> rows;
     std::vector<double> numbers;

@@ -28,9 +28,9 @@ struct BoundedField {
  *
  *   H >= sum over i, j of |d^2 f / dxi_i dxi_j|,   L >= sum over i of |df / dxi_i|,   F >= |f - offset|,   certainty
  *
- * over the whole element. Certainty is 0 if all three are certified, 1 if any is estimated. Numbers that are not finite,
- * because the data are not or because they leave the range of the precision, are 3e38. `instance` holds the field lacking its
- * offset.
+ * over the whole element; in pyramids H bounds (1 - xi_3)/2 times the sum (weighted_derivatives.hpp). Certainty is 0 if all
+ * three are certified, 1 if any is estimated. Numbers that are not finite, because the data are not or because they leave the
+ * range of the precision, are 3e38. `instance` holds the field lacking its offset.
  */
 std::unique_ptr<RecordBuffer> make_derivative_bounds(const Device& device, const RuntimeVolume& volume,
                                                      std::uint32_t element_class, const BoundedField& field,

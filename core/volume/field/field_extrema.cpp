@@ -1,4 +1,5 @@
 #include <core/volume/field/field_extrema.hpp>
+#include <core/volume/field/weighted_derivatives.hpp>
 
 #include <core/base/vector3.hpp>
 
@@ -40,7 +41,7 @@ struct Box {
 /** What is known of elements before the search: infinity and NaN where the plugin proves nothing. */
 struct ElementFacts {
     std::vector<FieldRange> ranges;
-    std::vector<double> second; ///< H
+    std::vector<DerivativeBounds> derivatives;
 };
 
 class Search {
@@ -66,6 +67,7 @@ public:
 
 private:
     void read_facts();
+    void read_facts_of(std::uint32_t element_class, std::uint64_t first, std::uint64_t count);
     void look_at_corners();
     FieldExtremum largest(int sign);
     std::vector<Box> octants_of(const Box& box, int sign);
@@ -75,12 +77,14 @@ private:
     double value(std::size_t point) const;
     double reach(std::uint64_t element, std::size_t point, const Box& box) const;
     double enclosure(std::uint64_t element, int sign) const;
-    double second(std::uint64_t element, std::uint32_t component) const {
-        return m_facts.second[element * m_n_components + component];
+    const DerivativeBounds& derivatives(std::uint64_t element, std::uint32_t component) const {
+        return m_facts.derivatives[element * m_n_components + component];
     }
     bool is_bounded(std::uint64_t element) const {
+        const bool needs_first = shape_of(element) == native::Shape::pyramid;
         for (std::uint32_t component = m_first; component < m_end; ++component) {
-            if (!std::isfinite(second(element, component))) {
+            const DerivativeBounds& bounds = derivatives(element, component);
+            if (!std::isfinite(bounds.second) || (needs_first && !std::isfinite(bounds.first))) {
                 return false;
             }
         }
@@ -108,24 +112,27 @@ private:
 void Search::read_facts() {
     const std::uint64_t n = m_volume.n_elements();
     m_facts.ranges.assign(n * m_n_components, {-infinity, infinity});
-    m_facts.second.assign(n * m_n_components, std::numeric_limits<double>::quiet_NaN());
-    std::vector<DerivativeBounds> bounds;
-    for (std::uint64_t first = 0; first < n; first += elements_at_once) {
-        if (m_control) {
-            m_control->check();
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    m_facts.derivatives.assign(n * m_n_components, {unknown, unknown});
+    for (std::uint32_t element_class = 0; element_class < m_volume.classes().size(); ++element_class) {
+        const ClassInfo& info = m_volume.classes()[element_class];
+        for (std::uint64_t done = 0; done < info.n_elements; done += elements_at_once) {
+            if (m_control) {
+                m_control->check();
+            }
+            read_facts_of(element_class, info.first_element + done, std::min(elements_at_once, info.n_elements - done));
         }
-        const std::uint64_t count = std::min(elements_at_once, n - first);
-        const std::span<FieldRange> ranges = std::span(m_facts.ranges).subspan(first * m_n_components, count * m_n_components);
-        if (m_volume.has_field_ranges() &&
-            m_volume.field_ranges(m_field, m_time_step, first, count, ranges) != ELVIS_CERTIFIED) {
-            std::ranges::fill(ranges, FieldRange{-infinity, infinity});
-        }
-        bounds.resize(count * m_n_components);
-        if (m_volume.has_derivative_bounds() &&
-            m_volume.derivative_bounds(m_field, m_time_step, first, count, bounds) == ELVIS_CERTIFIED) {
-            std::ranges::transform(bounds, m_facts.second.begin() + static_cast<std::ptrdiff_t>(first * m_n_components),
-                                   &DerivativeBounds::second);
-        }
+    }
+}
+
+void Search::read_facts_of(std::uint32_t element_class, std::uint64_t first, std::uint64_t count) {
+    const std::span<FieldRange> ranges = std::span(m_facts.ranges).subspan(first * m_n_components, count * m_n_components);
+    if (m_volume.has_field_ranges() && m_volume.field_ranges(m_field, m_time_step, first, count, ranges) != ELVIS_CERTIFIED) {
+        std::ranges::fill(ranges, FieldRange{-infinity, infinity});
+    }
+    std::vector<DerivativeBounds> bounds(count * m_n_components);
+    if (read_weighted_derivatives(m_volume, element_class, m_field, m_time_step, first, count, bounds) == ELVIS_CERTIFIED) {
+        std::ranges::copy(bounds, m_facts.derivatives.begin() + static_cast<std::ptrdiff_t>(first * m_n_components));
     }
 }
 
@@ -209,11 +216,16 @@ double Search::reach(std::uint64_t element, std::size_t point, const Box& box) c
         }
     }
     const double r_most = std::max({r[0], r[1], r[2]});
+    // Second derivatives in pyramids are bounded by B/t.
+    const double least_t = shape == native::Shape::pyramid ? 0.5 * (1 - box.middle[2] - box.half) : 1;
     double sum = 0;
     for (std::uint32_t component = m_first; component < m_end; ++component) {
         const double* gradient = &m_gradients[3 * (point * m_n_components + component)];
-        const double most = std::abs(gradient[0]) * r[0] + std::abs(gradient[1]) * r[1] + std::abs(gradient[2]) * r[2] +
-                            0.5 * second(element, component) * r_most * r_most;
+        const DerivativeBounds& bounds = derivatives(element, component);
+        const double curved = std::abs(gradient[0]) * r[0] + std::abs(gradient[1]) * r[1] + std::abs(gradient[2]) * r[2] +
+                              0.5 * bounds.second / least_t * r_most * r_most;
+        // Near the apex that says nothing.
+        const double most = least_t > 0 ? std::min(curved, bounds.first * r_most) : bounds.first * r_most;
         sum += most * most;
     }
     // Evaluations of orders up to 16 are right to 1e-13 of the largest value.

@@ -8,8 +8,9 @@
  *
  *   |f(xi) - f(c)| <= sum_i |df/dxi_i(c)| r_i + H/2 max_i r_i^2                     H >= sum_ij |d^2 f / dxi_i dxi_j|
  *
- * with H from elvis_runtime.get_field_derivative_bounds. Where a plugin proves no H, elements are sampled, and the best samples
- * are refined on ever finer lattices; the answer is then an estimate.
+ * with H from elvis_runtime.get_field_derivative_bounds, in pyramids B of elvis_apex_bounds over the least (1 - xi_3)/2 in the
+ * box. Near the apex L max_i r_i bounds it. Where a plugin proves no H, elements are sampled, and the best samples are refined
+ * on ever finer lattices; the answer is then an estimate.
  */
 #pragma once
 

@@ -23,6 +23,7 @@
 #ifndef ELVIS_PLUGIN_HPP
 #define ELVIS_PLUGIN_HPP
 
+#include "apex_bounds.h"
 #include "converter.h"
 #include "extrema.h"
 #include "plugin.h"
@@ -148,6 +149,10 @@ public:
     // For extrema_table (elvis/extrema.h):
     //   elvis_certainty get_field_extrema(std::uint32_t field, std::uint32_t component, std::uint32_t time_step,
     //                                     elvis_extremum& minimum, elvis_extremum& maximum);
+    //
+    // For apex_bounds_table (elvis/apex_bounds.h):
+    //   elvis_certainty get_field_apex_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
+    //                                         std::uint64_t count, std::span<double> bounds);
 
 private:
     Host m_host;
@@ -395,6 +400,24 @@ template <class Volume> const elvis_extrema* extrema_table() {
     return &table;
 }
 
+/** Draft. The table of elvis/apex_bounds.h, of a class derived from RuntimeVolume with get_field_apex_bounds. */
+template <class Volume> const elvis_apex_bounds* apex_bounds_table() {
+    using namespace detail;
+    static const elvis_apex_bounds table = {
+        sizeof(elvis_apex_bounds), 0,
+        [](elvis_volume* volume, std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
+           double* bounds, elvis_certainty* certainty) {
+            return guard_on(self<Volume>(volume), [&](Volume& v) {
+                auto info = elvis_field{};
+                info.struct_size = sizeof info;
+                v.get_field(field, info);
+                *certainty = v.get_field_apex_bounds(field, time_step, first, count,
+                                                     std::span<double>(bounds, 2 * count * info.n_components));
+            });
+        }};
+    return &table;
+}
+
 /** The table of a class derived from ConverterSource. */
 template <class Source> const elvis_converter* converter_table() {
     using namespace detail;
@@ -480,6 +503,7 @@ struct Description {
     const elvis_runtime* runtime = nullptr;
     const elvis_converter* converter = nullptr;
     const elvis_extrema* extrema = nullptr;
+    const elvis_apex_bounds* apex_bounds = nullptr;
 };
 
 } // namespace elvis::api
@@ -505,6 +529,9 @@ struct Description {
                                                             }                                                                  \
                                                             if (wanted == ELVIS_EXTREMA_INTERFACE) {                           \
                                                                 return description.extrema;                                    \
+                                                            }                                                                  \
+                                                            if (wanted == ELVIS_APEX_BOUNDS_INTERFACE) {                       \
+                                                                return description.apex_bounds;                                \
                                                             }                                                                  \
                                                             return nullptr;                                                    \
                                                         }};                                                                    \

@@ -168,7 +168,15 @@ public:
                                                 std::span<double> bounds) {
         require_field(field, step);
         require_elements(first, n);
-        m_volume.derivative_bounds(field, step, first, n, bounds);
+        m_volume.derivative_bounds(field, step, native::SecondDerivatives::plain, first, n, bounds);
+        return ELVIS_CERTIFIED;
+    }
+
+    elvis_certainty get_field_apex_bounds(std::uint32_t field, std::uint32_t step, std::uint64_t first, std::uint64_t n,
+                                          std::span<double> bounds) {
+        require_field(field, step);
+        require_elements(first, n);
+        m_volume.derivative_bounds(field, step, native::SecondDerivatives::apex_weighted, first, n, bounds);
         return ELVIS_CERTIFIED;
     }
 
@@ -239,5 +247,6 @@ private:
 
 const elvis_runtime* runtime_interface() { return api::runtime_table<DirectVolume>(); }
 const elvis_extrema* extrema_interface() { return api::extrema_table<DirectVolume>(); }
+const elvis_apex_bounds* apex_bounds_interface() { return api::apex_bounds_table<DirectVolume>(); }
 
 } // namespace nektarpp

@@ -149,7 +149,7 @@ native::Extrema Volume::extrema(std::size_t field, std::size_t step) {
     })[0];
 }
 
-Volume::Derivatives::Derivatives(const Space& space) : bounder(space) {
+Volume::Derivatives::Derivatives(const Space& space, native::SecondDerivatives second) : bounder(space, second) {
     std::vector<double> unit(native::n_modes(space), 0.0);
     for (double& coefficient : unit) {
         coefficient = 1;
@@ -158,15 +158,15 @@ Volume::Derivatives::Derivatives(const Space& space) : bounder(space) {
     }
 }
 
-const Volume::Derivatives& Volume::derivatives(const Space& space) const {
+const Volume::Derivatives& Volume::derivatives(const Space& space, native::SecondDerivatives second) const {
     const std::lock_guard lock(m_mutex);
-    for (const auto& [known, derivatives] : m_derivatives) {
-        if (known == space) {
-            return *derivatives;
+    for (const KnownDerivatives& known : m_derivatives) {
+        if (known.space == space && known.second == second) {
+            return *known.derivatives;
         }
     }
-    m_derivatives.emplace_back(space, std::make_unique<const Derivatives>(space));
-    return *m_derivatives.back().second;
+    m_derivatives.push_back({space, second, std::make_unique<const Derivatives>(space, second)});
+    return *m_derivatives.back().derivatives;
 }
 
 double Volume::largest_coefficient(std::size_t field, std::size_t step) {
@@ -186,8 +186,8 @@ double Volume::largest_coefficient(std::size_t field, std::size_t step) {
     return found->second;
 }
 
-void Volume::derivative_bounds(std::size_t field, std::size_t step, std::uint64_t first, std::uint64_t count,
-                               std::span<double> bounds) {
+void Volume::derivative_bounds(std::size_t field, std::size_t step, native::SecondDerivatives second, std::uint64_t first,
+                               std::uint64_t count, std::span<double> bounds) {
     FieldReader read(*this, field, step);
     // The device rounds coefficients after an offset has been subtracted, one of the field's values: at most twice the largest
     // coefficient in bases with vertices or nodes, whose coefficients there are values.
@@ -198,7 +198,7 @@ void Volume::derivative_bounds(std::size_t field, std::size_t step, std::uint64_
     for_each_element(first, count, [&](const ElementClass& of, std::uint64_t position) {
         if (&of != before) {
             before = &of;
-            known = &derivatives(of.fields[field]);
+            known = &derivatives(of.fields[field], second);
             one = Record(of.fields[field], 1).one();
         }
         const std::span<const double> coefficients = read(of, position);

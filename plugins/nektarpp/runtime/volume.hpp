@@ -39,9 +39,9 @@ public:
     void field_ranges(std::size_t field, std::size_t step, std::uint64_t first, std::uint64_t count, std::span<double> ranges);
     /** Certified. */
     elvis::native::Extrema extrema(std::size_t field, std::size_t step);
-    /** Certified, or NaN: two numbers (L, H) an element. */
-    void derivative_bounds(std::size_t field, std::size_t step, std::uint64_t first, std::uint64_t count,
-                           std::span<double> bounds);
+    /** Certified, or NaN: two numbers an element, of first and second derivatives. */
+    void derivative_bounds(std::size_t field, std::size_t step, elvis::native::SecondDerivatives second, std::uint64_t first,
+                           std::uint64_t count, std::span<double> bounds);
     void check_jacobians(std::uint64_t first, double tolerance, std::span<elvis::native::JacobianCheck> checks) const;
 
     /** Records of elements from position `first` on; `origins` and `offset` as in elvis_fill_request, or null. */
@@ -66,9 +66,9 @@ private:
         elvis::native::DerivativeBounder bounder;
         /** Bounds of each mode. */
         std::vector<elvis::native::DerivativeBound> of_modes;
-        explicit Derivatives(const Space& space);
+        Derivatives(const Space& space, elvis::native::SecondDerivatives second);
     };
-    const Derivatives& derivatives(const Space& space) const;
+    const Derivatives& derivatives(const Space& space, elvis::native::SecondDerivatives second) const;
     /** Largest magnitude of a field's coefficients at one step. */
     double largest_coefficient(std::size_t field, std::size_t step);
 
@@ -78,7 +78,12 @@ private:
     ElementClasses m_classes;
     std::vector<elvis_face> m_faces;
     mutable std::mutex m_mutex;
-    mutable std::vector<std::pair<Space, std::unique_ptr<const Derivatives>>> m_derivatives;
+    struct KnownDerivatives {
+        Space space;
+        elvis::native::SecondDerivatives second;
+        std::unique_ptr<const Derivatives> derivatives;
+    };
+    mutable std::vector<KnownDerivatives> m_derivatives;
     std::map<std::pair<std::size_t, std::size_t>, double> m_largest;
 };
 

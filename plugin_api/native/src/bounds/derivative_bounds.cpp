@@ -1,12 +1,14 @@
 #include <elvis/native/derivative_bounds.hpp>
 
 #include "bernstein_bounds.hpp"
+#include "pyramid_bounds.hpp"
 
 #include <elvis/native/conversion.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace elvis::native {
@@ -23,12 +25,17 @@ struct DerivativeBounder::Forms {
     device::Conversion conversion;
     device::DerivativeWeights weights;
     device::BernsteinBounds bernstein;
+    std::optional<PyramidBounds> pyramid;
 
-    explicit Forms(const Space& space)
-        : conversion(space), weights(conversion.device_space()), bernstein(conversion.device_space()) {}
+    Forms(const Space& space, SecondDerivatives second)
+        : conversion(space), weights(conversion.device_space(), second), bernstein(conversion.device_space()) {
+        if (second == SecondDerivatives::apex_weighted && PyramidBounds::has_bounds(space))
+            pyramid.emplace(space);
+    }
 };
 
-DerivativeBounder::DerivativeBounder(const Space& space) : m_forms(std::make_shared<const Forms>(space)) {}
+DerivativeBounder::DerivativeBounder(const Space& space, SecondDerivatives second)
+    : m_forms(std::make_shared<const Forms>(space, second)) {}
 
 DerivativeBound DerivativeBounder::operator()(std::span<const double> coefficients) const {
     thread_local std::vector<double> modes;
@@ -36,11 +43,14 @@ DerivativeBound DerivativeBounder::operator()(std::span<const double> coefficien
     m_forms->conversion.apply(coefficients, modes);
     device::clean_apex(m_forms->conversion.device_space(), coefficients, modes);
     DerivativeBound bound = m_forms->weights.bound(modes);
-    if (m_forms->bernstein.is_usable()) {
-        const DerivativeBound other = m_forms->bernstein.bound(modes);
+    const auto take = [&bound](const DerivativeBound& other) {
         bound.first = std::min(bound.first, other.first + single_rounding * bound.first);
         bound.second = std::min(bound.second, other.second + single_rounding * bound.second);
-    }
+    };
+    if (m_forms->bernstein.is_usable())
+        take(m_forms->bernstein.bound(modes));
+    if (m_forms->pyramid)
+        take(m_forms->pyramid->bound(coefficients));
     return {finite_or_unknown(bound.first), finite_or_unknown(bound.second)};
 }
 

@@ -103,6 +103,8 @@ struct Product {
     std::array<FactorBounds, 3> b;
     /** Powers of t left beside c before any derivative, and how many a derivative of b takes. */
     int exponent = 0, loss = 1;
+    /** Powers of t by which second derivatives are multiplied. */
+    int spare = 0;
 
     /** c(power, n): bound of t^power d^n c / dz^n. */
     template <class LastBound> DerivativeBound bound(LastBound c) const {
@@ -112,9 +114,10 @@ struct Product {
         DerivativeBound result;
         result.first = term(a.first * b[1].value, exponent - 1, 0) + term(a.value * b[0].first, exponent - loss, 0) +
                        term(a.value * b[0].value, exponent, 1);
-        result.second = term(a.second * b[2].value, exponent - 2, 0) + 2 * term(a.first * b[1].first, exponent - 1 - loss, 0) +
-                        term(a.value * b[0].second, exponent - 2 * loss, 0) + 2 * term(a.first * b[1].value, exponent - 1, 1) +
-                        2 * term(a.value * b[0].first, exponent - loss, 1) + term(a.value * b[0].value, exponent, 2);
+        const int all = exponent + spare;
+        result.second = term(a.second * b[2].value, all - 2, 0) + 2 * term(a.first * b[1].first, all - 1 - loss, 0) +
+                        term(a.value * b[0].second, all - 2 * loss, 0) + 2 * term(a.first * b[1].value, all - 1, 1) +
+                        2 * term(a.value * b[0].first, all - loss, 1) + term(a.value * b[0].value, all, 2);
         return result;
     }
 };
@@ -127,7 +130,7 @@ std::array<int, 2> split_exponent(int exponent, int p) {
 
 } // namespace
 
-DerivativeWeights::DerivativeWeights(const DeviceSpace& space) {
+DerivativeWeights::DerivativeWeights(const DeviceSpace& space, SecondDerivatives second_derivatives) {
     LastFactor last;
     const auto jet_of = [&space](int p) {
         return [&space, p](const Jet& u) {
@@ -167,6 +170,7 @@ DerivativeWeights::DerivativeWeights(const DeviceSpace& space) {
                     const std::array<int, 2> powers = is_tetrahedron ? std::array<int, 2>{p, q} : split_exponent(exponent, p);
                     Product product;
                     product.exponent = exponent;
+                    product.spare = !is_tetrahedron && second_derivatives == SecondDerivatives::apex_weighted ? 1 : 0;
                     product.a = Homogeneous{p, powers[0], is_tetrahedron ? 2 : 1}.bounds(jet_of(p), 0);
                     const Homogeneous second{q, powers[1], 1};
                     for (int taken = 0; taken < 3; ++taken)

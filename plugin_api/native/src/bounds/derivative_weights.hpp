@@ -14,7 +14,8 @@ namespace elvis::native::device {
 
 /**
  * One pair of weights for each function of the space, in the order of the record, from suprema of their one-dimensional
- * factors. For a sum f of these functions with coefficients c, sum_ij |d_ij f| <= sum_m |c_m| second_m.
+ * factors. For a sum f of these functions with coefficients c, sum_ij |d_ij f| <= sum_m |c_m| second_m. Second derivatives may
+ * be `apex_weighted`, since that of t x1/t x2/t at the apex of a pyramid is not bounded.
  *
  * A factor that depends on x/t, times t^k, is a homogeneous function, and so are its derivatives, with k less by one each:
  * d/dx (t^k g(x/t)) = t^(k-1) g'(u), and along a direction in which x grows by 1/2 and t falls by 1/2,
@@ -24,7 +25,7 @@ namespace elvis::native::device {
  */
 class DerivativeWeights {
 public:
-    explicit DerivativeWeights(const DeviceSpace& space);
+    explicit DerivativeWeights(const DeviceSpace& space, SecondDerivatives second_derivatives = SecondDerivatives::plain);
 
     /** For device coefficients; an infinite number where a function with a coefficient has no bound. */
     DerivativeBound bound(std::span<const double> coefficients) const;

@@ -1,6 +1,7 @@
 /**
  * @file derivative_bounds.hpp
- * How steep and how bent a function of a native space is at most: what elvis_runtime.get_field_derivative_bounds asks for.
+ * How steep and how bent a function of a native space is at most: what elvis_runtime.get_field_derivative_bounds and
+ * elvis_apex_bounds.get_field_apex_bounds ask for.
  */
 #pragma once
 
@@ -10,6 +11,9 @@
 #include <span>
 
 namespace elvis::native {
+
+/** What is bounded of second derivatives: in pyramids these, or t times these, t = (1 - xi_3) / 2; elsewhere these. */
+enum class SecondDerivatives { plain, apex_weighted };
 
 /** Bounds of sum_i |df/dxi_i| and of sum_ij |d^2f/dxi_i dxi_j| (all terms, mixed ones twice) over the closed reference shape.
  */
@@ -22,15 +26,17 @@ struct DerivativeBound {
  * coefficients of its device form (elvis/native/conversion.hpp) after these were rounded to single precision.
  *
  * Two bounds, of which the smaller counts: the coefficients' magnitudes times what each function has at most, and in prisms,
- * triangles and tetrahedra the Bernstein coefficients of the derivatives. Any thread may call; copies are independent.
+ * triangles and tetrahedra the Bernstein coefficients of the derivatives, `apex_weighted` in pyramids but `tensor` ones, too.
+ * Any thread may call; copies are independent.
  */
 class DerivativeBounder {
 public:
-    explicit DerivativeBounder(const Space& space);
+    explicit DerivativeBounder(const Space& space, SecondDerivatives second = SecondDerivatives::plain);
 
     /**
-     * For coefficients in the order of the space. NaN where a derivative has no bound, or none is known: second derivatives at
-     * the apex of pyramids (but those of `orthogonal` basis), coefficients that are not finite.
+     * For coefficients in the order of the space. NaN where a derivative has no bound, or none is known: `plain` second
+     * derivatives at the apex of pyramids (but those of `orthogonal` basis), fields with several values there, coefficients
+     * that are not finite.
      */
     DerivativeBound operator()(std::span<const double> coefficients) const;
 
