@@ -73,7 +73,9 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     search.undecided_t = is_undecided || is_blurred ? min(search.undecided_t, is_undecided ? candidate_t : root_t) : search.undecided_t;
 
     core_nearest_take(is_hit, core_polished(found, search, root_t, half_width, bend_here, is_surely_inside), nearest);
-    const bool is_estimated = core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1;
+    // Where the model's error does not bound second derivatives, it is taken for their size.
+    const bool is_estimated =
+        core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1 || !CORE_ERRORS_TELL_BENDS;
     search.flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     search.phase = is_hit ? CORE_PHASE_SEEK : is_settled || is_last ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
     core_follow_to(search.follower, is_within ? next : elvis_real(0.5LF) * (search.bracket_from + search.bracket_to),

@@ -2,8 +2,6 @@
 //
 // The kernel brings isosurface/projection_search.glsl, field/linear_model.glsl and isosurface/value_span.glsl.
 
-#include "field/leaf_bounds.glsl"
-
 // Segments of a ray in one element.
 #define CORE_MOST_SEGMENTS 16u
 
@@ -32,7 +30,7 @@ void core_projection_element(core_ray ray, core_traced_ray traced_ray, uint elem
 #if !CORE_PLAIN
     span = is_linearized ? open : span;
 #endif
-    search.bend = CORE_ERRORS_TELL_BENDS ? elvis_real(2) * elvis_real(model.remainder) / (CORE_EXTENT * CORE_EXTENT) : CORE_FAR;
+    search.bend = elvis_real(2) * elvis_real(model.remainder) / (CORE_EXTENT * CORE_EXTENT);
     search.span_end = elvis_real(span.y);
     search.n_segments = 0u;
     const elvis_real span_from = elvis_real(span.x), reach_end = min(search.span_end, span_from + traced_ray.longest);
