@@ -135,7 +135,8 @@ core_fitted core_step_polynomial(const core_integral integral) {
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_SHARE * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(left.slope), abs(right.slope));
-    fitted.rounding = integral.error + elvis_real(8) * CORE_ROUNDOFF * size;
+    // Above 0, as it divides.
+    fitted.rounding = max(integral.error + elvis_real(8) * CORE_ROUNDOFF * size, elvis_real(1e-30LF));
     fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + fitted.rounding;
     return fitted;
 }
