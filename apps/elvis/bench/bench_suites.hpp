@@ -64,6 +64,7 @@ nlohmann::ordered_json run_projection(const Bench& bench);
 nlohmann::ordered_json run_interface(const Bench& bench);
 nlohmann::ordered_json run_volume(const Bench& bench);
 nlohmann::ordered_json run_combined(const Bench& bench);
+nlohmann::ordered_json run_mfem(const Bench& bench);
 nlohmann::ordered_json run_volume_convergence(const Bench& bench);
 
 /** Throws an Error in a build without the oracle. `is_good`: whether all that is promised holds. */

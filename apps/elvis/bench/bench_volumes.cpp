@@ -1,6 +1,8 @@
 #include "bench_suites.hpp"
 
+#include <core/base/error.hpp>
 #include <core/bench/combined.hpp>
+#include <core/bench/four_pictures.hpp>
 #include <core/bench/volume/volume.hpp>
 #include <core/bench/volume/volume_convergence.hpp>
 
@@ -64,6 +66,38 @@ nlohmann::ordered_json run_combined(const Bench& bench) {
                 static_cast<unsigned long long>(row.counts.hidden_pixels),
                 static_cast<unsigned long long>(row.counts.spared_pixels), row.difference);
         });
+    return list;
+}
+
+nlohmann::ordered_json run_mfem(const Bench& bench) {
+    const BenchArguments& arguments = bench.arguments;
+    if (arguments.volume.empty()) {
+        throw Error("elvis bench mfem", "it draws a volume of your own: name it with --volume FILE");
+    }
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    const std::uint32_t size = arguments.names_sizes ? arguments.sizes.front() : 1024;
+    bench_four_pictures(bench.device, bench.registry, arguments.volume, size, [&](const PictureRow& row) {
+        const FrameCounts& counts = row.counts;
+        list.push_back({{"name", row.name},
+                        {"size", row.size},
+                        {"milliseconds", row.milliseconds},
+                        {"wall_milliseconds", row.wall_milliseconds},
+                        {"covered_pixels", row.covered_pixels},
+                        {"field_evaluations", counts.field_evaluations},
+                        {"mapping_evaluations", counts.mapping_evaluations},
+                        {"newton_iterations", counts.newton_iterations},
+                        {"volume_segments", counts.volume_segments},
+                        {"volume_steps", counts.volume_steps},
+                        {"volume_breakpoints", counts.volume_breakpoints},
+                        {"undecided_pixels", counts.undecided_pixels},
+                        {"estimated_pixels", counts.estimated_pixels}});
+        say(arguments,
+            "%-10s %4u^2  %8.1f ms  wall %8.1f ms  %7llu pixels covered  %9llu values  %9llu segments  %9llu breakpoints\n",
+            row.name.c_str(), row.size, row.milliseconds, row.wall_milliseconds,
+            static_cast<unsigned long long>(row.covered_pixels), static_cast<unsigned long long>(counts.field_evaluations),
+            static_cast<unsigned long long>(counts.volume_segments),
+            static_cast<unsigned long long>(counts.volume_breakpoints));
+    });
     return list;
 }
 

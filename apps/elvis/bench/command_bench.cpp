@@ -34,6 +34,7 @@ const std::vector<Suite>& drawing_suites() {
         {"volume", "volume", run_volume},
         {"projection", "projection", run_projection, false},
         {"combined", "combined", run_combined, false},
+        {"mfem", "mfem", run_mfem, false},
         {"volume-convergence", "volume_convergence", run_volume_convergence, false},
         {"surfaces", "surfaces", run_surfaces, false},
         {"interface", "interface", run_interface, false},
@@ -145,7 +146,7 @@ void add_bench(CLI::App& app) {
         ->add_option("suite", arguments->suite,
                      "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, "
                      "surfaces, projection, "
-                     "combined, volume-convergence, interface or accuracy")
+                     "combined, mfem, volume-convergence, interface or accuracy")
         ->check(CLI::IsMember(std::move(suites)))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
@@ -157,9 +158,9 @@ void add_bench(CLI::App& app) {
     command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->add_option(
-        "--volume", arguments->volume,
-        "A native volume for the suites projection, combined and interface, in place of the waves, and volume-convergence");
+    command->add_option("--volume", arguments->volume,
+                        "A native volume for the suites projection, combined and interface, in place of the waves, mfem and "
+                        "volume-convergence");
     command->add_option("--isovalue", arguments->isovalue,
                         "Of the suites projection, by default the middle of the field's range, and combined, at 0.6 of it");
     command
