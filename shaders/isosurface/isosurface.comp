@@ -28,6 +28,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "element/place.glsl"
 #include "arithmetic/finite.glsl"
 #include "picture/pixel_ray.glsl"
+#define CORE_LAST_BINDING 11
 #include "isosurface/isosurface_bindings.glsl"
 #include "isosurface/isosurface_blur.glsl"
 #include "arithmetic/count.glsl"
@@ -43,6 +44,8 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
     uint core_n_isovalues;
     uint core_has_beyond;
+    // 0: from the eye on.
+    uint core_round;
     // The diagonal of the volume's bounds.
     float core_extent;
 };
@@ -95,7 +98,7 @@ struct core_interval_counts {
 
 // Evaluates the interval once. Accepts the root as a crossing if it is proven, exact, in the element and ahead of the ray. Then chooses
 // the next interval. Returns flags of the pixel.
-uint core_search_step(core_ray ray, inout core_interval_search search, inout core_nearest_crossing nearest,
+uint core_search_step(core_ray ray, const core_last_crossing last, inout core_interval_search search, inout core_nearest_crossing nearest,
                       inout core_interval_counts counts) {
     const bool is_active = search.element != CORE_NO_ELEMENT;
     search.used += 1u;
@@ -103,7 +106,7 @@ uint core_search_step(core_ray ray, inout core_interval_search search, inout cor
     const core_root root = core_root_of(evaluation, search);
     const core_verdict verdict = core_judge_interval(evaluation, root, search);
     const core_nearest_crossing found = core_found_at(evaluation, root);
-    const bool is_crossing = verdict.is_finished_root && root.is_inside;
+    const bool is_crossing = verdict.is_finished_root && root.is_inside && !core_is_last_again(last, found);
     const bool is_hit = is_crossing && core_is_ahead(ray, found.t, found.slack);
     const bool is_doubtful = is_crossing && core_may_be_ahead(ray, found.t, found.slack);
     core_nearest_take(is_hit, found, nearest);
@@ -119,7 +122,8 @@ uint core_search_step(core_ray ray, inout core_interval_search search, inout cor
 }
 
 // The nearest crossing of a ray. Returns flags of the pixel.
-uint core_search_ray(core_ray ray, core_octant_descent descent, inout core_nearest_crossing nearest, inout core_interval_counts counts) {
+uint core_search_ray(core_ray ray, const core_last_crossing last, core_octant_descent descent,
+                     inout core_nearest_crossing nearest, inout core_interval_counts counts) {
     uint work = 0u, flags = 0u;
     core_interval_search search = core_no_search();
     while (descent.entry < descent.n_entries && work < CORE_WORK_LIMIT) {
@@ -138,7 +142,7 @@ uint core_search_ray(core_ray ray, core_octant_descent descent, inout core_neare
                     break;
                 }
             }
-            flags |= core_search_step(ray, search, nearest, counts);
+            flags |= core_search_step(ray, last, search, nearest, counts);
             if (search.element == CORE_NO_ELEMENT && !core_has_octants_ahead(descent)) {
                 break;
             }
@@ -168,7 +172,8 @@ void main() {
         const uint n_entries = core_look_beyond(pixel, ray) ? n_listed : 0u;
         const elvis_real stretch = length(ray.direction);
         core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
-        uint flags = core_search_ray(ray, core_octant_descent(n_listed, n_entries, 0u, 0u, 0u, 0u), nearest, counts);
+        const core_last_crossing last = core_last_crossing_of(pixel, ray.least_t);
+        uint flags = core_search_ray(ray, last, core_octant_descent(n_listed, n_entries, 0u, 0u, 0u, 0u), nearest, counts);
         flags |= core_blur_of(nearest, ray, stretch) | core_nearest_store(nearest, pixel, ray, stretch, along.reference_distance);
         if (flags != 0u) {
             core_marks[pixel].flags |= flags;

@@ -1,4 +1,6 @@
 // Buffers of the kernels that draw isosurfaces, and how what they have found gets into the picture.
+//
+// The kernel brings CORE_LAST_BINDING.
 
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
 // Three numbers a pixel.
@@ -10,6 +12,19 @@ layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_r
 layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
 // An upper bound of the surface's normal curvatures, without sign.
 layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };
+
+// What the next round, which looks behind a crossing, has to know of it beside its depth.
+struct core_crossing_record {
+    elvis_real isovalue;
+    // Along the ray.
+    elvis_real slack;
+    // CORE_CROSSING_...
+    uint bits;
+};
+#define CORE_CROSSING_RISES 1u
+#define CORE_CROSSING_CERTAIN 2u
+// Two a pixel: of odd and of even rounds, so that classes of elements do not find each other's.
+layout(set = 0, binding = CORE_LAST_BINDING, std430) buffer core_last_block { core_crossing_record core_last[]; };
 
 // `rises`: the field does, along the ray. `depth`: from the ray's origin. `normal`: of any length and on any side. `bend`: as in
 // core_bending, or not finite.

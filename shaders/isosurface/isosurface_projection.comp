@@ -27,6 +27,7 @@ layout(local_size_x = 32) in;
 #include "element/place.glsl"
 #include "arithmetic/finite.glsl"
 #include "picture/pixel_ray.glsl"
+#define CORE_LAST_BINDING 10
 #include "isosurface/isosurface_bindings.glsl"
 #include "isosurface/isosurface_blur.glsl"
 #include "arithmetic/count.glsl"
@@ -42,6 +43,8 @@ layout(push_constant) uniform core_parameters {
     uint core_end_component;
     uint core_n_isovalues;
     uint core_has_beyond;
+    // 0: from the eye on.
+    uint core_round;
 };
 
 #include "isosurface/isovalues.glsl"
@@ -125,8 +128,8 @@ void core_projection_next_node(core_ray ray, core_traced_ray traced_ray, elvis_r
 
 // The step that the search's phase asks for, and those that follow from it without a further sample. `size`: of the volume, in the
 // ray's parameter.
-void core_projection_step(core_ray ray, core_traced_ray traced_ray, elvis_real size, inout core_projection_search search,
-                          inout core_nearest_crossing nearest) {
+void core_projection_step(core_ray ray, core_traced_ray traced_ray, elvis_real size, const core_last_crossing last,
+                          inout core_projection_search search, inout core_nearest_crossing nearest) {
     if (search.phase == CORE_PHASE_CLIP) {
         core_projection_segment(ray, traced_ray, search);
     }
@@ -146,7 +149,7 @@ void core_projection_step(core_ray ray, core_traced_ray traced_ray, elvis_real s
         core_projection_judge(search);
     }
     if (search.phase == CORE_PHASE_POLISH && found.status == CORE_SAMPLE_FOUND) {
-        core_projection_polish_or_take(ray, traced_ray, size, found, search, nearest);
+        core_projection_polish_or_take(ray, traced_ray, size, last, found, search, nearest);
     }
     if (search.phase == CORE_PHASE_INTERVAL_DONE) {
         core_projection_behind_interval(core_nearest_end(nearest), search);
@@ -175,6 +178,7 @@ void main() {
     core_ray ray = core_pixel_ray(along, elvis_real(pixel / core_width));
     const bool is_wanted = core_look_beyond(pixel, ray) && is_pixel;
     const elvis_real stretch = length(ray.direction);
+    const core_last_crossing last = core_last_crossing_of(pixel, ray.least_t);
     core_begin_isovalues();
     elvis_real size;
     const core_traced_ray traced_ray = core_projection_ray(ray, stretch, size);
@@ -192,7 +196,7 @@ void main() {
                 break;
             }
         }
-        core_projection_step(ray, traced_ray, size, search, nearest);
+        core_projection_step(ray, traced_ray, size, last, search, nearest);
         if (search.phase == CORE_PHASE_SEEK && stack_size == 0u) {
             break;
         }

@@ -46,6 +46,29 @@ core_nearest_crossing core_nearest_begin(uint pixel, elvis_real stretch, elvis_r
 // Where rays need not be looked at any more.
 elvis_real core_nearest_end(const core_nearest_crossing nearest) { return nearest.t + nearest.slack; }
 
+// The crossing of the last round, behind which the ray looks; of rounds that look from the eye on, none.
+struct core_last_crossing {
+    bool is_any;
+    elvis_real t;
+    core_crossing_record record;
+};
+
+// `t`: where the ray begins, behind the last crossing.
+core_last_crossing core_last_crossing_of(uint pixel, elvis_real t) {
+    core_last_crossing last;
+    last.is_any = core_round > 0u;
+    last.t = t;
+    last.record = core_last[2u * pixel + (core_round + 1u) % 2u];
+    return last;
+}
+
+// Whether that is found again, by an element that shares its face: as for core_nearest_take.
+bool core_is_last_again(const core_last_crossing last, const core_nearest_crossing found) {
+    const bool rose = (last.record.bits & CORE_CROSSING_RISES) != 0u, was_certain = (last.record.bits & CORE_CROSSING_CERTAIN) != 0u;
+    const bool is_alike = found.rises == rose && found.isovalue == last.record.isovalue;
+    return last.is_any && is_alike && !(found.is_certain && was_certain) && found.t - last.t <= max(found.slack, last.record.slack);
+}
+
 // Whether a crossing found lies ahead of where the ray starts, and behind a crossing that was found before.
 bool core_is_ahead(const core_ray ray, elvis_real t, elvis_real slack) {
     return t > ray.least_t + ray.widths_behind * slack && t > ray.least_t;
@@ -98,6 +121,8 @@ uint core_nearest_store(const core_nearest_crossing nearest, uint pixel, const c
                         elvis_real reference_distance) {
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     if (is_hit) {
+        const uint bits = (nearest.rises ? CORE_CROSSING_RISES : 0u) | (nearest.is_certain ? CORE_CROSSING_CERTAIN : 0u);
+        core_last[2u * pixel + core_round % 2u] = core_crossing_record(nearest.isovalue, nearest.slack, bits);
         core_store_crossing(pixel, core_surface_number, nearest.rises, nearest.isovalue, (nearest.t + reference_distance) * stretch,
                             nearest.number, elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z), ray.direction,
                             core_place(nearest.xi_x, nearest.xi_y, nearest.xi_z, nearest.element, CORE_CLASS << CORE_PLACE_FACE_BITS),

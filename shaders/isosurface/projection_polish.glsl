@@ -28,8 +28,8 @@ core_nearest_crossing core_polished(core_ray_sample found, core_projection_searc
 
 // A step of Newton's method from a sample at the follower's parameter; at the root the crossing is taken, or the candidate given up.
 // `size`: of the volume, in the ray's parameter.
-void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, elvis_real size, core_ray_sample found,
-                                    inout core_projection_search search, inout core_nearest_crossing nearest) {
+void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, elvis_real size, const core_last_crossing last,
+                                    core_ray_sample found, inout core_projection_search search, inout core_nearest_crossing nearest) {
     search.polish_iterations += 1u;
     const elvis_real t = search.follower.at, off = found.value - search.isovalue;
     core_narrow_bracket(t, off, found.error, search);
@@ -58,7 +58,8 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const bool is_inside = outside <= slack;
     const bool is_surely_inside = root_t >= search.segment.enter + search.segment.enter_error + slack &&
                                   root_t <= search.segment.leave - search.segment.leave_error - slack;
-    const bool is_crossing = is_settled && is_confirmed && is_inside;
+    const core_nearest_crossing root = core_polished(found, search, root_t, half_width, bend_here, is_surely_inside);
+    const bool is_crossing = is_settled && is_confirmed && is_inside && !core_is_last_again(last, root);
     const bool is_hit = is_crossing && core_is_ahead(ray, root_t, half_width);
     search.flags |= is_crossing && core_may_be_ahead(ray, root_t, half_width) ? CORE_FLAG_UNDECIDED : 0u;
     // The last step may be small by chance.
@@ -72,7 +73,7 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const elvis_real candidate_t = search.from + search.candidate.t * (search.to - search.from);
     search.undecided_t = is_undecided || is_blurred ? min(search.undecided_t, is_undecided ? candidate_t : root_t) : search.undecided_t;
 
-    core_nearest_take(is_hit, core_polished(found, search, root_t, half_width, bend_here, is_surely_inside), nearest);
+    core_nearest_take(is_hit, root, nearest);
     // Where the model's error does not bound second derivatives, it is taken for their size.
     const bool is_estimated =
         core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1 || !CORE_ERRORS_TELL_BENDS;

@@ -35,6 +35,7 @@ struct Parameters {
     std::uint32_t first_component, end_component;
     std::uint32_t n_isovalues;
     std::uint32_t has_beyond;
+    std::uint32_t round;
     float extent;
 };
 
@@ -55,7 +56,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
             own.name = "isosurface";
             own.kernel = "isosurface/isosurface.comp";
             own.defines.emplace_back("CORE_DESCENDS", role == Role::deep_pixels ? "1" : "0");
-            own.bindings = buffer_bindings({.uniform = 1, .storage = 10});
+            own.bindings = buffer_bindings({.uniform = 1, .storage = 11});
             own.push_constant_bytes = sizeof(Parameters);
         }
         own.name += " of element class " + std::to_string(element_class);
@@ -112,6 +113,9 @@ void IsosurfacePass::choose(const Isosurfaces& wanted, double offset, const Show
 void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
                           FrameCounts& counts) {
     const Layer& layer = target.layer;
+    m_round = target.beyond ? m_round + 1 : 0;
+    // A core_crossing_record is as large as a sample.
+    provide_buffer(m_last, m_device, 2 * layer.n_pixels() * sample_bytes(m_precision));
     provide_buffer(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
     const Buffer& isovalues = provide_buffer(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
     write_reals(isovalues, m_precision, m_values);
@@ -134,8 +138,8 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
 
 void IsosurfacePass::draw_by_projection(IsosurfaceMethod method, std::uint32_t flags, std::uint32_t first_surface,
                                         const LayerTarget& target, FrameCounts& counts) {
-    const IsosurfaceProjection::Picture picture{m_frame, *m_isovalues, *m_bending,
-                                                target,  m_component,  static_cast<std::uint32_t>(m_values.size())};
+    const IsosurfaceProjection::Picture picture{
+        m_frame, *m_isovalues, *m_bending, *m_last, target, m_component, static_cast<std::uint32_t>(m_values.size()), m_round};
     if (m_projection.list(target.layer, flags) == 0) {
         return;
     }
@@ -182,10 +186,11 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                               m_component.end,
                               static_cast<std::uint32_t>(m_values.size()),
                               target.beyond ? 1u : 0u,
+                              m_round,
                               m_extent};
-        const std::array<const Buffer*, 11> bindings = {&m_frame,      &layer.samples, &layer.normals, &m_counts,
+        const std::array<const Buffer*, 12> bindings = {&m_frame,      &layer.samples, &layer.normals, &m_counts,
                                                         &layer.marks,  &tiles,         &*m_isovalues,  &beyond,
-                                                        target.places, &*m_bending,    &listed};
+                                                        target.places, &*m_bending,    &listed,        &*m_last};
         const auto draw_tiles = [&](Role role, const TileList::Range& range) {
             in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 parameters.first_listed = range.first + first;

@@ -79,6 +79,9 @@ private:
     std::optional<Buffer> m_isovalues;
     /** Kept from frame to frame. */
     std::optional<Buffer> m_tiles, m_bending;
+    /** What each round tells the next one of the crossings that it found (shaders/isosurface/isosurface_bindings.glsl). */
+    std::optional<Buffer> m_last;
+    std::uint32_t m_round = 0;
 };
 
 } // namespace elvis

@@ -28,6 +28,7 @@ struct Parameters {
     std::uint32_t first_component, end_component;
     std::uint32_t n_isovalues;
     std::uint32_t has_beyond;
+    std::uint32_t round;
 };
 
 } // namespace
@@ -47,7 +48,7 @@ const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request
     own.text += segment::segment_glsl(degree == 0 ? segment::nested_plan() : segment::fixed_plan(static_cast<int>(degree)));
     own.defines.emplace_back("CORE_USES_COLLEAGUE", uses_colleague ? "1" : "0");
     own.defines.emplace_back("CORE_PLAIN", degree == 0 ? "0" : "1");
-    own.bindings = buffer_bindings({.uniform = 1, .storage = 9});
+    own.bindings = buffer_bindings({.uniform = 1, .storage = 10});
     own.push_constant_bytes = sizeof(Parameters);
     return m_kernels.try_emplace(key, m_device, own).first->second;
 }
@@ -72,9 +73,9 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
     const ComposedKernel& kernel = provide(request, {element_class, method == IsosurfaceMethod::companion, degree});
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = picture.target.beyond ? *picture.target.beyond : layer.normals;
-    const std::array<const Buffer*, 10> bindings = {&picture.frame,        &layer.samples,  &layer.normals,     &m_counts,
-                                                    &layer.marks,          &*m_list,        &picture.isovalues, &beyond,
-                                                    picture.target.places, &picture.bending};
+    const std::array<const Buffer*, 11> bindings = {&picture.frame,        &layer.samples,   &layer.normals,     &m_counts,
+                                                    &layer.marks,          &*m_list,         &picture.isovalues, &beyond,
+                                                    picture.target.places, &picture.bending, &picture.last};
     m_counts.fill(0);
     in_batches(m_n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
         const Parameters parameters{layer.width,
@@ -84,7 +85,8 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
                                     picture.component.first,
                                     picture.component.end,
                                     picture.n_isovalues,
-                                    picture.target.beyond ? 1u : 0u};
+                                    picture.target.beyond ? 1u : 0u,
+                                    picture.round};
         kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
     });
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);

@@ -26,10 +26,11 @@ public:
     std::uint32_t list(const Layer& layer, std::uint32_t flags);
 
     struct Picture {
-        const Buffer &frame, &isovalues, &bending;
+        const Buffer &frame, &isovalues, &bending, &last;
         const LayerTarget& target;
         ScalarComponent component;
         std::uint32_t n_isovalues = 0;
+        std::uint32_t round = 0;
     };
     /** In the listed pixels, for one class, whose kernels have `request` in common (IsosurfacePass). */
     void draw(const KernelRequest& request, std::uint32_t element_class, IsosurfaceMethod method, std::uint32_t degree,
