@@ -235,6 +235,30 @@ TEST_CASE("dense volumes are right where both rules of the quadrature agree by c
     }
 }
 
+TEST_CASE("trapezoids are halved where they agree by chance") {
+    // x^4 - x^2 is 0 at both ends and in the middle: the samples of one step and of its halves see a constant density.
+    const TemporaryFile file("agreeing.h5");
+    generate(R"({"generator": 1, "mesh": "box", "elements": [1, 1, 1], "order": 4, "geometry_order": 1, "field": "polynomial",
+                 "coefficients": [[4, 0, 0, 1], [2, 0, 0, -1]]})",
+             file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request = request_of({{{-1, 0}, {1, 0.1}}, {{0, {1, 0.5, 0}}}}, 16);
+    request.camera.eye = {5, 0, 0};
+    request.camera.look_at = {0, 0, 0};
+    request.camera.orthographic = true;
+    request.camera.height = 1.9;
+    request.volume->integrator = Integrator::adaptive_trapezoid;
+    const double depth = 0.05 * (2 - 4.0 / 15);
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        const Frame frame = Renderer(device(), volume, precision).render(request);
+        const double error = largest_error(request, frame, [&](const Line&) {
+            return over({1, 0.5, 0}, std::exp(-depth), request.background);
+        });
+        CHECK(error <= request.volume->tolerance);
+        CHECK(frame.counts.inexact_volume_pixels == 0);
+    }
+}
+
 TEST_CASE("random volumes with random transfer functions are what the oracle says") { check_random(5); }
 
 TEST_CASE("more random volumes with random transfer functions are what the oracle says", "[.long]") { check_random(40); }
