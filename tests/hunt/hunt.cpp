@@ -69,6 +69,8 @@ public:
 
 private:
     void judge_volume(std::uint64_t number, std::uint64_t first, std::uint64_t end);
+    void judge_scene(Ground& ground, const SceneGround& scene_ground, std::string_view kind, std::uint64_t number,
+                     const std::string& description);
     void judge(Ground& ground, const Scene& scene, const std::string& kind, const std::string& name, const std::string& origin);
     void report_findings(const Scene& scene, const std::string& name, const std::string& origin, Precision precision,
                          const Judgement& judgement);
@@ -176,6 +178,22 @@ void Hunt::judge_files() {
     }
 }
 
+void Hunt::judge_scene(Ground& ground, const SceneGround& scene_ground, std::string_view kind, std::uint64_t number,
+                       const std::string& description) {
+    if (!is_wanted(kind))
+        return;
+    Scene scene = make_scene(scene_ground, kind, number);
+    if (!m_options.size.empty())
+        scene.size = parse_size(m_options.size);
+    const bool is_of_first_list = std::ranges::find(kinds, kind) != kinds.end();
+    const std::string name = (is_of_first_list ? "scene" : std::string(kind)) + "_" + std::to_string(number);
+    try {
+        judge(ground, scene, std::string(kind), name, description);
+    } catch (const std::exception& error) {
+        std::printf("%s (%s, %s): %s\n", name.c_str(), std::string(kind).c_str(), description.c_str(), error.what());
+    }
+}
+
 void Hunt::judge_volume(std::uint64_t number, std::uint64_t first, std::uint64_t end) {
     const TemporaryFile file("volume.h5");
     const std::string description = make_volume(m_plugins, number, m_options.files, file.path());
@@ -186,18 +204,8 @@ void Hunt::judge_volume(std::uint64_t number, std::uint64_t first, std::uint64_t
     const SceneGround scene_ground =
         ground_of(file.path(), ground.volume.fields()[field].name, volume, ground.volume.n_faces() > 0);
     for (std::uint64_t scene_number = first; scene_number < end && !is_over(); ++scene_number) {
-        const std::string_view kind = kinds[scene_number % kinds.size()];
-        if (!is_wanted(kind))
-            continue;
-        Scene scene = make_scene(scene_ground, kind, scene_number);
-        if (!m_options.size.empty())
-            scene.size = parse_size(m_options.size);
-        const std::string name = "scene_" + std::to_string(scene_number);
-        try {
-            judge(ground, scene, std::string(kind), name, description);
-        } catch (const std::exception& error) {
-            std::printf("%s (%s, %s): %s\n", name.c_str(), std::string(kind).c_str(), description.c_str(), error.what());
-        }
+        judge_scene(ground, scene_ground, kinds[scene_number % kinds.size()], scene_number, description);
+        judge_scene(ground, scene_ground, more_kinds[scene_number % more_kinds.size()], scene_number, description);
     }
 }
 

@@ -1,14 +1,17 @@
 #include "judge.hpp"
 
+#include "line_judge.hpp"
+#include "parallel.hpp"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <thread>
+#include <tuple>
 
 namespace elvis::hunt {
 
@@ -37,7 +40,9 @@ Line line_of(const FrameRequest& request, std::size_t pixel) {
                                              static_cast<long double>(pixel / request.width)));
 }
 
-Shown shown_of(const Frame& frame, std::size_t pixel) {
+bool has_lines(const FrameRequest& request) { return request.surfaces.size() == 1 && request.surfaces.front().has_lines(); }
+
+Shown shown_of(const FrameRequest& request, const Frame& frame, std::size_t pixel) {
     Shown shown;
     std::copy_n(frame.color.begin() + static_cast<std::ptrdiff_t>(4 * pixel), 4, shown.color.begin());
     shown.is_hit = !std::isnan(frame.depth[pixel]);
@@ -46,6 +51,8 @@ Shown shown_of(const Frame& frame, std::size_t pixel) {
     shown.normal = {frame.normal[3 * pixel], frame.normal[3 * pixel + 1], frame.normal[3 * pixel + 2]};
     shown.element = frame.element[pixel];
     shown.flags = frame.flags[pixel];
+    if (shown.is_hit && has_lines(request))
+        shown.line = line_color_of(request.surfaces.front(), frame, pixel);
     return shown;
 }
 
@@ -90,6 +97,13 @@ Tally& Tally::operator+=(const Tally& other) {
         silent[bit] += n;
     render_seconds += other.render_seconds;
     oracle_seconds += other.oracle_seconds;
+    lines += other.lines;
+    return *this;
+}
+
+Judgement& Judgement::operator+=(Judgement&& other) {
+    tally += other.tally;
+    findings.insert(findings.end(), other.findings.begin(), other.findings.end());
     return *this;
 }
 
@@ -189,7 +203,9 @@ unsigned PixelJudge::compare_point(const PixelAnswer& answer, const Shown& shown
 }
 
 unsigned PixelJudge::compare(const PixelAnswer& answer, const Shown& shown, const Line& line) {
-    unsigned wrong = color_error(answer.color, shown.color) <= m_tolerances.color ? 0 : buffer::color;
+    const Color& color = shown.line.color.value_or(answer.color);
+    const bool is_known = shown.line.color || !shown.line.is_line;
+    unsigned wrong = !is_known || color_error(color, shown.color) <= m_tolerances.color ? 0 : buffer::color;
     const bool is_hit = answer.surface >= 0;
     if (is_hit != shown.is_hit)
         return wrong | buffer::surface;
@@ -233,7 +249,7 @@ bool PixelJudge::rounding_decides(std::size_t pixel, const PixelAnswer& answer) 
 }
 
 Verdict PixelJudge::verdict(std::size_t pixel, const Shown& shown, bool asks, unsigned& wrong) {
-    const Judge::Answer& answer = m_judge.m_answers[pixel];
+    const Answer& answer = m_judge.m_answers[pixel];
     const Line line = line_of(m_judge.m_request, pixel);
     wrong = compare(answer.pixel, shown, line);
     if (wrong == 0 && (shown.flags & covering_bits()) == 0)
@@ -271,21 +287,6 @@ Judge::Judge(oracle::SceneVolume& volume, const FrameRequest& request, std::stri
         m_elements[elements.number(element)] = element;
 }
 
-namespace {
-
-/** Calls work(thread, row) for all rows. */
-template <class Work> void for_rows(std::size_t n_threads, std::uint32_t n_rows, const Work& work) {
-    std::atomic<std::uint32_t> next = 0;
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 0; i < n_threads; ++i)
-        threads.emplace_back([&, i] {
-            for (std::uint32_t row = next++; row < n_rows; row = next++)
-                work(i, row);
-        });
-}
-
-} // namespace
-
 void Judge::draw() {
     const auto start = std::chrono::steady_clock::now();
     m_answers.resize(std::size_t{m_request.width} * m_request.height);
@@ -313,8 +314,8 @@ void count(const Shown& shown, Verdict verdict, unsigned wrong, std::uint64_t we
         tally.undecidable += weight;
     if (verdict == Verdict::false_alarm) {
         tally.all_false_alarms += weight;
-        for (const FlagName& flag : covering_flags)
-            if ((shown.flags & flag.bit) != 0)
+        for (const FlagName& flag : named_flags)
+            if ((shown.flags & covering_bits() & flag.bit) != 0)
                 tally.false_alarms[flag.bit] += weight;
     }
     if (verdict == Verdict::near || verdict == Verdict::far)
@@ -336,7 +337,7 @@ Judgement Judge::judge(const Frame& frame, Precision precision) {
         Tally& tally = parts[thread].tally;
         for (std::uint32_t column = 0; column < m_request.width; ++column) {
             const std::size_t pixel = std::size_t{row} * m_request.width + column;
-            const Shown shown = hunt::shown_of(frame, pixel);
+            const Shown shown = hunt::shown_of(m_request, frame, pixel);
             unsigned wrong = 0;
             const Verdict verdict = judges[thread].verdict(pixel, shown, false, wrong);
             ++tally.pixels;
@@ -355,12 +356,8 @@ Judgement Judge::judge(const Frame& frame, Precision precision) {
             asked[(frame.flags[pixel] & covering_bits()) != 0 ? 1 : 0].push_back(pixel);
     for (std::vector<std::size_t>& pixels : asked) {
         std::ranges::sort(pixels);
-        const std::uint64_t stride = (pixels.size() + most_asked - 1) / most_asked;
-        const auto n = static_cast<std::uint32_t>(stride == 0 ? 0 : (pixels.size() + stride - 1) / stride);
-        for_rows(m_oracles.size(), n, [&](std::size_t thread, std::uint32_t i) {
-            const std::size_t pixel = pixels[i * stride];
-            const std::uint64_t weight = std::min<std::uint64_t>(stride, pixels.size() - i * stride);
-            const Shown shown = hunt::shown_of(frame, pixel);
+        for_some(m_oracles.size(), pixels, most_asked, [&](std::size_t thread, std::size_t pixel, std::uint64_t weight) {
+            const Shown shown = hunt::shown_of(m_request, frame, pixel);
             unsigned wrong = 0;
             const Verdict verdict = judges[thread].verdict(pixel, shown, true, wrong);
             count(shown, verdict, wrong, weight, parts[thread].tally);
@@ -371,10 +368,10 @@ Judgement Judge::judge(const Frame& frame, Precision precision) {
         });
     }
     Judgement all;
-    for (Judgement& part : parts) {
-        all.tally += part.tally;
-        all.findings.insert(all.findings.end(), part.findings.begin(), part.findings.end());
-    }
+    for (Judgement& part : parts)
+        all += std::move(part);
+    if (has_lines(m_request))
+        all += judge_lines(m_request, frame, precision, m_answers, m_oracles);
     std::ranges::sort(all.findings, [](const Finding& a, const Finding& b) {
         return std::tuple(a.verdict != Verdict::far, a.row, a.column) < std::tuple(b.verdict != Verdict::far, b.row, b.column);
     });

@@ -8,11 +8,20 @@
 #include <core/oracle/scene/scene_oracle.hpp>
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 namespace elvis::hunt {
+
+/** Which colour the flags around a pixel ask for. */
+struct LineColor {
+    /** There is a line, of which the colour is not known here if it is the colour map's. */
+    bool is_line = false;
+    std::optional<Color> color{};
+};
 
 /** What a picture has at a pixel, or would have. */
 struct Shown {
@@ -22,6 +31,7 @@ struct Shown {
     oracle::Vector normal = oracle::Vector::Zero();
     std::int64_t element = -1;
     std::uint32_t flags = 0;
+    LineColor line{};
 };
 
 enum class Verdict {
@@ -46,6 +56,8 @@ struct Finding {
 /** Sums over pixels. */
 struct Tally {
     std::uint64_t pixels = 0, hits = 0, flagged = 0, flagged_wrong = 0, near = 0, far = 0, undecidable = 0;
+    /** Pixels of which flags of contours, or of mesh lines, were judged. */
+    std::uint64_t lines = 0;
     /** By bit: false alarms of flags, silent errors of buffers. */
     std::map<std::uint32_t, std::uint64_t> false_alarms, silent;
     double render_seconds = 0, oracle_seconds = 0;
@@ -58,6 +70,13 @@ struct Judgement {
     Tally tally;
     /** The first ones, `far` ones before others. */
     std::vector<Finding> findings;
+    Judgement& operator+=(Judgement&& other);
+};
+
+/** Of the oracle, for a pixel. */
+struct Answer {
+    oracle::PixelAnswer pixel;
+    bool is_failure = false;
 };
 
 /** Judges frames of one request. */
@@ -76,10 +95,6 @@ private:
     const FrameRequest& m_request;
     std::vector<std::unique_ptr<oracle::SceneOracle>> m_oracles;
     std::unordered_map<std::int64_t, std::size_t> m_elements;
-    struct Answer {
-        oracle::PixelAnswer pixel;
-        bool is_failure = false;
-    };
     std::vector<Answer> m_answers;
     double m_seconds = 0;
 };

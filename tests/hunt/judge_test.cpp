@@ -1,4 +1,4 @@
-#include "judge.hpp"
+#include "line_judge.hpp"
 
 #include <tests/support/test_volumes.hpp>
 
@@ -12,7 +12,7 @@ namespace {
 /** A cut through a ball of waves, and its picture. */
 class Example {
 public:
-    explicit Example(Precision precision) : m_file("ball.h5") {
+    explicit Example(Precision precision, bool has_lines = false) : m_file("ball.h5") {
         oracle::generate(R"({"generator": 1, "mesh": "ball", "elements": 2, "order": 4, "field": "jump"})", m_file.path());
         m_volume.emplace(oracle::open_volume(m_file.path()));
         std::vector<elvis_face> faces(m_volume->n_faces());
@@ -26,6 +26,10 @@ public:
         Surface surface;
         surface.geometry = CutPlane{{1, 2, 0.3, 0.05}};
         surface.colors.points = {{0, {0, 0.1, 0.9}}, {2, {1, 0.8, 0.1}}};
+        if (has_lines) {
+            surface.contours = Contours{{0.8, 1.3}, {1, std::array<double, 3>{0, 0, 0}, {}}};
+            surface.mesh_lines.emplace();
+        }
         request.surfaces = {surface};
         Renderer renderer(test::device(), *m_volume, precision);
         frame = renderer.render(request);
@@ -96,6 +100,36 @@ TEST_CASE("A flag covers a wrong pixel, and on a right one is a false alarm") {
     const Tally wrong = example.judge().tally;
     CHECK(wrong.far + wrong.near == 0);
     CHECK(wrong.flagged_wrong == good.flagged_wrong + 1);
+}
+
+TEST_CASE("The judge finds each flag of a line that is there or is not, and wrong colours of lines") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    Example example(precision, true);
+    const Frame right = example.frame;
+    const Tally good = example.judge().tally;
+    CHECK(good.lines > 200);
+    CHECK(good.far + good.near == 0);
+    // Lines that are lost, and such as are invented everywhere else. Some of the pixels are judged, of the last few, since they
+    // take thousands of rays.
+    const auto flip = [&](std::uint32_t bit, unsigned buffer_bit, bool is_there) {
+        example.frame = right;
+        for (std::size_t pixel = 0; pixel < right.flags.size(); ++pixel) {
+            if (right.element[pixel] < 0 || ((right.flags[pixel] & bit) != 0) != is_there)
+                continue;
+            example.frame.flags[pixel] ^= bit;
+        }
+        INFO((is_there ? "lost " : "invented ") << bit);
+        CHECK(example.judge().tally.silent[buffer_bit] >= (is_there ? 100 : 5));
+    };
+    flip(pixel_flag::contour, buffer::contour, true);
+    flip(pixel_flag::mesh_line, buffer::mesh_line, true);
+    flip(pixel_flag::contour, buffer::contour, false);
+    flip(pixel_flag::mesh_line, buffer::mesh_line, false);
+    example.frame = right;
+    const auto marked =
+        std::ranges::find_if(right.flags, [](std::uint32_t flags) { return (flags & pixel_flag::contour) != 0; });
+    example.frame.color[static_cast<std::size_t>(4 * (marked - right.flags.begin()))] += 0.3;
+    CHECK(example.judge().tally.silent.contains(buffer::color));
 }
 
 } // namespace elvis::hunt

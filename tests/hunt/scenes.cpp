@@ -220,6 +220,32 @@ SceneSurface random_surface(Random& random, const SceneGround& ground, std::stri
     return surface;
 }
 
+SceneLineStyle random_style(Random& random) {
+    const auto color = [&] { return Rgb{random.between(0, 1), random.between(0, 1), random.between(0, 1)}; };
+    SceneLineStyle style;
+    style.width = random.one_in(3) ? random.between(1, 6) : 1;
+    style.color = color();
+    if (random.one_in(2))
+        style.undecided_color = color();
+    return style;
+}
+
+/** Contours, or mesh lines, or both. */
+void add_lines(Random& random, const SceneGround& ground, SceneSurface& surface) {
+    const int kind = random.whole(0, 3);
+    if (kind != 0 || std::holds_alternative<Isosurfaces>(surface.geometry))
+        surface.mesh_lines = random_style(random);
+    // On an isosurface of the same field all is contour, or none.
+    if (kind == 1 || std::holds_alternative<Isosurfaces>(surface.geometry))
+        return;
+    SceneContours& contours = surface.contours.emplace();
+    contours.style = random_style(random);
+    const int n = random.one_in(3) ? random.whole(5, 30) : random.whole(1, 4);
+    for (int i = 0; i < n; ++i)
+        contours.values.push_back(random_value(random, ground));
+    std::ranges::sort(contours.values);
+}
+
 SceneVolumeRendering random_rendering(Random& random, const SceneGround& ground, std::uint64_t number) {
     SceneVolumeRendering rendering;
     rendering.transfer =
@@ -274,6 +300,12 @@ Scene make_scene(const SceneGround& ground, std::string_view kind, std::uint64_t
         }
         if (random.one_in(3))
             scene.volume_rendering = random_rendering(random, ground, number);
+    } else if (kind == "lines") {
+        static constexpr std::array<std::string_view, 7> parts{"plane", "plane", "plane",     "boundary",
+                                                               "shape", "shape", "isosurface"};
+        scene.surfaces.push_back(random_surface(random, ground, parts[static_cast<std::size_t>(random.whole(0, 6))]));
+        add_lines(random, ground, scene.surfaces.back());
+        scene.subdivisions = static_cast<std::uint32_t>(random.one_in(3) ? random.whole(0, 9) : 5);
     } else {
         scene.surfaces.push_back(random_surface(random, ground, kind));
     }
@@ -287,7 +319,7 @@ std::array<std::uint32_t, 2> size_of(std::string_view kind) {
         return {640, 480};
     if (kind == "boundary" || kind == "shape")
         return {400, 300};
-    if (kind == "isosurface")
+    if (kind == "isosurface" || kind == "lines")
         return {240, 180};
     return {160, 120};
 }

@@ -15,8 +15,9 @@
 
 namespace elvis::hunt {
 
-/** In the order in which numbers take turns. */
+/** Each number is that of two scenes: one of each list, in which numbers take turns. */
 inline constexpr std::array<std::string_view, 6> kinds{"plane", "isosurface", "boundary", "volume", "layers", "shape"};
+inline constexpr std::array<std::string_view, 1> more_kinds{"lines"};
 
 /** What scenes are made from. */
 struct SceneGround {

@@ -17,10 +17,15 @@ struct Member {
     const char* name;
     std::uint64_t Tally::*count;
 };
-constexpr Member members[] = {{"pixels", &Tally::pixels},           {"hits", &Tally::hits},
-                              {"flagged", &Tally::flagged},         {"flagged_wrong", &Tally::flagged_wrong},
-                              {"silent_near", &Tally::near},        {"silent_far", &Tally::far},
-                              {"undecidable", &Tally::undecidable}, {"false_alarms", &Tally::all_false_alarms}};
+constexpr Member members[] = {{"pixels", &Tally::pixels},
+                              {"hits", &Tally::hits},
+                              {"flagged", &Tally::flagged},
+                              {"flagged_wrong", &Tally::flagged_wrong},
+                              {"silent_near", &Tally::near},
+                              {"silent_far", &Tally::far},
+                              {"undecidable", &Tally::undecidable},
+                              {"false_alarms", &Tally::all_false_alarms},
+                              {"lines", &Tally::lines}};
 
 Json by_bit(const std::map<std::uint32_t, std::uint64_t>& counts) {
     Json json = Json::object();
@@ -63,7 +68,7 @@ std::string line_of(const std::string& kind, const std::string& precision, const
     if (!silent.empty())
         line += "silent:" + silent + " ";
     std::vector<std::pair<std::uint32_t, std::string_view>> flags;
-    for (const FlagName& flag : covering_flags)
+    for (const FlagName& flag : named_flags)
         flags.emplace_back(flag.bit, flag.name);
     const std::string alarms = named(t.false_alarms, flags, million);
     return line + (alarms.empty() ? "" : "false:" + alarms) + "\n";
@@ -116,7 +121,7 @@ void add_sums(const std::string& path, Sums& sums) {
         for (const Json& row : Json::parse(file).at("sums")) {
             Tally tally;
             for (const Member& member : members)
-                tally.*member.count = row.at(member.name);
+                tally.*member.count = row.value(member.name, std::uint64_t{0});
             add_by_bit(row.at("silent"), tally.silent);
             add_by_bit(row.at("false_alarms_by_flag"), tally.false_alarms);
             tally.render_seconds = row.at("render_seconds");

@@ -36,10 +36,11 @@ inline Tolerances tolerances_of(Precision precision) {
 
 /** Bits of what can be wrong in a pixel. */
 namespace buffer {
-inline constexpr unsigned color = 1, value = 2, depth = 4, normal = 8, element = 16, surface = 32, flags = 64;
+inline constexpr unsigned color = 1, value = 2, depth = 4, normal = 8, element = 16, surface = 32, flags = 64, contour = 128,
+                          mesh_line = 256;
 inline const std::vector<std::pair<unsigned, std::string_view>> names{
-    {color, "color"},     {value, "value"},     {depth, "depth"}, {normal, "normal"},
-    {element, "element"}, {surface, "surface"}, {flags, "flags"}};
+    {color, "color"},     {value, "value"}, {depth, "depth"},     {normal, "normal"},      {element, "element"},
+    {surface, "surface"}, {flags, "flags"}, {contour, "contour"}, {mesh_line, "mesh_line"}};
 } // namespace buffer
 
 struct FlagName {
@@ -47,16 +48,19 @@ struct FlagName {
     std::string_view name;
 };
 
-/** Flags that say that a pixel may be wrong; whichever is set covers all of its buffers. Those of lines cover nothing else. */
-inline const std::vector<FlagName> covering_flags{{pixel_flag::newton_failure, "newton_failure"},
-                                                  {pixel_flag::nan, "nan"},
-                                                  {pixel_flag::isosurface_undecided, "isosurface_undecided"},
-                                                  {pixel_flag::volume_tolerance, "volume_tolerance"},
-                                                  {pixel_flag::undecided, "undecided"},
-                                                  {pixel_flag::work_limit, "work_limit"},
-                                                  {pixel_flag::estimated, "estimated"},
-                                                  {pixel_flag::range_too_fine, "range_too_fine"}};
+/** Flags that say that something may be wrong. */
+inline const std::vector<FlagName> named_flags{{pixel_flag::contour_undecided, "contour_undecided"},
+                                               {pixel_flag::mesh_line_undecided, "mesh_line_undecided"},
+                                               {pixel_flag::newton_failure, "newton_failure"},
+                                               {pixel_flag::nan, "nan"},
+                                               {pixel_flag::isosurface_undecided, "isosurface_undecided"},
+                                               {pixel_flag::volume_tolerance, "volume_tolerance"},
+                                               {pixel_flag::undecided, "undecided"},
+                                               {pixel_flag::work_limit, "work_limit"},
+                                               {pixel_flag::estimated, "estimated"},
+                                               {pixel_flag::range_too_fine, "range_too_fine"}};
 
+/** Whichever of these is set covers all of a pixel's buffers. Those of lines cover nothing else. */
 inline constexpr std::uint32_t covering_bits() {
     return pixel_flag::newton_failure | pixel_flag::nan | pixel_flag::isosurface_undecided | pixel_flag::volume_tolerance |
            pixel_flag::undecided | pixel_flag::work_limit | pixel_flag::estimated | pixel_flag::range_too_fine;
