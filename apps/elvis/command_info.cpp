@@ -4,6 +4,7 @@
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
+#include <core/probe/overlaps.hpp>
 #include <core/render/field/field_range.hpp>
 #include <core/render/field/volume_ranges.hpp>
 #include <core/volume/element/jacobian_check.hpp>
@@ -77,6 +78,19 @@ ordered_json describe_jacobians(const RuntimeVolume& volume, double tolerance, b
             entry["lower_bound"] = number(check.lower);
         }
         list.push_back(entry);
+    }
+    return root;
+}
+
+/** Elements that lie in parts of others. */
+ordered_json describe_overlaps(const RuntimeVolume& volume, bool lists_all) {
+    const std::vector<std::uint64_t> overlapping = overlapping_elements(volume);
+    ordered_json root = {{"n_elements", overlapping.size()}, {"certainty", "estimated"}, {"elements", ordered_json::array()}};
+    const std::size_t n_listed = lists_all ? overlapping.size() : std::min(overlapping.size(), n_listed_by_default);
+    for (std::size_t index = 0; index < n_listed; ++index) {
+        std::int64_t element_number = 0;
+        volume.element_numbers(overlapping[index], 1, std::span(&element_number, 1));
+        root["elements"].push_back(element_number);
     }
     return root;
 }
@@ -230,6 +244,9 @@ ordered_json describe(const RuntimeVolume& volume, const Arguments& arguments) {
     if (can_check_jacobians(volume)) {
         root["negative_jacobians"] = describe_jacobians(volume, arguments.jacobian_tolerance, arguments.lists_all);
     }
+    if (can_find_overlaps(volume)) {
+        root["overlapping_elements"] = describe_overlaps(volume, arguments.lists_all);
+    }
     root["notes"] = ordered_json::object();
     for (const auto& [key, value] : volume.notes()) {
         root["notes"][key] = value;
@@ -255,6 +272,14 @@ void print_jacobians(const ordered_json& root) {
     };
     print_list(root["elements"], root["n_elements"], "negative,");
     print_list(root["undecided"], root["n_undecided"], "undecided, smallest seen");
+}
+
+void print_overlaps(const ordered_json& root) {
+    std::printf("  overlaps (%s): in %s\n", text_of(root["certainty"]).c_str(), counted(root["n_elements"], "element").c_str());
+    if (!root["elements"].empty()) {
+        const bool is_all = root["n_elements"] == root["elements"].size();
+        std::printf("    elements %s%s\n", root["elements"].dump().c_str(), is_all ? "" : " and more (--all lists them)");
+    }
 }
 
 /** "[0.25, -1]": six digits, for people. */
@@ -324,6 +349,9 @@ void print_table(const ordered_json& root) {
     if (root.contains("negative_jacobians")) {
         print_jacobians(root["negative_jacobians"]);
     }
+    if (root.contains("overlapping_elements")) {
+        print_overlaps(root["overlapping_elements"]);
+    }
     for (const auto& [key, value] : root["notes"].items()) {
         std::printf("  %s: %s\n", key.c_str(), text_of(value).c_str());
     }
@@ -343,7 +371,8 @@ void add_info(CLI::App& app) {
                      "undecided")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command->add_flag("--all", a->lists_all, "List all elements with a negative or undecided Jacobian, not the first 20");
+    command->add_flag("--all", a->lists_all,
+                      "List all elements with a negative or undecided Jacobian or that overlap, not the first 20");
     command->add_flag("--json", a->json, "Answer in JSON");
     command->callback([a] {
         const PluginRegistry registry;

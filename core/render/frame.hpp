@@ -87,6 +87,7 @@ inline constexpr std::uint32_t mesh_line_undecided = 512;
 inline constexpr std::uint32_t work_limit = 1024;
 inline constexpr std::uint32_t estimated = 2048;
 inline constexpr std::uint32_t range_too_fine = 4096;
+inline constexpr std::uint32_t overlap = 8192;
 } // namespace pixel_flag
 
 struct FrameCounts {
@@ -101,6 +102,9 @@ struct FrameCounts {
     std::uint64_t half_drawn_elements = 0;
     std::uint64_t newton_iterations = 0;
     std::uint64_t undecided_pixels = 0;
+    /** Elements of which a part lies in another element; pixels of cut surfaces whose point two elements hold. */
+    std::uint64_t overlapping_elements = 0;
+    std::uint64_t overlap_pixels = 0;
     std::uint64_t nan_pixels = 0;
     std::uint64_t work_limit_pixels = 0;
     /** Pixels near silhouettes of faces, which take more than Newton's method. */

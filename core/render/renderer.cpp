@@ -1,5 +1,6 @@
 #include <core/base/bounds.hpp>
 #include <core/base/milliseconds.hpp>
+#include <core/probe/overlaps.hpp>
 #include <core/render/device/device_time.hpp>
 #include <core/render/layered_picture.hpp>
 #include <core/render/picture/frame_read.hpp>
@@ -74,17 +75,31 @@ struct Renderer::Impl {
     PassSet passes;
     LayeredPicture picture;
     RendererTimes times;
+    std::uint64_t n_overlapping = 0;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
         : device(on), volume(of), data(on, of, with, task), ranges(on, of, data), fields(of, data, ranges),
           passes(on, of, data, ranges, task), picture(on, with) {
+        find_overlaps(task);
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
     }
 
+    void find_overlaps(const TaskControl* task);
     std::vector<SurfaceFacts> draw_surfaces(const FrameRequest& request, Frame& frame);
     void draw_volume(const FrameRequest& request, Frame& frame);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
 };
+
+void Renderer::Impl::find_overlaps(const TaskControl* task) {
+    if (can_find_overlaps(volume)) {
+        const Clock::time_point start = Clock::now();
+        n_overlapping = overlapping_elements(volume, task).size();
+        times.overlaps_milliseconds = milliseconds_since(start);
+    }
+    if (n_overlapping > 0) {
+        data.expect_overlaps();
+    }
+}
 
 std::uint32_t Renderer::Impl::flags_of_range(const Surface& surface, std::uint32_t time_step, double offset) {
     if (data.precision() == Precision::float64 || surface.colors.points.size() < 2) {
@@ -153,6 +168,7 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
     frame.width = request.width;
     frame.height = request.height;
     frame.counts.pixels = std::uint64_t{request.width} * request.height;
+    frame.counts.overlapping_elements = impl.n_overlapping;
     frame.counts.half_drawn_elements += n_half_drawn(request, impl.volume);
     frame.is_met.resize(request.surfaces.size());
     impl.passes.keep(request);

@@ -17,6 +17,7 @@ namespace elvis {
 struct RendererTimes {
     double upload_milliseconds = 0;
     double hierarchy_milliseconds = 0;
+    double overlaps_milliseconds = 0;
     double compile_milliseconds = 0;
 };
 

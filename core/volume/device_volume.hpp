@@ -52,6 +52,9 @@ public:
     Precision precision() const { return m_precision; }
     /** What the snippet's positions in an element are relative to; zero where they are the world's. */
     Vector3 origin(std::uint64_t element) const;
+    /** Elements overlap: a point may lie in several of them. Kernels that are composed afterwards look for all. */
+    void expect_overlaps() { m_has_overlaps = true; }
+    bool has_overlaps() const { return m_has_overlaps; }
     /** Changes whenever select() has given the elements another shape. */
     std::uint64_t geometry_version() const { return m_geometry_version; }
 
@@ -163,6 +166,7 @@ private:
     bool m_is_own_boundary = false;
     std::uint32_t m_time_step = 0;
     bool m_has_elements = false;
+    bool m_has_overlaps = false;
     std::uint64_t m_geometry_version = 0;
     double m_upload_milliseconds = 0;
     double m_hierarchy_milliseconds = 0;

@@ -3,7 +3,8 @@
 // Every element within rounding of the point is a candidate: neighbours share a face in exact arithmetic only, and must leave no
 // gap. Among candidates the viewer's side decides (key 0: a small step towards the viewer stays in the element), then the lowest
 // number. So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at. A point
-// that is inside by more than rounding is in no other element of a valid mesh: there the search ends.
+// that is inside by more than rounding is in no other element of a valid mesh: there the search ends. Of a mesh in which elements overlap
+// (CORE_OVERLAPS) it goes on, and counts the elements that hold the point.
 //
 // Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first,
 // from the solution here carried on with the Jacobian here, which leaves one Newton step to do.
@@ -238,9 +239,11 @@ void core_step_in_candidate(core_cut_point point, inout core_element_candidate c
     const elvis_real most = elvis_real(2) * (inverse.error0 + inverse.error1 + inverse.error2);
     const core_side side =
         core_judge_candidate(element, candidate, inverse, point.direction, status == CORE_NEWTON_CONVERGED, excess, most);
+    const bool is_held = side.is_inside && excess < -most && (ELVIS_HAS_INSIDE == 0 || !side.is_on_face);
     // In no other element of a valid mesh.
-    const bool is_alone = side.is_inside && excess < -most && (ELVIS_HAS_INSIDE == 0 || !side.is_on_face);
+    const bool is_alone = is_held && CORE_OVERLAPS == 0;
     const bool is_accepted = side.is_inside && (is_alone || !candidate.is_tracked);
+    found.n_holders += is_held ? 1u : 0u;
     core_take_candidate(is_accepted, candidate, elvis_fetch_core_elements(element, 0u), side, found);
     const bool is_done = status != CORE_NEWTON_RUNNING;
     core_keep_track(is_done, is_alone, candidate, inverse, track);

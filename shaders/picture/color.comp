@@ -239,7 +239,9 @@ void main() {
     // On a face that no other element shares the domain may end; on one that is shared the field may have two values.
     const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
     const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
-    const uint flags = core_common_flags | (shown.is_nan ? CORE_FLAG_NAN : 0u) | (is_undecided ? CORE_FLAG_UNDECIDED : 0u);
+    const bool is_overlap = (owner & CORE_OWNER_OVERLAP) != 0u;
+    const uint flags = core_common_flags | (shown.is_nan ? CORE_FLAG_NAN : 0u) |
+                       (is_undecided || is_overlap ? CORE_FLAG_UNDECIDED : 0u) | (is_overlap ? CORE_FLAG_OVERLAP : 0u);
     if (is_drawn && flags != 0u) {
         core_marks[pixel].flags |= flags;
     }

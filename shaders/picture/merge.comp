@@ -39,7 +39,8 @@ uint core_merged_flags(core_mark layer, uint old_flags, bool is_drawn, bool is_s
     const uint own_flags = is_seen ? layer.flags : 0u;
     const uint may_hide = CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED;
     const uint lost_flags = !is_drawn ? layer.flags : is_seen ? 0u : layer.flags & may_hide;
-    const uint behind_flags = is_seen_through ? (is_nearest ? old_flags : own_flags) & (may_hide | CORE_FLAG_UNDECIDED) : 0u;
+    const uint doubt = CORE_FLAG_UNDECIDED | CORE_FLAG_OVERLAP;
+    const uint behind_flags = is_seen_through ? (is_nearest ? old_flags : own_flags) & (may_hide | doubt) : 0u;
     return (is_nearest ? (old_flags & 0xffff0000u) | own_flags : old_flags) | ((lost_flags | behind_flags) << 16);
 }
 

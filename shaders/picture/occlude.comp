@@ -20,7 +20,7 @@ layout(push_constant) uniform core_parameters {
 };
 
 // No surface has this number.
-#define CORE_OCCLUDER (0x7ffffffu << CORE_OWNER_BITS)
+#define CORE_OCCLUDER (0x3ffffffu << CORE_OWNER_BITS)
 
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;

@@ -39,7 +39,9 @@ struct core_mark {
 #define CORE_OWNER_AMBIGUOUS 8u
 // It is decided what lines the pixel meets, and written in the flags.
 #define CORE_OWNER_SETTLED 16u
-#define CORE_OWNER_BITS 5
+// Two elements hold it by more than rounding.
+#define CORE_OWNER_OVERLAP 32u
+#define CORE_OWNER_BITS 6
 
 #define CORE_FLAG_CONTOUR 1u
 #define CORE_FLAG_CONTOUR_UNDECIDED 2u
@@ -54,5 +56,6 @@ struct core_mark {
 #define CORE_FLAG_WORK_LIMIT 1024u
 #define CORE_FLAG_ESTIMATED 2048u
 #define CORE_FLAG_RANGE_TOO_FINE 4096u
+#define CORE_FLAG_OVERLAP 8192u
 
 #endif

@@ -19,6 +19,8 @@ struct core_location {
     bool is_on_face;
     // Elements of the class that hold the point within rounding. They may have other values there.
     uint n_candidates;
+    // Those that hold it by more than rounding: of a valid mesh one at most.
+    uint n_holders;
     bool is_ambiguous;
     // One of those that are not shown, and the point in it.
     uint other;
@@ -31,8 +33,8 @@ struct core_location {
 
 core_location core_nothing_found() {
     const elvis_real zero = elvis_real(0);
-    return core_location(CORE_NO_ELEMENT, 0xffffffffu, 2u, zero, zero, zero, false, 0u, false, CORE_NO_ELEMENT, zero, zero, zero, 0u,
-                         0u, false);
+    return core_location(CORE_NO_ELEMENT, 0xffffffffu, 2u, zero, zero, zero, false, 0u, 0u, false, CORE_NO_ELEMENT, zero, zero, zero,
+                         0u, 0u, false);
 }
 
 // Puts what was found into the picture, unless another surface or element goes before it. Returns the number of field evaluations.
@@ -57,7 +59,9 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
     const bool is_other_value =
         is_other_class && !(abs(value - core_samples[pixel].value) <= elvis_real(core_value_tolerance));
     owner |= is_other_value || (is_shown && found.is_ambiguous) ? CORE_OWNER_AMBIGUOUS : 0u;
-    owner |= is_other_class ? old_owner & CORE_OWNER_AMBIGUOUS : 0u;
+    const bool is_held_twice = is_other_class && found.n_holders > 0u && (old_owner & CORE_OWNER_ON_FACE) == 0u;
+    owner |= is_held_twice || ((is_shown || is_other_class) && found.n_holders > 1u) ? CORE_OWNER_OVERLAP : 0u;
+    owner |= is_other_class ? old_owner & (CORE_OWNER_AMBIGUOUS | CORE_OWNER_OVERLAP) : 0u;
     core_marks[pixel].owner = owner;
     const uint flags = (found.n_failures > 0u ? CORE_FLAG_NEWTON_FAILURE : 0u) | (found.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) |
                        (is_shown ? CORE_VALUE_FLAGS : 0u);

@@ -58,12 +58,14 @@ inline const std::vector<FlagName> named_flags{{pixel_flag::contour_undecided, "
                                                {pixel_flag::undecided, "undecided"},
                                                {pixel_flag::work_limit, "work_limit"},
                                                {pixel_flag::estimated, "estimated"},
-                                               {pixel_flag::range_too_fine, "range_too_fine"}};
+                                               {pixel_flag::range_too_fine, "range_too_fine"},
+                                               {pixel_flag::overlap, "overlap"}};
 
 /** Whichever of these is set covers all of a pixel's buffers. Those of lines cover nothing else. */
 inline constexpr std::uint32_t covering_bits() {
     return pixel_flag::newton_failure | pixel_flag::nan | pixel_flag::isosurface_undecided | pixel_flag::volume_tolerance |
-           pixel_flag::undecided | pixel_flag::work_limit | pixel_flag::estimated | pixel_flag::range_too_fine;
+           pixel_flag::undecided | pixel_flag::work_limit | pixel_flag::estimated | pixel_flag::range_too_fine |
+           pixel_flag::overlap;
 }
 
 } // namespace elvis::hunt

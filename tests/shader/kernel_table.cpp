@@ -61,20 +61,23 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
     uses.push_back({.kernel = "cut_surface/cut_plane",
                     .element = Element::value,
                     .buffers = elements,
-                    .choices = {width, height, no("CORE_LINES")},
+                    .choices = {width, height, no("CORE_LINES"), no_or_yes("CORE_OVERLAPS")},
                     .is_for_solids = true});
-    for (const char* kernel : {"cut_surface/cut_plane", "lines/cut_lines"}) {
-        uses.push_back({.kernel = kernel,
-                        .element = Element::model,
-                        .buffers = elements,
-                        .choices = {width, height, yes("CORE_LINES")},
-                        .is_for_solids = true});
-    }
+    uses.push_back({.kernel = "cut_surface/cut_plane",
+                    .element = Element::model,
+                    .buffers = elements,
+                    .choices = {width, height, yes("CORE_LINES"), no_or_yes("CORE_OVERLAPS")},
+                    .is_for_solids = true});
+    uses.push_back({.kernel = "lines/cut_lines",
+                    .element = Element::model,
+                    .buffers = elements,
+                    .choices = {width, height, yes("CORE_LINES")},
+                    .is_for_solids = true});
     uses.push_back({.kernel = "cut_surface/surface_tiles", .buffers = elements, .choices = {width, height}});
     uses.push_back({.kernel = "cut_surface/surface_pixels",
                     .element = Element::value,
                     .buffers = elements,
-                    .choices = {width, height, element_class},
+                    .choices = {width, height, no_or_yes("CORE_OVERLAPS"), element_class},
                     .is_for_solids = true});
     const std::vector<Choice> hits{width, height, {"CORE_HIT_ROWS", {"4u"}}, {"CORE_SHAPE_ROWS", {"8"}}};
     const auto add_surface = [&](const char* file, std::vector<std::string> buffers, const Choice& ends, std::string text) {

@@ -18,6 +18,10 @@ std::vector<FrameRemark> remarks_on(const FrameCounts& counts) {
         " of the mapping failed; such pixels carry flag 8, of isosurfaces flag 64 if that leaves them open");
     add(true, counts.half_drawn_elements, "of ", "cut element",
         " only the flat faces are drawn, not where they are cut; the boundary as a whole shows that, too");
+    add(true, counts.overlapping_elements, "", "element",
+        " overlap others, or are overlapped: there the picture shows one of them");
+    add(true, counts.overlap_pixels, "in ", "pixel",
+        " of cut surfaces elements overlap, and which one is shown means nothing; they carry flag 8192");
     add(true, counts.nan_pixels, "in ", "pixel", " values are shown that are not finite");
     add(true, counts.work_limit_pixels, "in ", "pixel",
         " the work limit was reached, and they may be wrong; they carry flag 1024");

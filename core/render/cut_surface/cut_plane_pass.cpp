@@ -86,6 +86,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         if (edit) {
             edit(request, index);
         }
+        request.defines.emplace_back("CORE_OVERLAPS", data.has_overlaps() ? "1" : "0");
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "cut_surface/cut_plane.comp";

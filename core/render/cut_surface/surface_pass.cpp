@@ -80,6 +80,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         request.name = "surface_pixels of element class " + std::to_string(index);
         request.kernel = "cut_surface/surface_pixels.comp";
         data.add_field(request, index);
+        request.defines.emplace_back("CORE_OVERLAPS", data.has_overlaps() ? "1" : "0");
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
         request.bindings = buffer_bindings({.uniform = 1, .storage = 8});
         request.push_constant_bytes = sizeof(PixelsParameters);

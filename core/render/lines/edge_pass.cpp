@@ -224,7 +224,7 @@ void write(const View& view, const Canvas& canvas, double width, double value, s
         const double tolerance = EdgePass::depth_tolerance * std::max(1.0, width) * view.pixel_size(pixel.z);
         samples[i] = {static_cast<Real>(value), static_cast<Real>(distance * std::max(pixel.z - tolerance, 0.5 * pixel.z)),
                       pixel.number};
-        marks[i] = {surface << 5u, pixel.flags};
+        marks[i] = {surface << owner_bits, pixel.flags};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             normals[3 * i + axis] = -d[axis] / distance;
         }

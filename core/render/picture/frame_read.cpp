@@ -20,6 +20,7 @@ void settle_flags(std::vector<Mark>& marks, FrameCounts& counts) {
         const auto has = [&mark](std::uint32_t flag) { return (mark.flags & flag) != 0 ? 1u : 0u; };
         counts.hit_pixels += mark.surface() != 0 ? 1 : 0;
         counts.undecided_pixels += has(pixel_flag::undecided);
+        counts.overlap_pixels += has(pixel_flag::overlap);
         counts.nan_pixels += has(pixel_flag::nan);
         counts.work_limit_pixels += has(pixel_flag::work_limit);
         counts.estimated_pixels += has(pixel_flag::estimated);

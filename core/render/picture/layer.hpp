@@ -28,13 +28,16 @@ template <class Real> struct Sample {
 /** Sample::number where the surface lies in no element. */
 inline constexpr std::uint32_t no_number = 0xffffffffu;
 
+/** Bits of core_mark.owner below the surface. */
+inline constexpr std::uint32_t owner_bits = 6;
+
 /** One core_mark. */
 struct Mark {
     std::uint32_t owner = 0;
     std::uint32_t flags = 0;
 
     /** Counted from 1; 0 where nothing was drawn. */
-    std::uint32_t surface() const { return owner >> 5u; }
+    std::uint32_t surface() const { return owner >> owner_bits; }
 };
 
 /** Rows of pixels from the first on, and before the end. */

@@ -21,6 +21,7 @@ constexpr PixelFlag all_flags[] = {
     {pixel_flag::work_limit, "work_limit", "the work was cut short: the pixel may be wrong"},
     {pixel_flag::estimated, "estimated", "the pixel rests on sampled estimates, not on bounds"},
     {pixel_flag::range_too_fine, "range_too_fine", "the colour map's range is too narrow for single precision"},
+    {pixel_flag::overlap, "overlap", "elements overlap here, and which of them is seen means nothing"},
 };
 
 } // namespace

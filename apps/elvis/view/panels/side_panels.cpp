@@ -166,6 +166,7 @@ void draw_counts(const FrameCounts& counts) {
     row("Newton iterations", counts.newton_iterations);
     row("Newton failures", counts.newton_failures);
     row("undecided pixels", counts.undecided_pixels);
+    row("pixels of overlaps", counts.overlap_pixels);
     row("pixels that are not a number", counts.nan_pixels);
     row("pixels at the work limit", counts.work_limit_pixels);
     row("pixels that rest on estimates", counts.estimated_pixels, false);

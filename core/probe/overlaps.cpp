@@ -1,0 +1,292 @@
+// A point outside of the mesh is in no element. On a way from there to a point that two elements hold, the number of elements
+// changes only where the way meets a face without neighbour: where it changes from one to two, that face lies in another
+// element. So samples of such faces tell whether elements overlap at all, as long as Jacobian determinants are positive and
+// neighbours lie on both sides of the face that they share. Only if they do, all faces of all elements are sampled, to know
+// which.
+#include <core/base/vector3.hpp>
+#include <core/hierarchy/hierarchy.hpp>
+#include <core/probe/newton.hpp>
+#include <core/probe/overlaps.hpp>
+#include <core/probe/reference_shape.hpp>
+#include <core/volume/segments/face_links.hpp>
+
+#include <elvis/native/space.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <iterator>
+#include <span>
+#include <utility>
+
+namespace elvis {
+
+namespace {
+
+/** Elements between two looks at the wish to stop. */
+constexpr std::uint64_t block = 16384;
+/** In reference coordinates: how deep in its own element a sample lies, and in the other one has to. More than coordinates in
+ * single precision are off. */
+constexpr double sample_depth = 4e-4, least_depth = 1e-4;
+/** From corners and edges of the face, as a share of the way to its middle. */
+constexpr double from_edges = 1e-3;
+/** What the mapping linearized at the centroid may be off, in reference coordinates; points beyond are in no element that is
+ * bent less. */
+constexpr double clearly_outside = 1;
+/** The same nearer to the point, after a step of Newton's method. */
+constexpr double surely_outside = 0.25;
+constexpr int most_steps = 12;
+constexpr double converged_step = 1e-7;
+
+using Jacobian = std::array<double, 9>;
+
+Vector3 between(const Vector3& a, const Vector3& b, double share) { return plus(a, scaled(minus(b, a), share)); }
+
+Vector3 product(const Jacobian& matrix, const Vector3& v) {
+    return {matrix[0] * v[0] + matrix[1] * v[1] + matrix[2] * v[2], matrix[3] * v[0] + matrix[4] * v[1] + matrix[5] * v[2],
+            matrix[6] * v[0] + matrix[7] * v[1] + matrix[8] * v[2]};
+}
+
+Vector3 middle(std::span<const Vector3> points) {
+    Vector3 sum{};
+    for (const Vector3& point : points) {
+        sum = plus(sum, point);
+    }
+    return scaled(sum, 1 / static_cast<double>(points.size()));
+}
+
+/** Of a face, drawn into the element: its middle, half the way to its corners, and near corners and middles of edges. */
+std::vector<double> face_samples(elvis_shape shape, int face) {
+    std::vector<Vector3> corners;
+    for (const int index : native::face_corners(native::Shape{shape}, face)) {
+        corners.push_back(native::corner(native::Shape{shape}, index));
+    }
+    const Vector3 centre = middle(corners);
+    std::vector<Vector3> points{centre};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        points.push_back(between(centre, corners[i], 0.5));
+        points.push_back(between(centre, corners[i], 1 - from_edges));
+        for (std::size_t j = 0; j < i; ++j) {
+            points.push_back(between(centre, between(corners[i], corners[j], 0.5), 1 - from_edges));
+        }
+    }
+    std::vector<double> xi;
+    for (const Vector3& point : points) {
+        const Vector3 inside = between(point, reference_centroid(shape), sample_depth);
+        xi.insert(xi.end(), inside.begin(), inside.end());
+    }
+    return xi;
+}
+
+/** One class, and the samples of its faces. */
+struct SampledClass {
+    ClassInfo info;
+    std::vector<std::uint32_t> links;
+    std::vector<std::vector<double>> faces;
+};
+
+/** An element, and a point that it may hold or, of its own, another one. */
+using Candidate = std::pair<std::uint32_t, Vector3>;
+
+class Search {
+public:
+    Search(const RuntimeVolume& volume, const TaskControl* control);
+
+    std::vector<std::uint64_t> find();
+
+private:
+    void look_at_links(const SampledClass& in);
+    void look_at_faces(const SampledClass& in, bool of_all);
+    void look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links);
+    bool holds(std::uint64_t element, std::span<const Vector3> points) const;
+    bool holds(std::uint64_t element, elvis_shape shape, const Vector3& start, const Vector3& point) const;
+    elvis_shape shape_of(std::uint64_t element) const;
+    void check(std::uint64_t element) const;
+    void mark(std::uint64_t one, std::uint64_t other);
+
+    const RuntimeVolume& m_volume;
+    const TaskControl* m_control;
+    std::vector<SampledClass> m_classes;
+    Hierarchy m_hierarchy;
+    /** Positions, of elements that were looked at. */
+    std::vector<Vector3> m_centroids;
+    std::vector<bool> m_is_marked;
+    bool m_has_any = false;
+    /** Of the element that is looked at: samples and their positions, and which elements may hold them. */
+    std::vector<double> m_xi, m_positions;
+    std::vector<std::uint32_t> m_found;
+    std::vector<Candidate> m_candidates;
+    std::vector<Vector3> m_points;
+};
+
+Search::Search(const RuntimeVolume& volume, const TaskControl* control)
+    : m_volume(volume), m_control(control), m_centroids(volume.n_elements()), m_is_marked(volume.n_elements(), false) {
+    std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
+    for (std::size_t index = 0; index < links.size(); ++index) {
+        SampledClass sampled{volume.classes()[index], std::move(links[index]), {}};
+        for (int face = 0; face < native::n_faces(native::Shape{sampled.info.shape}); ++face) {
+            sampled.faces.push_back(face_samples(sampled.info.shape, face));
+        }
+        m_classes.push_back(std::move(sampled));
+    }
+    std::vector<double> boxes(6 * volume.n_elements());
+    volume.bounds(0, volume.n_elements(), boxes);
+    m_hierarchy = Hierarchy(boxes, {boxes[0], boxes[1], boxes[2]});
+}
+
+std::vector<std::uint64_t> Search::find() {
+    for (const SampledClass& sampled : m_classes) {
+        look_at_links(sampled);
+        look_at_faces(sampled, false);
+    }
+    if (m_has_any) {
+        for (const SampledClass& sampled : m_classes) {
+            look_at_faces(sampled, true);
+        }
+    }
+    std::vector<std::uint64_t> elements;
+    for (std::uint64_t element = 0; element < m_is_marked.size(); ++element) {
+        if (m_is_marked[element]) {
+            elements.push_back(element);
+        }
+    }
+    return elements;
+}
+
+/** Neighbours that lie on the same side of the face that they share. */
+void Search::look_at_links(const SampledClass& in) {
+    for (std::uint64_t local = 0; local < in.info.n_elements; ++local) {
+        const std::uint64_t element = in.info.first_element + local;
+        check(element);
+        m_volume.evaluate_mapping(element, reference_centroid(in.info.shape), m_centroids[element], {});
+        m_candidates.clear();
+        for (std::size_t face = 0; face < in.faces.size(); ++face) {
+            const std::uint32_t neighbour = in.links[links_an_element * local + face];
+            if (neighbour != no_link && neighbour < element) {
+                m_candidates.emplace_back(neighbour, m_centroids[neighbour]);
+            }
+        }
+        m_points.clear();
+        std::ranges::transform(m_candidates, std::back_inserter(m_points), &Candidate::second);
+        if (holds(element, m_points)) {
+            for (const auto& [neighbour, centroid] : m_candidates) {
+                m_points = {centroid};
+                if (holds(element, m_points)) {
+                    mark(element, neighbour);
+                }
+            }
+        }
+    }
+}
+
+void Search::look_at_faces(const SampledClass& in, bool of_all) {
+    for (std::uint64_t local = 0; local < in.info.n_elements; ++local) {
+        const std::uint64_t element = in.info.first_element + local;
+        check(element);
+        const auto links = std::span(in.links).subspan(links_an_element * local, in.faces.size());
+        m_xi.clear();
+        for (std::size_t face = 0; face < in.faces.size(); ++face) {
+            if (of_all || links[face] == no_link) {
+                m_xi.insert(m_xi.end(), in.faces[face].begin(), in.faces[face].end());
+            }
+        }
+        if (of_all) {
+            const Vector3 centroid = reference_centroid(in.info.shape);
+            m_xi.insert(m_xi.end(), centroid.begin(), centroid.end());
+        }
+        if (!m_xi.empty()) {
+            look_at_samples(element, links);
+        }
+    }
+}
+
+void Search::look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links) {
+    m_positions.resize(m_xi.size());
+    m_volume.evaluate_mapping(element, m_xi, m_positions, {});
+    m_candidates.clear();
+    for (std::size_t i = 0; i < m_positions.size(); i += 3) {
+        const Vector3 point{m_positions[i], m_positions[i + 1], m_positions[i + 2]};
+        m_found.clear();
+        m_hierarchy.find(point, 0, m_found);
+        for (const std::uint32_t other : m_found) {
+            if (other != element && std::ranges::find(links, other) == links.end()) {
+                m_candidates.emplace_back(other, point);
+            }
+        }
+    }
+    std::ranges::stable_sort(m_candidates, {}, &Candidate::first);
+    for (auto at = m_candidates.begin(); at != m_candidates.end();) {
+        const std::uint32_t other = at->first;
+        m_points.clear();
+        for (; at != m_candidates.end() && at->first == other; ++at) {
+            m_points.push_back(at->second);
+        }
+        if (!(m_is_marked[element] && m_is_marked[other]) && holds(other, m_points)) {
+            mark(element, other);
+        }
+    }
+}
+
+/** Whether one of the points is inside by more than rounding. */
+bool Search::holds(std::uint64_t element, std::span<const Vector3> points) const {
+    if (points.empty()) {
+        return false;
+    }
+    const elvis_shape shape = shape_of(element);
+    const Vector3 centroid = reference_centroid(shape);
+    Vector3 position{};
+    Jacobian jacobian{};
+    m_volume.evaluate_mapping(element, centroid, position, jacobian);
+    const Jacobian inverse = invert_matrix(jacobian);
+    return std::ranges::any_of(points, [&](const Vector3& point) {
+        const Vector3 prediction = plus(centroid, product(inverse, minus(point, position)));
+        return reference_excess(shape, prediction) < clearly_outside && holds(element, shape, prediction, point);
+    });
+}
+
+/** Newton's method. It gives up early: a point that is missed in a strongly bent element is one of many. */
+bool Search::holds(std::uint64_t element, elvis_shape shape, const Vector3& start, const Vector3& point) const {
+    Vector3 prediction = start;
+    for (int step = 0; step < most_steps; ++step) {
+        const Vector3 xi = project_into_shape(shape, prediction);
+        Vector3 position{};
+        Jacobian jacobian{};
+        m_volume.evaluate_mapping(element, xi, position, jacobian);
+        const Vector3 next = plus(xi, product(invert_matrix(jacobian), minus(point, position)));
+        const double excess = reference_excess(shape, next);
+        if (!(excess < surely_outside)) {
+            return false;
+        }
+        if (length(minus(next, prediction)) < converged_step) {
+            return excess < -least_depth;
+        }
+        prediction = next;
+    }
+    return false;
+}
+
+elvis_shape Search::shape_of(std::uint64_t element) const {
+    const auto holds_it = [&](const SampledClass& in) { return element < in.info.first_element + in.info.n_elements; };
+    return std::ranges::find_if(m_classes, holds_it)->info.shape;
+}
+
+void Search::check(std::uint64_t element) const {
+    if (m_control && element % block == 0) {
+        m_control->check();
+    }
+}
+
+void Search::mark(std::uint64_t one, std::uint64_t other) { m_is_marked[one] = m_is_marked[other] = m_has_any = true; }
+
+} // namespace
+
+bool can_find_overlaps(const RuntimeVolume& volume) {
+    return volume.dimension() == 3 && volume.has_evaluation() && !volume.is_cut();
+}
+
+std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, const TaskControl* control) {
+    assert(can_find_overlaps(volume));
+    return volume.n_elements() == 0 ? std::vector<std::uint64_t>{} : Search(volume, control).find();
+}
+
+} // namespace elvis
