@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <iterator>
 #include <span>
 #include <utility>
 
@@ -85,17 +84,17 @@ struct SampledClass {
     std::vector<std::vector<double>> faces;
 };
 
-/** An element, and a point that it may hold or, of its own, another one. */
+/** An element, and a point that it may hold. */
 using Candidate = std::pair<std::uint32_t, Vector3>;
 
 class Search {
 public:
-    Search(const RuntimeVolume& volume, const TaskControl* control);
+    Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, const TaskControl* control);
 
     std::vector<std::uint64_t> find();
 
 private:
-    void look_at_links(const SampledClass& in);
+    void look_at_links(std::uint64_t element, elvis_shape shape, std::span<const std::uint32_t> links);
     void look_at_faces(const SampledClass& in, bool of_all);
     void look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links);
     bool holds(std::uint64_t element, std::span<const Vector3> points) const;
@@ -107,7 +106,7 @@ private:
     const RuntimeVolume& m_volume;
     const TaskControl* m_control;
     std::vector<SampledClass> m_classes;
-    Hierarchy m_hierarchy;
+    std::span<const Hierarchy* const> m_hierarchies;
     /** Positions, of elements that were looked at. */
     std::vector<Vector3> m_centroids;
     std::vector<bool> m_is_marked;
@@ -119,8 +118,9 @@ private:
     std::vector<Vector3> m_points;
 };
 
-Search::Search(const RuntimeVolume& volume, const TaskControl* control)
-    : m_volume(volume), m_control(control), m_centroids(volume.n_elements()), m_is_marked(volume.n_elements(), false) {
+Search::Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, const TaskControl* control)
+    : m_volume(volume), m_control(control), m_hierarchies(hierarchies), m_centroids(volume.n_elements()),
+      m_is_marked(volume.n_elements(), false) {
     std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
     for (std::size_t index = 0; index < links.size(); ++index) {
         SampledClass sampled{volume.classes()[index], std::move(links[index]), {}};
@@ -129,14 +129,10 @@ Search::Search(const RuntimeVolume& volume, const TaskControl* control)
         }
         m_classes.push_back(std::move(sampled));
     }
-    std::vector<double> boxes(6 * volume.n_elements());
-    volume.bounds(0, volume.n_elements(), boxes);
-    m_hierarchy = Hierarchy(boxes, {boxes[0], boxes[1], boxes[2]});
 }
 
 std::vector<std::uint64_t> Search::find() {
     for (const SampledClass& sampled : m_classes) {
-        look_at_links(sampled);
         look_at_faces(sampled, false);
     }
     if (m_has_any) {
@@ -154,27 +150,21 @@ std::vector<std::uint64_t> Search::find() {
 }
 
 /** Neighbours that lie on the same side of the face that they share. */
-void Search::look_at_links(const SampledClass& in) {
-    for (std::uint64_t local = 0; local < in.info.n_elements; ++local) {
-        const std::uint64_t element = in.info.first_element + local;
-        check(element);
-        m_volume.evaluate_mapping(element, reference_centroid(in.info.shape), m_centroids[element], {});
-        m_candidates.clear();
-        for (std::size_t face = 0; face < in.faces.size(); ++face) {
-            const std::uint32_t neighbour = in.links[links_an_element * local + face];
-            if (neighbour != no_link && neighbour < element) {
-                m_candidates.emplace_back(neighbour, m_centroids[neighbour]);
-            }
+void Search::look_at_links(std::uint64_t element, elvis_shape shape, std::span<const std::uint32_t> links) {
+    const Vector3 centroid = reference_centroid(shape);
+    Vector3 position{};
+    Jacobian jacobian{};
+    m_volume.evaluate_mapping(element, centroid, position, jacobian);
+    m_centroids[element] = position;
+    const Jacobian inverse = invert_matrix(jacobian);
+    for (const std::uint32_t neighbour : links) {
+        if (neighbour == no_link || neighbour >= element) {
+            continue;
         }
-        m_points.clear();
-        std::ranges::transform(m_candidates, std::back_inserter(m_points), &Candidate::second);
-        if (holds(element, m_points)) {
-            for (const auto& [neighbour, centroid] : m_candidates) {
-                m_points = {centroid};
-                if (holds(element, m_points)) {
-                    mark(element, neighbour);
-                }
-            }
+        const Vector3& point = m_centroids[neighbour];
+        const Vector3 prediction = plus(centroid, product(inverse, minus(point, position)));
+        if (reference_excess(shape, prediction) < 0 && holds(element, shape, prediction, point)) {
+            mark(element, neighbour);
         }
     }
 }
@@ -193,6 +183,8 @@ void Search::look_at_faces(const SampledClass& in, bool of_all) {
         if (of_all) {
             const Vector3 centroid = reference_centroid(in.info.shape);
             m_xi.insert(m_xi.end(), centroid.begin(), centroid.end());
+        } else {
+            look_at_links(element, in.info.shape, links);
         }
         if (!m_xi.empty()) {
             look_at_samples(element, links);
@@ -206,11 +198,14 @@ void Search::look_at_samples(std::uint64_t element, std::span<const std::uint32_
     m_candidates.clear();
     for (std::size_t i = 0; i < m_positions.size(); i += 3) {
         const Vector3 point{m_positions[i], m_positions[i + 1], m_positions[i + 2]};
-        m_found.clear();
-        m_hierarchy.find(point, 0, m_found);
-        for (const std::uint32_t other : m_found) {
-            if (other != element && std::ranges::find(links, other) == links.end()) {
-                m_candidates.emplace_back(other, point);
+        for (std::size_t index = 0; index < m_classes.size(); ++index) {
+            m_found.clear();
+            m_hierarchies[index]->find(point, 0, m_found);
+            for (const std::uint32_t local : m_found) {
+                const auto other = static_cast<std::uint32_t>(m_classes[index].info.first_element + local);
+                if (other != element && std::ranges::find(links, other) == links.end()) {
+                    m_candidates.emplace_back(other, point);
+                }
             }
         }
     }
@@ -229,9 +224,6 @@ void Search::look_at_samples(std::uint64_t element, std::span<const std::uint32_
 
 /** Whether one of the points is inside by more than rounding. */
 bool Search::holds(std::uint64_t element, std::span<const Vector3> points) const {
-    if (points.empty()) {
-        return false;
-    }
     const elvis_shape shape = shape_of(element);
     const Vector3 centroid = reference_centroid(shape);
     Vector3 position{};
@@ -284,9 +276,28 @@ bool can_find_overlaps(const RuntimeVolume& volume) {
     return volume.dimension() == 3 && volume.has_evaluation() && !volume.is_cut();
 }
 
+std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies,
+                                                const TaskControl* control) {
+    assert(can_find_overlaps(volume) && hierarchies.size() == volume.classes().size());
+    return Search(volume, hierarchies, control).find();
+}
+
 std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, const TaskControl* control) {
-    assert(can_find_overlaps(volume));
-    return volume.n_elements() == 0 ? std::vector<std::uint64_t>{} : Search(volume, control).find();
+    std::vector<Hierarchy> hierarchies;
+    std::vector<const Hierarchy*> pointers;
+    hierarchies.reserve(volume.classes().size());
+    std::vector<double> boxes;
+    for (const ClassInfo& info : volume.classes()) {
+        boxes.resize(6 * info.n_elements);
+        if (!boxes.empty()) {
+            volume.bounds(info.first_element, info.n_elements, boxes);
+            hierarchies.emplace_back(boxes, Vector3{boxes[0], boxes[1], boxes[2]});
+        } else {
+            hierarchies.emplace_back();
+        }
+        pointers.push_back(&hierarchies.back());
+    }
+    return overlapping_elements(volume, pointers, control);
 }
 
 } // namespace elvis

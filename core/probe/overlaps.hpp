@@ -5,9 +5,11 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace elvis {
@@ -20,5 +22,8 @@ bool can_find_overlaps(const RuntimeVolume& volume);
  * what overlaps between samples is missed, and what overlaps by less than a thousandth of an element.
  */
 std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, const TaskControl* control = nullptr);
+/** The same with the hierarchies of the elements of each class. */
+std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies,
+                                                const TaskControl* control);
 
 } // namespace elvis

@@ -93,7 +93,11 @@ struct Renderer::Impl {
 void Renderer::Impl::find_overlaps(const TaskControl* task) {
     if (can_find_overlaps(volume)) {
         const Clock::time_point start = Clock::now();
-        n_overlapping = overlapping_elements(volume, task).size();
+        std::vector<const Hierarchy*> hierarchies;
+        for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
+            hierarchies.push_back(&data.hierarchy(index));
+        }
+        n_overlapping = overlapping_elements(volume, hierarchies, task).size();
         times.overlaps_milliseconds = milliseconds_since(start);
     }
     if (n_overlapping > 0) {
