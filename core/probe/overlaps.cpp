@@ -31,9 +31,9 @@ constexpr double sample_depth = 4e-4, least_depth = 1e-4;
 constexpr double from_edges = 1e-3;
 /** What the mapping linearized at the centroid may be off, in reference coordinates; points beyond are in no element that is
  * bent less. */
-constexpr double clearly_outside = 1;
+constexpr double clearly_outside = 0.5;
 /** The same nearer to the point, after a step of Newton's method. */
-constexpr double surely_outside = 0.25;
+constexpr double surely_outside = 0.1;
 constexpr int most_steps = 12;
 constexpr double converged_step = 1e-7;
 
@@ -54,7 +54,7 @@ Vector3 middle(std::span<const Vector3> points) {
     return scaled(sum, 1 / static_cast<double>(points.size()));
 }
 
-/** Of a face, drawn into the element: its middle, half the way to its corners, and near corners and middles of edges. */
+/** Of a face, drawn into the element: its middle, and points near corners and middles of edges. */
 std::vector<double> face_samples(elvis_shape shape, int face) {
     std::vector<Vector3> corners;
     for (const int index : native::face_corners(native::Shape{shape}, face)) {
@@ -63,10 +63,13 @@ std::vector<double> face_samples(elvis_shape shape, int face) {
     const Vector3 centre = middle(corners);
     std::vector<Vector3> points{centre};
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        points.push_back(between(centre, corners[i], 0.5));
         points.push_back(between(centre, corners[i], 1 - from_edges));
         for (std::size_t j = 0; j < i; ++j) {
-            points.push_back(between(centre, between(corners[i], corners[j], 0.5), 1 - from_edges));
+            const Vector3 halfway = between(corners[i], corners[j], 0.5);
+            // Diagonals meet in the middle of the face.
+            if (length(minus(halfway, centre)) > from_edges) {
+                points.push_back(between(centre, halfway, 1 - from_edges));
+            }
         }
     }
     std::vector<double> xi;
