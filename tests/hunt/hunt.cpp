@@ -216,6 +216,8 @@ void Hunt::judge_volume(std::uint64_t number, std::uint64_t first, std::uint64_t
     const TemporaryFile file("volume.h5");
     const std::string description = make_volume(m_plugins, number, m_options.files, file.path());
     Ground ground(m_device, m_plugins, file.path());
+    if (ground.volume.fields().empty())
+        throw Error(description, "has no field");
     const TemporaryFile split_file("split.h5");
     if (m_options.splits || number % 3 == 1) {
         split_classes(file.path(), split_file.path(), number % 2 == 1);
@@ -228,7 +230,8 @@ void Hunt::judge_volume(std::uint64_t number, std::uint64_t first, std::uint64_t
         ground_of(file.path(), ground.volume.fields()[field].name, volume, ground.volume.n_faces() > 0);
     for (std::uint64_t scene_number = first; scene_number < end && !is_over(); ++scene_number) {
         judge_scene(ground, scene_ground, kinds[scene_number % kinds.size()], scene_number, description);
-        judge_scene(ground, scene_ground, more_kinds[scene_number % more_kinds.size()], scene_number, description);
+        for (const std::string_view kind : more_kinds)
+            judge_scene(ground, scene_ground, kind, scene_number, description);
     }
 }
 
