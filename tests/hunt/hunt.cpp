@@ -29,6 +29,9 @@ namespace fs = std::filesystem;
 /** Neighbouring numbers share a volume and its kernels, which take longer to compile than most pictures take. */
 constexpr std::uint64_t scenes_of_a_volume = 60;
 
+/** Scenes of which one pixel in so many is flagged without a reason are named. */
+constexpr std::uint64_t most_false_alarms = 100;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -169,6 +172,11 @@ void Hunt::judge_picture(Ground& ground, const Judge& judge, const FrameRequest&
         Judgement judgement = judge.judge(frame, precision);
         judgement.tally.render_seconds = seconds;
         m_sums[{kind, name_of(precision)}] += judgement.tally;
+        const std::uint64_t n_false = judgement.tally.all_false_alarms;
+        if (!m_options.is_quiet && n_false * most_false_alarms > judgement.tally.pixels)
+            std::printf("%s %s: %llu false alarms, of %llu (%s)\n", name.c_str(), name_of(precision),
+                        static_cast<unsigned long long>(n_false), static_cast<unsigned long long>(judgement.tally.pixels),
+                        origin.c_str());
         if (!judgement.findings.empty())
             report_findings(scene, name, origin, precision, judgement);
     }
