@@ -118,7 +118,8 @@ void add_sums(const std::string& path, Sums& sums) {
     if (!file)
         throw Error(path, "cannot be read");
     try {
-        for (const Json& row : Json::parse(file).at("sums")) {
+        const Json json = Json::parse(file);
+        for (const Json& row : json.at("sums")) {
             Tally tally;
             for (const Member& member : members)
                 tally.*member.count = row.value(member.name, std::uint64_t{0});

@@ -1,4 +1,5 @@
 #include "judge.hpp"
+#include "sums.hpp"
 #include "twins.hpp"
 
 #include <tests/support/test_volumes.hpp>
@@ -107,6 +108,22 @@ TEST_CASE("Smaller pictures and split volumes are judged by the answers of the p
     };
     check(judge_of_smaller, renderer.render(smaller), 20 * 15);
     check(judge, split_renderer.render(request), 60 * 45);
+}
+
+TEST_CASE("Sums that are written are added when they are read") {
+    const TemporaryFile file("sums.json");
+    Tally tally;
+    tally.pixels = 300;
+    tally.far = 1;
+    tally.silent[buffer::color] = 1;
+    write_sums({{{"plane", "float32"}, tally}}, file.path());
+    Sums sums;
+    add_sums(file.path(), sums);
+    add_sums(file.path(), sums);
+    REQUIRE(sums.size() == 1);
+    CHECK(sums.begin()->second.pixels == 600);
+    CHECK(sums.begin()->second.silent.at(buffer::color) == 2);
+    CHECK(has_silent(sums));
 }
 
 } // namespace elvis::hunt
