@@ -83,8 +83,8 @@ struct core_face_square {
     uint level, across, down;
     // In reference coordinates the square is xi + [-1, 1] a + [-1, 1] b.
     elvis_vec3 xi, a, b;
-    // It lies beyond the diagonal of a triangle as a whole.
-    bool is_beyond;
+    // It lies beyond the diagonal of a triangle as a whole; a part of it does.
+    bool is_beyond, is_partly_beyond;
     bool touches_edge;
 };
 
@@ -106,6 +106,7 @@ core_face_square core_face_square_at(uint patch_index, uint word) {
     square.a = (half_size * half_one) * frame.a;
     square.b = (half_size * half_one) * frame.b;
     square.is_beyond = of_patch.is_diagonal && u + v - elvis_real(2) * half_size >= elvis_real(0);
+    square.is_partly_beyond = frame.is_triangle && u + v + elvis_real(2) * half_size > elvis_real(16) * CORE_ROUNDOFF;
     const elvis_real edge = max(abs(u), abs(v)) + half_size;
     square.touches_edge = edge >= elvis_real(1) - elvis_real(16) * CORE_ROUNDOFF ||
                           (frame.is_triangle && u + v + elvis_real(2) * half_size >= elvis_real(-16) * CORE_ROUNDOFF);
@@ -200,7 +201,9 @@ void core_ask(core_surface surface, inout core_line_search search) {
         is_judged && lines.wants_contour && !test.is_excluded && (is_shown || !lines.is_contour_open);
     const bool leaves_mesh =
         is_judged && lines.wants_mesh && (square.touches_edge || own.is_touched) && (is_shown || !lines.is_mesh_open);
-    core_record_lines(lines, is_seen && lines.wants_contour && !own.is_touched && test.is_met,
+    // Beyond the face its field goes on, but is not shown.
+    const bool is_all_face = !square.is_partly_beyond && !own.is_touched;
+    core_record_lines(lines, is_seen && lines.wants_contour && is_all_face && test.is_met,
                       is_seen && lines.wants_mesh && ((square.touches_edge && !own.is_touched) || own.is_crossed));
     core_leave_open(lines, leaves_contour && sight.is_small, leaves_mesh && sight.is_small);
     lines.is_estimated = lines.is_estimated || (is_judged && test.is_estimated);

@@ -49,6 +49,7 @@ core_shown_square core_square_on(const core_surface surface, const core_line_sea
     core_shown_square square = core_shown_square_at(image, corners, core_plane_normal.xyz, direction, CORE_NO_FACE);
     square.is_absent = core_shows_nothing(corners, place, surface.volume_end);
     square.is_hidden = square.subpixel.is_grazed || (square.subpixel.is_behind && surface.hides_behind);
+    square.is_seen = square.is_seen && !(square.subpixel.may_be_behind && surface.hides_behind);
     return square;
 }
 

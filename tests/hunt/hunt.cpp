@@ -2,6 +2,7 @@
 
 #include "scenes.hpp"
 #include "sums.hpp"
+#include "twins.hpp"
 #include "volumes.hpp"
 
 #include <core/base/error.hpp>
@@ -17,6 +18,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 
 namespace elvis::hunt {
@@ -27,14 +29,17 @@ namespace fs = std::filesystem;
 /** Neighbouring numbers share a volume and its kernels, which take longer to compile than most pictures take. */
 constexpr std::uint64_t scenes_of_a_volume = 60;
 
+/** Scenes of which one pixel in so many is flagged without a reason are named. */
+constexpr std::uint64_t most_false_alarms = 100;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /** An open volume with its renderers and what the oracle reads. */
 struct Ground {
-    Ground(const Device& device, const PluginRegistry& plugins, const std::string& path)
-        : volume(plugins.runtime_for(path), path), oracle(path, faces_of(volume)) {
+    Ground(const Device& device, const PluginRegistry& plugins, const std::string& volume_path)
+        : path(volume_path), volume(plugins.runtime_for(path), path), oracle(path, faces_of(volume)) {
         renderers[0].emplace(device, volume, Precision::float32);
         renderers[1].emplace(device, volume, Precision::float64);
     }
@@ -43,9 +48,12 @@ struct Ground {
         volume.faces(0, faces.size(), faces);
         return faces;
     }
+    std::string path;
     RuntimeVolume volume;
     oracle::SceneVolume oracle;
     std::optional<Renderer> renderers[2];
+    /** The same with each class in two, if that is to be judged, too. */
+    std::unique_ptr<Ground> split;
 };
 
 const std::vector<std::pair<std::string, Sharing>>& sharings() {
@@ -72,6 +80,8 @@ private:
     void judge_scene(Ground& ground, const SceneGround& scene_ground, std::string_view kind, std::uint64_t number,
                      const std::string& description);
     void judge(Ground& ground, const Scene& scene, const std::string& kind, const std::string& name, const std::string& origin);
+    void judge_picture(Ground& ground, const Judge& judge, const FrameRequest& request, Scene scene, const std::string& kind,
+                       const std::string& name, const std::string& origin);
     void report_findings(const Scene& scene, const std::string& name, const std::string& origin, Precision precision,
                          const Judgement& judgement);
     void write(const Scene& scene, const std::string& name, const std::string& text);
@@ -129,33 +139,44 @@ void Hunt::report_findings(const Scene& scene, const std::string& name, const st
 void Hunt::judge(Ground& ground, const Scene& scene, const std::string& kind, const std::string& name,
                  const std::string& origin) {
     ++m_n_scenes;
-    std::optional<Judge> judge;
-    FrameRequest request;
+    FrameRequest request = make_frame_request(scene, ground.volume, ground.renderers[0]->ranges());
+    const std::size_t turn = std::hash<std::string>{}(name) % sharings().size();
+    for (const auto& [sharing_name, sharing] : sharings())
+        if (m_options.sharing.empty() ? sharing_name == sharings()[turn].first : sharing_name == m_options.sharing)
+            request.sharing = sharing;
+    std::string reason;
+    Judge judge(ground.oracle, request, reason);
+    if (!reason.empty()) {
+        ++m_n_unknown;
+        if (!m_options.is_quiet)
+            std::printf("%s: the oracle does not know %s\n", name.c_str(), reason.c_str());
+        return;
+    }
+    judge.draw();
+    m_sums[{kind, name_of(m_precisions.front())}].oracle_seconds += judge.seconds();
+    judge_picture(ground, judge, request, scene, kind, name, origin);
+    if (const std::optional<FrameRequest> smaller = smaller_picture(request))
+        judge_picture(ground, Judge(judge, *smaller), *smaller, scene, kind + "/small", name + "_small", origin);
+    if (ground.split)
+        judge_picture(*ground.split, judge, request, scene, kind + "/split", name + "_split", origin);
+}
+
+void Hunt::judge_picture(Ground& ground, const Judge& judge, const FrameRequest& request, Scene scene, const std::string& kind,
+                         const std::string& name, const std::string& origin) {
+    scene.volume = ground.path;
+    scene.size = {request.width, request.height};
     for (const Precision precision : m_precisions) {
-        Renderer& renderer = *ground.renderers[precision == Precision::float64 ? 1 : 0];
-        if (!judge) {
-            request = make_frame_request(scene, ground.volume, renderer.ranges());
-            const std::size_t turn = std::hash<std::string>{}(name) % sharings().size();
-            for (const auto& [sharing_name, sharing] : sharings())
-                if (m_options.sharing.empty() ? sharing_name == sharings()[turn].first : sharing_name == m_options.sharing)
-                    request.sharing = sharing;
-            std::string reason;
-            judge.emplace(ground.oracle, request, reason);
-            if (!reason.empty()) {
-                ++m_n_unknown;
-                if (!m_options.is_quiet)
-                    std::printf("%s: the oracle does not know %s\n", name.c_str(), reason.c_str());
-                return;
-            }
-            judge->draw();
-        }
         const auto start = std::chrono::steady_clock::now();
-        const Frame frame = renderer.render(request);
+        const Frame frame = ground.renderers[precision == Precision::float64 ? 1 : 0]->render(request);
         const double seconds = seconds_since(start);
-        Judgement judgement = judge->judge(frame, precision);
+        Judgement judgement = judge.judge(frame, precision);
         judgement.tally.render_seconds = seconds;
-        judgement.tally.oracle_seconds += judge->seconds() / static_cast<double>(m_precisions.size());
         m_sums[{kind, name_of(precision)}] += judgement.tally;
+        const std::uint64_t n_false = judgement.tally.all_false_alarms;
+        if (!m_options.is_quiet && n_false * most_false_alarms > judgement.tally.pixels)
+            std::printf("%s %s: %llu false alarms, of %llu (%s)\n", name.c_str(), name_of(precision),
+                        static_cast<unsigned long long>(n_false), static_cast<unsigned long long>(judgement.tally.pixels),
+                        origin.c_str());
         if (!judgement.findings.empty())
             report_findings(scene, name, origin, precision, judgement);
     }
@@ -174,6 +195,11 @@ void Hunt::judge_files() {
             scene.size = parse_size(m_options.size);
         scene.annotation.reset();
         Ground ground(m_device, m_plugins, scene.volume);
+        const TemporaryFile split_file("split.h5");
+        if (m_options.splits) {
+            split_classes(scene.volume, split_file.path(), true);
+            ground.split = std::make_unique<Ground>(m_device, m_plugins, split_file.path());
+        }
         judge(ground, scene, "files", fs::path(file).stem().string(), file);
     }
 }
@@ -198,6 +224,13 @@ void Hunt::judge_volume(std::uint64_t number, std::uint64_t first, std::uint64_t
     const TemporaryFile file("volume.h5");
     const std::string description = make_volume(m_plugins, number, m_options.files, file.path());
     Ground ground(m_device, m_plugins, file.path());
+    if (ground.volume.fields().empty())
+        throw Error(description, "has no field");
+    const TemporaryFile split_file("split.h5");
+    if (m_options.splits || number % 3 == 1) {
+        split_classes(file.path(), split_file.path(), number % 2 == 1);
+        ground.split = std::make_unique<Ground>(m_device, m_plugins, split_file.path());
+    }
     oracle::Random random(number + 77);
     const auto field = static_cast<std::uint32_t>(random.whole(0, static_cast<int>(ground.volume.fields().size()) - 1));
     const oracle::Volume& volume = ground.oracle.model(field, 0).volume;
@@ -205,7 +238,8 @@ void Hunt::judge_volume(std::uint64_t number, std::uint64_t first, std::uint64_t
         ground_of(file.path(), ground.volume.fields()[field].name, volume, ground.volume.n_faces() > 0);
     for (std::uint64_t scene_number = first; scene_number < end && !is_over(); ++scene_number) {
         judge_scene(ground, scene_ground, kinds[scene_number % kinds.size()], scene_number, description);
-        judge_scene(ground, scene_ground, more_kinds[scene_number % more_kinds.size()], scene_number, description);
+        for (const std::string_view kind : more_kinds)
+            judge_scene(ground, scene_ground, kind, scene_number, description);
     }
 }
 

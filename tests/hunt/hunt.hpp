@@ -21,6 +21,8 @@ struct Options {
     /** What surfaces take from each other: none, rows, depths or all; in turn if empty. */
     std::string sharing;
     std::vector<std::string> files;
+    /** All volumes also with each class in two; only some if false. */
+    bool splits = false;
     bool is_quiet = false;
 };
 

@@ -26,6 +26,8 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember({"none", "rows", "depths", "all"}));
     app.add_option("--data", options.files, "Data sets in which random scenes lie, one in four times")
         ->check(CLI::ExistingFile);
+    app.add_flag("--split", options.splits,
+                 "Judges all volumes also with each class of elements in two, not one in three only");
     app.add_option("--write", options.folder, "Writes scenes that have silent errors, with their volumes, into this folder");
     app.add_option("--json", options.json, "Writes the sums");
     app.add_option("--device", options.device, "Device by name or index");

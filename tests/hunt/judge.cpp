@@ -2,6 +2,7 @@
 
 #include "line_judge.hpp"
 #include "parallel.hpp"
+#include "twins.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -277,7 +278,7 @@ Verdict PixelJudge::verdict(std::size_t pixel, const Shown& shown, bool asks, un
 
 Judge::Judge(oracle::SceneVolume& volume, const FrameRequest& request, std::string& reason) : m_request(request) {
     for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i) {
-        std::unique_ptr<SceneOracle> oracle = SceneOracle::make(volume, request, reason);
+        std::shared_ptr<SceneOracle> oracle = SceneOracle::make(volume, request, reason);
         if (!oracle)
             return;
         m_oracles.push_back(std::move(oracle));
@@ -285,6 +286,12 @@ Judge::Judge(oracle::SceneVolume& volume, const FrameRequest& request, std::stri
     const oracle::Volume& elements = m_oracles.front()->model().volume;
     for (std::size_t element = 0; element < elements.n_elements(); ++element)
         m_elements[elements.number(element)] = element;
+}
+
+Judge::Judge(const Judge& larger, const FrameRequest& smaller)
+    : m_request(smaller), m_oracles(larger.m_oracles), m_elements(larger.m_elements) {
+    for (std::size_t pixel = 0; pixel < std::size_t{smaller.width} * smaller.height; ++pixel)
+        m_answers.push_back(larger.m_answers[pixel_with_same_ray(larger.m_request, smaller, pixel)]);
 }
 
 void Judge::draw() {
@@ -326,7 +333,7 @@ void count(const Shown& shown, Verdict verdict, unsigned wrong, std::uint64_t we
 
 } // namespace
 
-Judgement Judge::judge(const Frame& frame, Precision precision) {
+Judgement Judge::judge(const Frame& frame, Precision precision) const {
     const auto start = std::chrono::steady_clock::now();
     std::vector<PixelJudge> judges;
     for (const auto& oracle : m_oracles)

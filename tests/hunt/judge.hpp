@@ -84,16 +84,18 @@ class Judge {
 public:
     /** `reason` tells if the oracle does not know the scene: then it judges nothing. */
     Judge(oracle::SceneVolume& volume, const FrameRequest& request, std::string& reason);
+    /** Of a smaller picture whose rays are rays of a larger one (twins.hpp), with the answers that are drawn for that. */
+    Judge(const Judge& larger, const FrameRequest& smaller);
 
     /** Answers of all pixels, by all cores; kept for all frames. */
     void draw();
-    Judgement judge(const Frame& frame, Precision precision);
+    Judgement judge(const Frame& frame, Precision precision) const;
     double seconds() const { return m_seconds; }
 
 private:
     friend class PixelJudge;
     const FrameRequest& m_request;
-    std::vector<std::unique_ptr<oracle::SceneOracle>> m_oracles;
+    std::vector<std::shared_ptr<oracle::SceneOracle>> m_oracles;
     std::unordered_map<std::int64_t, std::size_t> m_elements;
     std::vector<Answer> m_answers;
     double m_seconds = 0;

@@ -281,7 +281,7 @@ LineColor line_color_of(const Surface& surface, const Frame& frame, std::size_t 
 }
 
 Judgement judge_lines(const FrameRequest& request, const Frame& frame, Precision precision, const std::vector<Answer>& answers,
-                      const std::vector<std::unique_ptr<oracle::SceneOracle>>& oracles) {
+                      const std::vector<std::shared_ptr<oracle::SceneOracle>>& oracles) {
     const Surface& surface = request.surfaces.front();
     const std::size_t fewer = std::holds_alternative<Isosurfaces>(surface.geometry) ? fewer_on_isosurfaces : 1;
     const Choice choice(request, frame, answers);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace elvis::hunt {
@@ -194,13 +195,54 @@ CutShape random_shape(Random& random, const SceneGround& ground) {
     }
 }
 
+std::string text_of(double number) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", number);
+    return text;
+}
+
+/** Polynomials up to order four, and waves, about a point. */
+ImplicitSurface random_function(Random& random, const SceneGround& ground) {
+    const Vector at = random_point(random, ground, random.one_in(2) ? 0 : random.whole(1, 3));
+    const double scale = 2 / size_of(ground);
+    std::array<std::string, 3> u;
+    for (std::size_t d = 0; d < 3; ++d) {
+        const double shift = at[static_cast<Eigen::Index>(d)];
+        u[d] = text_of(scale) + " * (" + "xyz"[d] + (shift < 0 ? " + " : " - ") + text_of(std::abs(shift)) + ")";
+    }
+    const auto part = [&] { return text_of(random.between(0.1, 1)); };
+    const auto sign = [&] { return random.one_in(3) ? " - " : " + "; };
+    std::string text;
+    switch (random.whole(0, 2)) {
+    case 0:
+        for (const std::string& x : u)
+            text += (text.empty() ? "" : sign()) + part() + " * (" + x + ")^" + (random.one_in(2) ? "2" : "4");
+        text += sign() + part() + " * " + u[0] + " * " + u[1] + " * " + u[2];
+        return {text + " - " + text_of(random.between(0, 0.3))};
+    case 1: {
+        const std::string wave = text_of(random.between(1, 6));
+        return {u[2] + sign() + part() + " * " + u[0] + sign() + text_of(random.between(0.02, 0.4)) + " * sin(" + wave + " * " +
+                u[0] + ") * cos(" + wave + " * " + u[1] + ")"};
+    }
+    default: {
+        const std::string wave = text_of(random.between(1, 5)) + " * ";
+        for (std::size_t d = 0; d < 3; ++d)
+            text += (d == 0 ? "" : " + ") + ("sin(" + wave) + u[d] + ") * cos(" + wave + u[(d + 1) % 3] + ")";
+        return {text + sign() + text_of(random.between(0, 0.5))};
+    }
+    }
+}
+
 SceneSurface random_surface(Random& random, const SceneGround& ground, std::string_view kind) {
     SceneSurface surface;
     // A file without faces does not tell its boundary.
     if (kind == "plane" || (kind == "boundary" && !ground.has_faces)) {
         surface.geometry = random_plane(random, ground);
-    } else if (kind == "shape") {
-        surface.geometry = random_shape(random, ground);
+    } else if (kind == "shape" || kind == "implicit") {
+        if (kind == "shape")
+            surface.geometry = random_shape(random, ground);
+        else
+            surface.geometry = CutShape(random_function(random, ground));
         if (random.one_in(3))
             surface.outside = Rgb{0.5, 0.5, 0.5};
     } else if (kind == "boundary") {
@@ -319,7 +361,7 @@ std::array<std::uint32_t, 2> size_of(std::string_view kind) {
         return {640, 480};
     if (kind == "boundary" || kind == "shape")
         return {400, 300};
-    if (kind == "isosurface" || kind == "lines")
+    if (kind == "isosurface" || kind == "lines" || kind == "implicit")
         return {240, 180};
     return {160, 120};
 }

@@ -15,9 +15,9 @@
 
 namespace elvis::hunt {
 
-/** Each number is that of two scenes: one of each list, in which numbers take turns. */
+/** Each number is that of one scene of the first list, in which numbers take turns, and one of each kind of the second. */
 inline constexpr std::array<std::string_view, 6> kinds{"plane", "isosurface", "boundary", "volume", "layers", "shape"};
-inline constexpr std::array<std::string_view, 1> more_kinds{"lines"};
+inline constexpr std::array<std::string_view, 2> more_kinds{"lines", "implicit"};
 
 /** What scenes are made from. */
 struct SceneGround {

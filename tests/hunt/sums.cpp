@@ -58,7 +58,7 @@ std::string line_of(const std::string& kind, const std::string& precision, const
     const double million = std::max(1.0, static_cast<double>(t.pixels)) / 1e6;
     const auto per_million = [&](std::uint64_t n) { return static_cast<double>(n) / million; };
     char text[400];
-    std::snprintf(text, sizeof text, "%-12s %-8s %10llu px %9.3g %9.3g %9.3g %9.3g %9.3g %9.0f %9.0f  ", kind.c_str(),
+    std::snprintf(text, sizeof text, "%-16s %-8s %10llu px %9.3g %9.3g %9.3g %9.3g %9.3g %9.0f %9.0f  ", kind.c_str(),
                   precision.c_str(), static_cast<unsigned long long>(t.pixels), per_million(t.far), per_million(t.near),
                   per_million(t.all_false_alarms), per_million(t.flagged), per_million(t.undecidable),
                   static_cast<double>(t.pixels) / std::max(1e-9, t.render_seconds),
@@ -80,7 +80,7 @@ std::string to_text(const Sums& sums) {
     std::string text =
         "Per million pixels: silent errors beyond what rounding explains (far) and within it (near), false alarms, "
         "flagged, undecidable; then pixels a second of renderer and oracle.\n";
-    text += "kind         precision    pixels          far      near     false   flagged  undecid.   draw/s  oracle/s\n";
+    text += "kind             precision    pixels          far      near     false   flagged  undecid.   draw/s  oracle/s\n";
     Sums all;
     for (const auto& [key, tally] : sums) {
         text += line_of(key.first, key.second, tally);
@@ -118,7 +118,8 @@ void add_sums(const std::string& path, Sums& sums) {
     if (!file)
         throw Error(path, "cannot be read");
     try {
-        for (const Json& row : Json::parse(file).at("sums")) {
+        const Json json = Json::parse(file);
+        for (const Json& row : json.at("sums")) {
             Tally tally;
             for (const Member& member : members)
                 tally.*member.count = row.value(member.name, std::uint64_t{0});

@@ -85,7 +85,28 @@ std::vector<native::Face> faces_of(const VolumeData& data, std::int64_t alone) {
     return faces;
 }
 
-void write(const std::string& path, const VolumeData& data, const std::vector<native::Face>& faces) {
+std::string random_volume(Random& random, std::uint64_t number, const std::string& path) {
+    oracle::RandomVolume made = oracle::random_volume(number);
+    std::string description = made.description.substr(0, made.description.find(", ", made.description.find("field of")));
+    if (random.one_in(6)) {
+        move(made.data, 1e-6, Vector::Zero());
+        description += ", scaled by 1e-6";
+    } else if (random.one_in(6)) {
+        move(made.data, 1, {1e4, -1e4, 1e4});
+        description += ", shifted by 1e4";
+    }
+    // Without neighbours, elements are found by their places. Faces of different shapes need not match.
+    if (random.one_in(3)) {
+        oracle::write_volume(path, made.data);
+        return description + ", without faces";
+    }
+    write_volume(path, made.data, faces_of(made.data, made.data.classes.size() > 1 ? -2 : -1));
+    return description;
+}
+
+} // namespace
+
+void write_volume(const std::string& path, const VolumeData& data, const std::vector<native::Face>& faces) {
     native::Description description;
     native::Field field;
     field.name = "u";
@@ -103,27 +124,6 @@ void write(const std::string& path, const VolumeData& data, const std::vector<na
     writer.write_faces(0, faces.size(), faces);
     writer.commit();
 }
-
-std::string random_volume(Random& random, std::uint64_t number, const std::string& path) {
-    oracle::RandomVolume made = oracle::random_volume(number);
-    std::string description = made.description.substr(0, made.description.find(", ", made.description.find("field of")));
-    if (random.one_in(6)) {
-        move(made.data, 1e-6, Vector::Zero());
-        description += ", scaled by 1e-6";
-    } else if (random.one_in(6)) {
-        move(made.data, 1, {1e4, -1e4, 1e4});
-        description += ", shifted by 1e4";
-    }
-    // Without neighbours, elements are found by their places. Faces of different shapes need not match.
-    if (random.one_in(3)) {
-        oracle::write_volume(path, made.data);
-        return description + ", without faces";
-    }
-    write(path, made.data, faces_of(made.data, made.data.classes.size() > 1 ? -2 : -1));
-    return description;
-}
-
-} // namespace
 
 std::string make_volume(const PluginRegistry& plugins, std::uint64_t number, const std::vector<std::string>& files,
                         const std::string& path) {

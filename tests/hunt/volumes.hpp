@@ -4,8 +4,11 @@
  */
 #pragma once
 
+#include <core/oracle/element/volume.hpp>
 #include <core/oracle/samples/random.hpp>
 #include <core/plugin_host/plugin.hpp>
+
+#include <elvis/native/volume_file.hpp>
 
 #include <cstdint>
 #include <string>
@@ -19,5 +22,8 @@ namespace elvis::hunt {
  */
 std::string make_volume(const PluginRegistry& plugins, std::uint64_t number, const std::vector<std::string>& files,
                         const std::string& path);
+
+/** One field, `u`, and these faces. */
+void write_volume(const std::string& path, const oracle::VolumeData& data, const std::vector<native::Face>& faces);
 
 } // namespace elvis::hunt

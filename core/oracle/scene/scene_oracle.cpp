@@ -29,7 +29,7 @@ std::string unknown_part(const FrameRequest& request) {
         if (const auto* iso = std::get_if<Isosurfaces>(&surface.geometry); iso != nullptr && iso->field.expression)
             return "an isosurface of an expression";
         if (const auto* shape = std::get_if<CutShape>(&surface.geometry); shape != nullptr && !is_known(*shape))
-            return "implicit surfaces or patches";
+            return "patches, or the function of an implicit surface";
         if (std::holds_alternative<WireFrame>(surface.geometry) || std::holds_alternative<FlatElements>(surface.geometry) ||
             std::holds_alternative<ElementFaces>(surface.geometry))
             return "wires, flat elements or chosen elements";

@@ -1,4 +1,5 @@
 // Cut surfaces of their own form: where rays meet them, and which elements are there.
+#include "formula.hpp"
 #include "surface_tracer.hpp"
 
 #include <Eigen/Geometry>
@@ -15,11 +16,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vector vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
-/** A part of a shape: where a polynomial of position, of order four at most, vanishes and `holds`. */
+/** A part of a shape: where a function of position vanishes and `holds`. */
 struct ShapePart {
     std::function<double(const Vector& x)> value;
     std::function<Vector(const Vector& x)> gradient;
     std::function<bool(const Vector& x)> holds = [](const Vector&) { return true; };
+    /** Of order four at most; other functions are sampled. */
+    bool is_polynomial = true;
 };
 
 /** x.A x + b.x + c, about a middle. */
@@ -109,7 +112,12 @@ std::vector<ShapePart> parts_of(const MeshSurface& surface) {
 }
 
 std::vector<ShapePart> parts_of(const Quadric& q) { return parts_of(q, Vector::Zero()); }
-std::vector<ShapePart> parts_of(const ImplicitSurface&) { return {}; }
+std::vector<ShapePart> parts_of(const ImplicitSurface& surface) {
+    const Formula formula = *parse_formula(surface.expression);
+    ShapePart part{[=](const Vector& x) { return formula(x).value; }, [=](const Vector& x) { return formula(x).gradient; }};
+    part.is_polynomial = false;
+    return {part};
+}
 std::vector<ShapePart> parts_of(const BezierSurface&) { return {}; }
 
 /** A ball that holds a shape with an end. */
@@ -183,17 +191,23 @@ public:
 private:
     void add(const ShapePart& part, const Line& line, double from, double to, const Perturbation& perturbation,
              std::vector<SurfacePoint>& points) {
-        constexpr std::size_t degree = 8;
+        constexpr std::size_t degree = 8, n_samples = 300;
         const auto t_of = [&](double s) { return 0.5 * ((1 - s) * from + (1 + s) * to); };
-        std::vector<double> values;
-        for (const double s : lobatto_points(degree)) {
+        const RealFunction along = [&](double s) {
             const Vector x = line.at(t_of(s));
             // A surface that is moved along its normal, to first order.
-            values.push_back(part.value(x) + (perturbation.plane == 0 ? 0 : perturbation.plane * part.gradient(x).norm()));
+            return part.value(x) + (perturbation.plane == 0 ? 0 : perturbation.plane * part.gradient(x).norm());
+        };
+        std::vector<double> values;
+        for (const double s : lobatto_points(part.is_polynomial ? degree : n_samples))
+            values.push_back(along(s));
+        Roots roots;
+        if (part.is_polynomial) {
+            const ChebyshevSeries series(values);
+            roots = find_roots([&](double s) { return series(s); }, 0, lobatto_points(4 * degree), series.dense_values());
+        } else {
+            roots = find_roots(along, 0, lobatto_points(n_samples), values);
         }
-        const ChebyshevSeries series(values);
-        const Roots roots =
-            find_roots([&](double s) { return series(s); }, 0, lobatto_points(4 * degree), series.dense_values());
         for (const double s : roots.at) {
             double t = t_of(s);
             // Newton's method takes away what the series leaves.
@@ -236,7 +250,9 @@ private:
 } // namespace
 
 bool is_known(const CutShape& shape) {
-    return !std::holds_alternative<ImplicitSurface>(shape) && !std::holds_alternative<BezierSurface>(shape);
+    if (const auto* surface = std::get_if<ImplicitSurface>(&shape))
+        return parse_formula(surface->expression).has_value();
+    return !std::holds_alternative<BezierSurface>(shape);
 }
 
 std::unique_ptr<SurfaceTracer> shape_tracer(const Model& model, const CutShape& shape, bool is_seen_outside) {

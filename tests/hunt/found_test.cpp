@@ -1,0 +1,115 @@
+// Scenes in which the hunt found silent errors.
+#include "judge.hpp"
+#include "volumes.hpp"
+
+#include <tests/support/test_volumes.hpp>
+
+#include <core/oracle/samples/exact_volumes.hpp>
+#include <core/oracle/samples/meshes.hpp>
+#include <core/render/renderer.hpp>
+
+#include <catch2/catch.hpp>
+
+namespace elvis::hunt {
+
+namespace {
+
+Tally judge_picture(const std::string& path, const FrameRequest& request, Precision precision) {
+    const RuntimeVolume volume = oracle::open_volume(path);
+    std::vector<elvis_face> faces(volume.n_faces());
+    volume.faces(0, faces.size(), faces);
+    oracle::SceneVolume answers(path, faces);
+    std::string reason;
+    Judge judge(answers, request, reason);
+    judge.draw();
+    Renderer renderer(test::device(), volume, precision);
+    return judge.judge(renderer.render(request), precision).tally;
+}
+
+/** An element of the unit cube between two y, the lower face of which is bent down far. */
+oracle::Map bulge(double from, double to) {
+    return [=](const oracle::Vector& xi) -> oracle::Vector {
+        oracle::Vector x = 0.5 * (oracle::Vector::Ones() + xi);
+        x.y() = from + (to - from) * x.y();
+        x.z() -= 0.6 * (1 - xi.x() * xi.x()) * (1 - xi.y() * xi.y()) * (1 - xi.z());
+        return x;
+    };
+}
+
+Tally judge_cut(const std::vector<oracle::Map>& maps, double y, Precision precision) {
+    const native::Space geometry = oracle::space_of(native::Shape::hexahedron, 2);
+    oracle::VolumeData data;
+    data.classes.push_back(
+        oracle::make_class(geometry, geometry, maps, [](const oracle::Vector& x) { return x.x() + x.y() * x.z(); }));
+    const TemporaryFile file("bulge.h5");
+    oracle::write_volume(file.path(), data);
+    FrameRequest request;
+    request.width = 120;
+    request.height = 90;
+    request.camera.eye = {0.7, 1.2, 3};
+    request.camera.look_at = {0.47, 0.49, 0.35};
+    request.camera.up = {0.94, -0.33, 0};
+    request.camera.field_of_view = 29;
+    Surface surface;
+    surface.geometry = CutPlane{{0, 1, 0, -y}};
+    surface.colors.points = {{-3, {0, 0.1, 0.9}}, {3, {1, 0.8, 0.1}}};
+    surface.mesh_lines.emplace();
+    request.surfaces = {surface};
+    return judge_picture(file.path(), request, precision);
+}
+
+} // namespace
+
+TEST_CASE("A plane along faces of strongly bent elements shows their outline in each pixel") {
+    // Far from where it is linearized, the mapping's error reaches over the whole element: a parallel face may lie in the
+    // plane.
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const auto check = [](const Tally& tally) {
+        CHECK(tally.lines > 200);
+        CHECK(tally.far + tally.near == 0);
+        CHECK(tally.all_false_alarms == 0);
+    };
+    SECTION("between them") { check(judge_cut({bulge(0, 1)}, 0.65, precision)); }
+    SECTION("in them") { check(judge_cut({bulge(0, 0.5), bulge(0.5, 1)}, 0.5, precision)); }
+}
+
+TEST_CASE("Beyond the diagonal of a triangle its field makes no contour") {
+    // Two tetrahedra touch along the diagonals of their lower faces. The field of the one rises to 0 there, the other's is
+    // above 3.
+    const native::Space space = oracle::space_of(native::Shape::tetrahedron, 1);
+    oracle::VolumeData data;
+    data.classes.push_back(oracle::make_class(space, space, {[](const oracle::Vector& xi) { return xi; }},
+                                              [](const oracle::Vector& x) { return x.x() + x.y(); }));
+    data.classes.push_back(oracle::make_class(
+        space, space, {[](const oracle::Vector& xi) -> oracle::Vector {
+            return {-xi.x(), -xi.y(), xi.z()};
+        }},
+        [](const oracle::Vector& x) { return 3 + x.x() + x.y(); }, 1));
+    std::vector<native::Face> faces;
+    for (const std::int64_t element : {0, 1})
+        for (std::int32_t face = 0; face < 4; ++face)
+            faces.push_back({element, -1, face, -1, -1});
+    const TemporaryFile file("tetrahedra.h5");
+    write_volume(file.path(), data, faces);
+
+    FrameRequest request;
+    request.width = 60;
+    request.height = 45;
+    request.camera.eye = {0.3, -0.4, -5};
+    request.camera.look_at = {0, 0, -1};
+    request.camera.up = {0, 1, 0};
+    request.camera.field_of_view = 40;
+    Surface surface;
+    surface.geometry = BoundaryFaces{};
+    surface.colors.points = {{-9, {0, 0.1, 0.9}}, {9, {1, 0.8, 0.1}}};
+    surface.contours = Contours{{0.02}, {1, std::array<double, 3>{0, 0, 0}, {}}};
+    surface.mesh_lines.emplace();
+    surface.subdivisions = 2;
+    request.surfaces = {surface};
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const Tally tally = judge_picture(file.path(), request, precision);
+    CHECK(tally.lines > 200);
+    CHECK(tally.far + tally.near == 0);
+}
+
+} // namespace elvis::hunt
