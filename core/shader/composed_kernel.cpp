@@ -10,10 +10,7 @@ namespace elvis {
 
 namespace {
 
-Kernel make_kernel(const Device& device, const KernelRequest& request) {
-    if (request.precision == Precision::float64 && !device.summary().has_float64) {
-        throw Error("device '" + device.summary().name + "'", "it has no double precision; use --precision float32");
-    }
+std::vector<BindingLayout> layout_of(const Device& device, const KernelRequest& request) {
     const RequestRecords records(request);
     std::vector<BindingLayout> layout = request.bindings;
     for (const BoundBuffer& bound : records.bindings()) {
@@ -23,8 +20,7 @@ Kernel make_kernel(const Device& device, const KernelRequest& request) {
     if (request.watches_loops) {
         layout.push_back({records.watch_binding(), BindingType::storage_buffer});
     }
-    const auto spirv = compile_shader(compose_text(device, request), request.name);
-    return Kernel(device, spirv, std::move(layout), request.push_constant_bytes, request.name);
+    return layout;
 }
 
 /** Each once: "snippet 'my_solver' (hexahedron.glsl)". */
@@ -42,12 +38,27 @@ std::string snippet_names(const KernelRequest& request) {
 } // namespace
 
 ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request)
-    : m_kernel(make_kernel(device, request)), m_name(request.name), m_snippets(snippet_names(request)),
-      m_records(RequestRecords(request).bindings()), m_n_bindings(request.bindings.size()) {
+    : m_name(request.name), m_snippets(snippet_names(request)), m_records(RequestRecords(request).bindings()),
+      m_n_bindings(request.bindings.size()) {
+    if (request.precision == Precision::float64 && !device.summary().has_float64) {
+        throw Error("device '" + device.summary().name + "'", "it has no double precision; use --precision float32");
+    }
     if (request.watches_loops) {
         m_watch.emplace(Watch{RequestRecords(request).watch_binding(), Buffer(device, sizeof(std::uint32_t))});
         m_watch->is_cut_short.fill(0);
     }
+    // The request and its snippets are not kept: their text is.
+    m_building = device.background().hand_over([this, &device, text = compose_text(device, request),
+                                                layout = layout_of(device, request), bytes = request.push_constant_bytes] {
+        m_kernel.emplace(device, compile_shader(text, m_name), layout, bytes, m_name);
+    });
+}
+
+ComposedKernel::~ComposedKernel() { m_building->drop(); }
+
+const Kernel& ComposedKernel::kernel() const {
+    m_building->wait();
+    return *m_kernel;
 }
 
 template <class Call> void ComposedKernel::watched(const Call& call) const {
@@ -75,13 +86,13 @@ template <class Call> void ComposedKernel::watched(const Call& call) const {
 
 void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
                               std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
-    watched([&] { m_kernel.dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
+    watched([&] { kernel().dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
 }
 
 void ComposedKernel::dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings,
                                    std::span<const std::byte> push_constants, std::uint32_t groups_x,
                                    std::uint32_t groups_y) const {
-    watched([&] { m_kernel.dispatch_from({first[0], first[1], 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
+    watched([&] { kernel().dispatch_from({first[0], first[1], 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
 }
 
 std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {

@@ -33,10 +33,12 @@
  */
 #pragma once
 
+#include <core/base/background.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/vulkan/buffer.hpp>
 #include <core/vulkan/kernel.hpp>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -98,11 +100,19 @@ struct KernelRequest {
 /**
  * A kernel with the descriptors of all record buffers already known; only the kernel's own buffers are given at dispatch. The
  * record buffers must outlive it.
+ *
+ * It is compiled by other threads while the one that makes it goes on: make all kernels of a picture before the first dispatch.
+ * What the compiler or the driver has to say against it is thrown by build(), or by the first dispatch.
  */
 class ComposedKernel {
 public:
     ComposedKernel(const Device& device, const KernelRequest& request);
+    ~ComposedKernel();
+    ComposedKernel(const ComposedKernel&) = delete;
+    ComposedKernel& operator=(const ComposedKernel&) = delete;
 
+    /** Returns when it is compiled. */
+    void build() const { m_building->wait(); }
     /** The kernel's own bindings, in the order 0 .. n-1. */
     void dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;
@@ -115,7 +125,11 @@ private:
     /** Dispatches by a call; an Error that it throws, but for Cancelled, is given the names of the snippets. */
     template <class Call> void watched(const Call& call) const;
 
-    Kernel m_kernel;
+    const Kernel& kernel() const;
+
+    /** What is built, and the work that builds it. */
+    std::optional<Kernel> m_kernel;
+    std::shared_ptr<Background::Work> m_building;
     std::string m_name;
     /** The snippets in it, for messages: their texts' names. */
     std::string m_snippets;

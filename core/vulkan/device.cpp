@@ -260,6 +260,8 @@ std::uint64_t Device::allocated_bytes() const { return m_impl->allocated_bytes; 
 std::uint64_t Device::n_buffers() const { return m_impl->n_buffers; }
 std::uint64_t Device::n_kernels() const { return m_impl->n_kernels; }
 
+Background& Device::background() const { return m_impl->background; }
+
 std::vector<std::string> Device::validation_messages() const {
     const ValidationLog& log = m_impl->instance.log();
     const std::lock_guard lock(log.mutex);

@@ -37,6 +37,8 @@ std::vector<DeviceSummary> list_devices();
  */
 DeviceSummary choose_device(const std::string& wanted);
 
+class Background;
+
 /** What data buffers are for shaders. */
 enum class DataBuffers { automatic, texel, storage };
 
@@ -99,6 +101,9 @@ public:
 
     /** Throws Cancelled if this thread's task is to stop (DeviceTask). Kernels ask before each part of their work. */
     void check_task() const;
+
+    /** Threads that compile kernels for it. */
+    Background& background() const;
 
     /** For the other files of core/vulkan. */
     struct Impl;

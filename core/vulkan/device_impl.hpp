@@ -4,9 +4,11 @@
  */
 #pragma once
 
+#include <core/base/background.hpp>
 #include <core/vulkan/device.hpp>
 #include <core/vulkan/instance.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <map>
@@ -66,6 +68,7 @@ struct Device::Impl {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence fence = VK_NULL_HANDLE;
     std::unique_ptr<PipelineCache> pipelines;
+    Background background{std::max(1u, std::thread::hardware_concurrency())};
     std::atomic<std::uint64_t> allocated_bytes{0};
     std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0};
 

@@ -113,19 +113,20 @@ TEST_CASE("A snippet's errors name its own file and line") {
     SECTION("unknown name") {
         instance.snippet.sources[1].text = "\nelvis_real scaled_factor() { return nonsense; }\n";
         request.instances = {instance};
-        REQUIRE_THROWS_WITH(ComposedKernel(device, request), Catch::Contains("helper.glsl:2:") && Catch::Contains("nonsense"));
+        REQUIRE_THROWS_WITH(ComposedKernel(device, request).build(),
+                            Catch::Contains("helper.glsl:2:") && Catch::Contains("nonsense"));
     }
     SECTION("missing function") {
         instance.snippet.sources[0].text = "elvis_vec3 elvis_mapping(uint element, elvis_vec3 xi) { return xi; }\n";
         request.instances = {instance};
-        REQUIRE_THROWS_WITH(ComposedKernel(device, request),
+        REQUIRE_THROWS_WITH(ComposedKernel(device, request).build(),
                             Catch::Contains("scaled.glsl") &&
                                 Catch::Contains("elvis_mat3 elvis_jacobian(uint element, elvis_vec3 xi)"));
     }
     SECTION("missing include") {
         instance.snippet.sources.pop_back();
         request.instances = {instance};
-        REQUIRE_THROWS_WITH(ComposedKernel(device, request),
+        REQUIRE_THROWS_WITH(ComposedKernel(device, request).build(),
                             Catch::Contains("scaled.glsl:1") && Catch::Contains("helper.glsl"));
     }
 }
@@ -142,7 +143,7 @@ std::string complaint(const Device& device, const Snippet& snippet) {
     instance.snippet = snippet;
     request.instances = {instance};
     try {
-        const ComposedKernel kernel(device, request);
+        ComposedKernel(device, request).build();
     } catch (const Error& error) {
         return error.what();
     }

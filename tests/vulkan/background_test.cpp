@@ -1,0 +1,57 @@
+#include <core/base/background.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <future>
+#include <stdexcept>
+
+using namespace elvis;
+
+TEST_CASE("Work in the background is done once, and its error reaches everybody who waits") {
+    std::atomic<int> n_done{0};
+    Background background(3);
+    std::vector<std::shared_ptr<Background::Work>> all;
+    all.reserve(100);
+    for (int i = 0; i < 100; ++i) {
+        all.push_back(background.hand_over([&n_done] { ++n_done; }));
+    }
+    for (const auto& work : all) {
+        work->wait();
+        work->wait();
+    }
+    REQUIRE(n_done == 100);
+    const auto failing = background.hand_over([] { throw std::runtime_error("why"); });
+    REQUIRE_THROWS_WITH(failing->wait(), "why");
+    REQUIRE_THROWS_WITH(failing->wait(), "why");
+    failing->drop();
+}
+
+TEST_CASE("Who waits for work that nobody has begun does it") {
+    Background background(1);
+    std::promise<void> may_end;
+    const auto blocking = background.hand_over([&may_end] { may_end.get_future().wait(); });
+    int n_done = 0;
+    const auto needed = background.hand_over([&n_done] { ++n_done; });
+    const auto dropped = background.hand_over([&n_done] { n_done += 10; });
+    needed->wait();
+    dropped->drop();
+    dropped->wait();
+    REQUIRE(n_done == 1);
+    may_end.set_value();
+    blocking->wait();
+}
+
+TEST_CASE("What is left in the background when it ends can still be waited for") {
+    std::shared_ptr<Background::Work> left;
+    int n_done = 0;
+    std::promise<void> may_end;
+    {
+        Background background(1);
+        background.hand_over([&may_end] { may_end.get_future().wait(); });
+        left = background.hand_over([&n_done] { ++n_done; });
+        may_end.set_value();
+    }
+    left->wait();
+    REQUIRE(n_done == 1);
+}
