@@ -167,6 +167,50 @@ private:
     SegmentAccuracy m_result;
 };
 
+/** Rays along outer faces. */
+class Tangents {
+public:
+    Tangents(const Volume& model, double size, unsigned seed)
+        : m_model(model), m_size(size), m_enclosures(make_enclosures(model)), m_tree(m_enclosures),
+          m_inverter(model, m_enclosures), m_random(seed) {}
+
+    /** A point of it, and its direction. */
+    std::pair<Vector, Vector> next() {
+        std::uniform_int_distribution<std::size_t> any_element(0, m_model.n_elements() - 1);
+        std::uniform_real_distribution<double> coordinate(-1, 1), exponent(-5, -2);
+        std::normal_distribution<double> normal_distribution;
+        while (true) {
+            const std::size_t element = any_element(m_random);
+            const auto faces = face_constraints(m_model.shape(element));
+            const FaceConstraint& face = faces[m_random() % faces.size()];
+            Vector xi(coordinate(m_random), coordinate(m_random), coordinate(m_random));
+            xi += (face.offset - face.normal.dot(xi)) / face.normal.squaredNorm() * face.normal;
+            if (excess(m_model.shape(element), xi) > 1e-12)
+                continue;
+            Matrix jacobian;
+            const Vector point = m_model.position(element, xi, &jacobian);
+            const Vector outward = (jacobian.inverse().transpose() * face.normal).normalized();
+            if (!outward.allFinite() || is_inside(point + 1e-4 * m_size * outward))
+                continue;
+            const Vector any(normal_distribution(m_random), normal_distribution(m_random), normal_distribution(m_random));
+            return {point - std::pow(10, exponent(m_random)) * m_size * outward, outward.cross(any).normalized()};
+        }
+    }
+
+private:
+    bool is_inside(const Vector& point) {
+        return std::ranges::any_of(m_tree.find(point, 0),
+                                   [&](std::size_t element) { return !m_inverter.find(element, point, 0).empty(); });
+    }
+
+    const Volume& m_model;
+    double m_size;
+    std::vector<Enclosure> m_enclosures;
+    BoxTree m_tree;
+    Inverter m_inverter;
+    std::mt19937 m_random;
+};
+
 } // namespace
 
 SegmentAccuracy& SegmentAccuracy::operator+=(const SegmentAccuracy& other) {
@@ -260,6 +304,21 @@ SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volu
         }
         measure.add(rays, points_a_ray, static_cast<unsigned>(seed + first));
     }
+    return measure.result();
+}
+
+SegmentAccuracy measure_grazing_segments(const Device& device, const RuntimeVolume& volume, const Volume& model,
+                                         Precision precision, std::size_t n_rays, std::size_t points_a_ray, unsigned seed) {
+    SegmentMeasure measure(device, volume, model, precision);
+    const double size = diagonal_of(measure.data().bounds());
+    Tangents tangents(model, size, seed);
+    std::vector<SegmentRay> rays;
+    while (rays.size() < n_rays) {
+        const auto [point, direction] = tangents.next();
+        rays.push_back(
+            near_centre(convert(point - 1.5 * size * direction), convert(point), measure.data().centre(), precision));
+    }
+    measure.add(rays, points_a_ray, seed);
     return measure.result();
 }
 

@@ -61,4 +61,8 @@ private:
 SegmentAccuracy measure_segments(const Device& device, const RuntimeVolume& volume, const Volume& model, Precision precision,
                                  std::size_t n_rays, std::size_t points_a_ray, unsigned seed);
 
+/** Rays along outer faces: tangents of points by chance, moved in by 1e-5 to 1e-2 of the volume's diagonal. */
+SegmentAccuracy measure_grazing_segments(const Device& device, const RuntimeVolume& volume, const Volume& model,
+                                         Precision precision, std::size_t n_rays, std::size_t points_a_ray, unsigned seed);
+
 } // namespace elvis::oracle

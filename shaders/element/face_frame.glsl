@@ -47,6 +47,14 @@ core_face core_face_frame(int face) {
     return f;
 }
 
+// In the frame of a face: how positions change with s and r, and the outward normal, about as long. `jacobian`: of the mapping.
+elvis_mat3 core_face_tangents(core_face face, elvis_mat3 jacobian) {
+    const elvis_vec3 s = jacobian * face.a, r = jacobian * face.b, normal = cross(s, r);
+    // Elements may be turned inside out.
+    const elvis_real side = face.orientation * sign(dot(jacobian[0], cross(jacobian[1], jacobian[2])));
+    return elvis_mat3(s, r, side / sqrt(length(normal)) * normal);
+}
+
 // The Jacobian of the mapping, completed for elements of two dimensions by a normal of about the length of the other columns.
 elvis_mat3 core_full_jacobian(elvis_mat3 jacobian) {
 #if CORE_HAS_TWO_DIMENSIONS

@@ -45,7 +45,7 @@ layout(push_constant) uniform core_parameters {
 #include "segments/start_bounds.glsl"
 #include "arithmetic/count.glsl"
 #if CORE_HAS_CURVED
-#include "segments/curved_start.glsl"
+#include "segments/face_search.glsl"
 #endif
 
 // Iterations of a ray, with all loops inside below where drivers end them.
@@ -150,27 +150,22 @@ core_start_candidate core_next_start_candidate(core_ray pixel_ray, inout core_st
 void core_start_in_curved(const core_traced_ray ray, vec3 along, bool is_curved, inout core_segment segment,
                           inout core_start_search search) {
     const uint global_element = core_first_element + segment.element;
-    // Bits of the faces that are still to be tried.
-    uint open = 0u, start = 0u;
-    core_face_exit face_exit = core_face_exit(false, elvis_vec3(0), elvis_vec3(0));
+    const elvis_real rounding = elvis_real(2) * ray.tolerance;
+    core_face_search faces = core_face_search(0u, 0u, CORE_WHOLE_FACE, 0u, 0u, false, elvis_real(0), elvis_real(0));
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const bool is_unlinked = elvis_fetch_core_links(segment.element, uint(face)) == CORE_NO_LINK;
-        open |= is_curved && is_unlinked && !core_surely_crosses(segment.element, face, along, 1.0) ? 1u << face : 0u;
+        faces.open |= is_curved && is_unlinked && !core_surely_crosses(segment.element, face, along, 1.0) ? 1u << face : 0u;
+        faces.once |= core_surely_crosses(segment.element, face, along, -1.0) ? 1u << face : 0u;
     }
-    while (open != 0u) {
-        const int face = findLSB(open);
-        const core_entered_face entered = core_enter_face(ray, segment.element, segment.curvature, face, start, face_exit);
-        search.n_evaluations += entered.n_evaluations;
+    while (faces.open != 0u) {
+        const core_face_entry entry =
+            core_search_face(ray, segment.element, search.from - rounding, search.walk.at + rounding, faces);
+        search.n_evaluations += 1u;
         search.work += 1u;
-        const bool is_after = search.is_first ? entered.t >= search.from : core_is_behind_last(ray, entered.t, global_element, search);
-        core_take_start(entered.is_found && is_after, entered.t, entered.error, global_element, search);
-        // The ray enters through a face with such directions once (segments/start_bounds.glsl).
-        const bool is_only = entered.is_found && core_surely_crosses(segment.element, face, along, -1.0);
-        start = is_only ? CORE_FACE_STARTS : start + 1u;
-        open = start < CORE_FACE_STARTS ? open : open & (open - 1u);
-        face_exit.is_found = face_exit.is_found && start < CORE_FACE_STARTS;
-        start = start < CORE_FACE_STARTS ? start : 0u;
-        if (open == 0u) {
+        const bool is_after = search.is_first ? entry.t >= search.from : core_is_behind_last(ray, entry.t, global_element, search);
+        core_take_start(entry.is_found && is_after, entry.t, entry.error, global_element, search);
+        search.walk.flags |= entry.is_undecided ? CORE_FLAG_UNDECIDED : 0u;
+        if (faces.open == 0u) {
             break;
         }
     }
