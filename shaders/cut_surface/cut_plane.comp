@@ -43,6 +43,8 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
 #define CORE_OTHERS_BINDING 7
 #include "cut_surface/other_elements.glsl"
+#define CORE_OPEN_POINTS_BINDING 8
+#include "cut_surface/open_points.glsl"
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
@@ -114,6 +116,7 @@ void main() {
             }
 #endif
         }
+        core_list_open_point(row * core_size.x + column, found);
         n_steps += found.n_steps;
         n_failures += found.n_failures;
         row += 1u;

@@ -11,7 +11,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "element/place.glsl"
 #include "picture/samples.glsl"
 
-#include "cut_surface/hit_record.glsl"
+#include "cut_surface/hit_point.glsl"
 
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
@@ -32,7 +32,7 @@ layout(push_constant) uniform core_parameters {
     uint core_lists_others;
     // Of values: what makes no difference to the picture.
     float core_value_tolerance;
-    // The most that a point's error along the ray may be; where it is more the pixel is undecided anyway.
+    // core_hit_point
     float core_most_error;
     uint core_wants_places;
 };
@@ -46,6 +46,8 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
 #define CORE_OTHERS_BINDING 6
 #include "cut_surface/other_elements.glsl"
+#define CORE_OPEN_POINTS_BINDING 9
+#include "cut_surface/open_points.glsl"
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
@@ -77,17 +79,8 @@ void main() {
     uint row = core_next_row(column, first_row, end_row);
     while (row < end_row) {
         const uint pixel = row * core_size.x + column;
-        const elvis_real down = elvis_real(row) - along.row0;
-        const elvis_vec4 base = along.base + down * along.base_row;
-        const elvis_vec4 direction = along.direction + down * along.direction_row;
-        core_cut_point point;
-        point.t = core_hits[pixel].t;
-        point.is_hit = true;
-        point.direction = direction.xyz;
-        point.position = base.xyz + point.t * direction.xyz;
-        const elvis_vec3 size = (along.size + abs(down * along.base_row)).xyz + abs(point.t * direction.xyz);
-        point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z) +
-                      min(core_hits[pixel].error * length(direction.xyz), elvis_real(core_most_error)) + data_error;
+        core_cut_point point = core_hit_point(along, elvis_real(row), core_hits[pixel], core_most_error);
+        point.error += data_error;
         const core_location found = core_locate(point, n_entries, track);
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_real value = core_shown_value(has_found ? found.element : 0u, elvis_vec3(found.x, found.y, found.z));
@@ -103,6 +96,7 @@ void main() {
             }
             n_found += has_found && was_open ? 1u : 0u;
         }
+        core_list_open_point(pixel, found);
         n_steps += found.n_steps;
         n_failures += found.n_failures;
         row = core_next_row(column, row + 1u, end_row);

@@ -8,8 +8,8 @@
 //
 // Ends:
 //   converged  the next step would change the prediction by less than rounding does
-//   outside    the prediction violates a face constraint by more than its error can be; or by far more than it changed between two
-//              evaluations; or does so in the end from every start
+//   outside    the prediction violates a face constraint by more than its error can be (is_certain); or by far more than it changed
+//              between two evaluations; or does so in the end from every start
 //   failed     neither within the allowed steps, from several starts: no answer, to be counted, never to be drawn
 //
 // State is kept in scalars because of a driver that miscompiles vectors carried round a loop.
@@ -44,6 +44,8 @@ struct core_newton {
     // Steps in a row, of this start, whose prediction lay clearly outside; and whether every start so far ended so.
     uint outside_steps;
     bool always_outside;
+    // The last prediction lay outside by more than the curvature lets it be off: if that holds, no solution lies in the element.
+    bool is_certain;
 };
 
 // What the last step knows beyond the state.
@@ -67,6 +69,7 @@ core_newton core_newton_begin(elvis_real guess_x, elvis_real guess_y, elvis_real
     state.start = 0u;
     state.outside_steps = 0u;
     state.always_outside = true;
+    state.is_certain = false;
     return state;
 }
 
@@ -133,9 +136,10 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     const bool is_predicted = was_inside && step * step <= tolerance &&
                               step * step * step <= elvis_real(0.25LF) * tolerance * state.last_step * state.last_step;
     const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));
-    const elvis_real prediction_error = min(CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step),
-                                            has_change && state.steps > 0u ? elvis_real(8) * change : CORE_UNKNOWN_CURVATURE);
-    const bool outside = is_regular && excess > prediction_error + elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
+    const elvis_real rounding = elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
+    state.is_certain = is_regular && excess > CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step) + rounding;
+    const bool is_steady = is_regular && has_change && state.steps > 0u && excess > elvis_real(8) * change + rounding;
+    const bool outside = state.is_certain || is_steady;
     core_newton_move(xi, next, excess, is_regular, state);
     state.last_step = step;
 

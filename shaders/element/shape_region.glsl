@@ -87,4 +87,10 @@ void core_project(inout elvis_real x, inout elvis_real y, inout elvis_real z) {
 #endif
 }
 
+elvis_vec3 core_projected(elvis_vec3 point) {
+    elvis_real x = point.x, y = point.y, z = point.z;
+    core_project(x, y, z);
+    return elvis_vec3(x, y, z);
+}
+
 #endif

@@ -3,12 +3,6 @@
 #include "element/shape_region.glsl"
 #include "field/shown_model.glsl"
 
-elvis_vec3 core_projected(elvis_vec3 point) {
-    elvis_real x = point.x, y = point.y, z = point.z;
-    core_project(x, y, z);
-    return elvis_vec3(x, y, z);
-}
-
 // From xi, within `radius`, and `beyond` the corners. `reach`: how far the model's linear function gets from its value at xi.
 //
 // Patches have four corners: of the cube below and above, and the middles of four faces, which estimates look at, too.

@@ -57,6 +57,17 @@ void add_element_kernels(std::vector<KernelUse>& uses) {
 
 void add_cut_kernels(std::vector<KernelUse>& uses) {
     uses.push_back({.kernel = "cut_surface/other_values", .element = Element::value, .choices = {{"CORE_GROUP_SIZE", {"64"}}}});
+    const Choice group{"CORE_GROUP_SIZE", {"32"}};
+    uses.push_back({.kernel = "cut_surface/element_octants",
+                    .element = Element::snippet,
+                    .choices = {group},
+                    .is_for_solids = true,
+                    .watches_loops = true});
+    uses.push_back({.kernel = "cut_surface/open_points",
+                    .element = Element::value,
+                    .buffers = {"core_nodes", "core_elements", "core_octants", "core_octant_nodes"},
+                    .choices = {group, element_class, no_or_yes("CORE_ON_PLANE")},
+                    .is_for_solids = true});
     uses.push_back({.kernel = "cut_surface/cut_tiles", .buffers = elements, .choices = {width, height}});
     uses.push_back({.kernel = "cut_surface/cut_plane",
                     .element = Element::value,

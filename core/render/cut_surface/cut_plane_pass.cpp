@@ -59,7 +59,7 @@ CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, co
                            const KernelEdit& edit)
     : m_device(device), m_data(data), m_precision(data.precision()), m_with_lines(with_lines),
       m_tile_width(tile_width_on(device)), m_listed(device), m_frame(view_buffer(device, data.precision())),
-      m_counts(device, n_pass_counts * sizeof(std::uint32_t)), m_others(device, data) {
+      m_counts(device, n_pass_counts * sizeof(std::uint32_t)), m_others(device, data), m_open(device, volume, data, true) {
     compile(volume, data, edit);
 }
 
@@ -90,7 +90,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "cut_surface/cut_plane.comp";
-        request.bindings = buffer_bindings({.uniform = 1, .storage = 7});
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 8});
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(m_device, request);
         if (m_with_lines) {
@@ -121,6 +121,10 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
     }
     for (ClassKernels& kernels : m_kernels) {
         draw_pixels(kernels, surface, component, n_isovalues, target, counts);
+    }
+    const OpenPoints::Surface open{surface, component, target, m_frame, m_counts};
+    for (const ClassKernels& kernels : m_kernels) {
+        m_open.search(kernels.element_class, open);
     }
     add_pass_counts(m_counts, counts);
 }
@@ -159,14 +163,15 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
     kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)), divided_up(tiles.n_tiles, tiles_group_size));
     // Isovalues are not read without lines: anything of reals.
     const Buffer& isovalues = m_with_lines ? *m_isovalues : layer.samples;
-    const std::array<const Buffer*, 8> bindings = {&m_frame,
+    const std::array<const Buffer*, 9> bindings = {&m_frame,
                                                    &layer.samples,
                                                    &*kernels.tile_nodes,
                                                    &m_counts,
                                                    &layer.marks,
                                                    &isovalues,
                                                    &listed,
-                                                   &m_others.begin(layer.n_pixels(), component)};
+                                                   &m_others.begin(layer.n_pixels(), component),
+                                                   &m_open.begin(kernels.element_class, layer.n_pixels())};
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     const TileList::Range range = m_listed.read().shallow;
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/render/cut_surface/cut_plane_geometry.hpp>
+#include <core/render/cut_surface/open_points.hpp>
 #include <core/render/cut_surface/other_values.hpp>
 #include <core/render/cut_surface/outside_pass.hpp>
 #include <core/render/frame.hpp>
@@ -68,6 +69,7 @@ private:
     std::optional<Buffer> m_isovalues;
     std::optional<Buffer> m_list;
     OtherValues m_others;
+    OpenPoints m_open;
     std::unique_ptr<OutsidePass> m_outside;
 };
 

@@ -59,7 +59,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
     : m_device(device), m_data(data), m_precision(data.precision()), m_listed(device),
       m_frame(view_buffer(device, data.precision())), m_hit_counts(device, sizeof(std::uint32_t)),
       m_counts(device, (n_pass_counts + 1) * sizeof(std::uint32_t)), m_nothing(device, 4 * sizeof(double)),
-      m_others(device, data) {
+      m_others(device, data), m_open(device, volume, data, false) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -82,7 +82,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         data.add_field(request, index);
         request.defines.emplace_back("CORE_OVERLAPS", data.has_overlaps() ? "1" : "0");
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
-        request.bindings = buffer_bindings({.uniform = 1, .storage = 8});
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 9});
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(device, request);
         m_kernels.push_back(std::move(kernels));
@@ -136,8 +136,9 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
     // Places are not written if they are not wanted: anything of reals.
     const Buffer& places = picture.target.places != nullptr ? *picture.target.places : layer.normals;
     const Buffer& others = m_others.begin(layer.n_pixels(), picture.component);
-    const std::array<const Buffer*, 9> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,
-                                                   &*m_hits, &others,        &places,   &listed};
+    const Buffer& open = m_open.begin(kernels.element_class, layer.n_pixels());
+    const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,
+                                                    &*m_hits, &others,        &places,   &listed,   &open};
     const TileList::Range range = m_listed.read().shallow;
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height);
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
@@ -171,6 +172,8 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     write_view(m_frame, m_precision, view);
     solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error);
     m_counts.fill(0);
+    const OpenPoints::Surface open{surface,  component, target,        m_frame,
+                                   m_counts, &*m_hits,  target.places, static_cast<float>(picture.most_error)};
     std::uint32_t n_found_before = 0;
     for (std::uint32_t round = 0; round < most_rounds; ++round) {
         const std::uint32_t n_hits = find_hits(picture, round);
@@ -179,6 +182,9 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
         }
         for (const ClassKernels& kernels : m_kernels) {
             draw_pixels(kernels, picture, counts);
+        }
+        for (const ClassKernels& kernels : m_kernels) {
+            m_open.search(kernels.element_class, open);
         }
         if (shows_outside) {
             draw_outside(picture);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <core/render/cut_surface/cut_plane_geometry.hpp>
+#include <core/render/cut_surface/open_points.hpp>
 #include <core/render/cut_surface/other_values.hpp>
 #include <core/render/cut_surface/outside_pass.hpp>
 #include <core/render/cut_surface/surface_solver.hpp>
@@ -63,6 +64,7 @@ private:
     /** Stands where a buffer is not used. */
     Buffer m_nothing;
     OtherValues m_others;
+    OpenPoints m_open;
     std::unique_ptr<OutsidePass> m_outside;
     std::optional<Buffer> m_hits, m_bending, m_boxes, m_tiles;
 };

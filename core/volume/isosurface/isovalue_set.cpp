@@ -1,6 +1,7 @@
 #include <core/base/vector3.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/volume/isosurface/isovalue_set.hpp>
+#include <core/volume/isosurface/octant_records.hpp>
 #include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
@@ -15,12 +16,7 @@ namespace {
 constexpr std::uint64_t block = 65536;
 constexpr std::uint32_t group_size = 32;
 constexpr std::size_t child_word = 3;
-/** Words of an octant on the device, and of what the kernel says of it: range and box, too. */
-constexpr std::uint32_t octant_size = 24, octant_words = 32;
-constexpr std::size_t octant_slope = 12, octant_error = 16, octant_scale = 17, octant_element = 18, octant_code = 19,
-                      octant_curvature = 20, octant_range = 24, octant_box = 26;
-/** shaders/isosurface/octant.glsl */
-constexpr std::uint32_t octant_place_bits = 6, octant_is_estimated = 0x80000000u;
+constexpr std::uint32_t octant_is_estimated = 0x80000000u;
 constexpr std::uint32_t most_levels = 3;
 /** Of octants whose mapping is bent so much that it has no linear model. */
 constexpr std::uint32_t most_bent_levels = 6;
@@ -41,38 +37,6 @@ bool holds_any(double lower, double upper, std::span<const double> isovalues) {
     const auto first = std::lower_bound(isovalues.begin(), isovalues.end(), lower);
     // A range that is no number, as of an element with such values, says nothing.
     return !(lower <= upper) || (first != isovalues.end() && *first <= upper);
-}
-
-/** Whether an octant with this lower corner shares more than an edge with the shape. */
-bool is_in_shape(elvis_shape shape, const Vector3& corner) {
-    switch (shape) {
-    case ELVIS_SHAPE_TETRAHEDRON:
-        return corner[0] + corner[1] + corner[2] < -1;
-    case ELVIS_SHAPE_PRISM:
-        return corner[0] + corner[2] < 0;
-    case ELVIS_SHAPE_PYRAMID:
-        return std::max(corner[0], corner[1]) + corner[2] < 0;
-    default:
-        return true;
-    }
-}
-
-void add_octants(std::vector<std::uint32_t>& elements_and_codes, std::uint32_t element, std::uint32_t code, elvis_shape shape) {
-    const std::uint32_t level = (code & 7u) + 1;
-    const double side = 2.0 / (1u << level);
-    for (std::uint32_t octant = 0; octant < 8; ++octant) {
-        std::uint32_t its_code = level;
-        Vector3 corner{};
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t shift = 3 + k * octant_place_bits;
-            const std::uint32_t place = 2 * ((code >> shift) & ((1u << octant_place_bits) - 1)) + (octant >> k & 1u);
-            its_code |= place << shift;
-            corner[k] = -1 + side * place;
-        }
-        if (is_in_shape(shape, corner)) {
-            elements_and_codes.insert(elements_and_codes.end(), {element, its_code});
-        }
-    }
 }
 
 } // namespace

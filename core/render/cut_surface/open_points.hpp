@@ -1,0 +1,63 @@
+/**
+ * @file open_points.hpp
+ * Points of cut surfaces that may lie in an element although Newton's method has not found them there.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+#include <core/render/picture/layer.hpp>
+#include <core/shader/composer.hpp>
+#include <core/volume/device_volume.hpp>
+#include <core/volume/element/element_octants.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace elvis {
+
+/**
+ * For the passes of one field on cut surfaces. The kernels that search whole elements list pixels
+ * (shaders/cut_surface/open_points.glsl); once all classes are drawn, these are searched octant by octant. Kernels and octants
+ * are made when they are first needed.
+ */
+class OpenPoints {
+public:
+    OpenPoints(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool is_on_plane);
+
+    /** What the surface's passes share. */
+    struct Surface {
+        std::uint32_t number;
+        const ShownComponent& component;
+        const LayerTarget& target;
+        /** View and counts. */
+        const Buffer& frame;
+        const Buffer& counts;
+        /** Unless it is a plane: the crossings, where places go, and the most that a point's error may be. */
+        const Buffer* hits = nullptr;
+        const Buffer* places = nullptr;
+        float most_error = 0;
+    };
+
+    /** An empty list for the kernel that draws pixels of a class. */
+    const Buffer& begin(std::uint32_t element_class, std::uint64_t n_pixels);
+    /** Searches what the class's list holds. */
+    void search(std::uint32_t element_class, const Surface& surface);
+
+private:
+    struct OfClass {
+        std::optional<Buffer> list;
+        std::unique_ptr<ElementOctants> octants;
+        std::unique_ptr<ComposedKernel> kernel;
+    };
+    void provide_kernel(std::uint32_t element_class);
+
+    const Device& m_device;
+    const RuntimeVolume& m_volume;
+    const DeviceVolume& m_data;
+    bool m_is_on_plane;
+    std::vector<OfClass> m_classes;
+};
+
+} // namespace elvis

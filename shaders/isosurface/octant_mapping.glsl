@@ -1,0 +1,105 @@
+// The linear model of the mapping in an octant (isosurface/octant.glsl), its curvature there, and a box.
+//
+// The kernel brings core_words, which the records are written to, and core_centre, that of the hierarchies.
+
+#include "arithmetic/finite.glsl"
+#include "element/element_frame.glsl"
+#include "element/face_frame.glsl"
+#include "element/measured_curvature.glsl"
+#include "isosurface/octant.glsl"
+
+#define CORE_WORDS 32u
+// Of elements that are nearly linear it is not measured for each octant.
+#define CORE_SMALL_CURVATURE elvis_real(0.05LF)
+// A linearization that leaves out more than this much of the octant's half side is of no use.
+#define CORE_MOST_BENDING elvis_real(0.5LF)
+
+struct core_octant_place {
+    // In reference coordinates; where the mapping and the field are linearized, in the shape; and the way from there to the middle.
+    elvis_vec3 middle, xi, shift;
+    elvis_real half_side;
+    // Around xi; it holds all of the octant.
+    elvis_real radius;
+};
+
+core_octant_place core_place_of(uint code) {
+    core_octant_place place;
+    place.middle = elvis_vec3(core_octant_middle(code));
+    place.half_side = elvis_real(core_octant_half_side(code));
+    place.xi = core_projected(place.middle);
+    place.shift = place.middle - place.xi;
+    place.radius = place.half_side + core_max_norm(place.shift);
+    return place;
+}
+
+struct core_octant_mapping {
+    core_frame frame;
+    elvis_mat3 jacobian;
+    // Of the middle, relative to the hierarchies' centre; of the coordinates that rounding is judged by; and half the sides of a box.
+    elvis_vec3 position, sizes, half_box;
+    // What the linearization leaves out, and half the octant's side with it.
+    elvis_real curvature, bending, size;
+    bool is_linear;
+};
+
+// `of_element`: the curvature of all of the element.
+core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place place, elvis_real of_element) {
+    core_octant_mapping mapping;
+    elvis_vec3 position;
+    elvis_mapping_jacobian(element, place.xi, position, mapping.jacobian);
+    mapping.frame = core_frame_at(position, mapping.jacobian, elvis_real(0));
+    mapping.position = (elvis_origin(element) - elvis_vec3(core_centre[0], core_centre[1], core_centre[2])) +
+                       (position + mapping.jacobian * place.shift);
+    // Rounding of the inverse shows in its product with the Jacobian; then there is rounding of positions.
+    elvis_real defect = elvis_real(0);
+    for (int k = 0; k < 3; ++k) {
+        elvis_vec3 column = core_to_xi(mapping.frame, mapping.jacobian[k]);
+        column[k] -= elvis_real(1);
+        defect += core_max_norm(column);
+    }
+    const core_frame frame = mapping.frame;
+    const elvis_vec3 ones = elvis_vec3(1);
+    const elvis_real norm = max(max(dot(abs(frame.row0), ones), dot(abs(frame.row1), ones)), dot(abs(frame.row2), ones));
+    mapping.sizes = abs(mapping.position) + abs(elvis_origin(element)) + abs(position);
+    const elvis_real rounding = elvis_real(CORE_OCTANT_ROUNDING) * norm * core_max_norm(mapping.sizes) +
+                                place.half_side * (elvis_real(2) * defect + elvis_real(1e-4LF)) + core_max_norm(frame.xi_error);
+    const bool is_measured = (code & 7u) != 0u && of_element > CORE_SMALL_CURVATURE;
+    elvis_vec3 turn;
+    const elvis_real measured =
+        core_measured_curvature(element, place.xi, mapping.jacobian, place.middle, place.half_side, 1u, turn);
+    mapping.curvature = is_measured ? measured : of_element;
+    mapping.bending = mapping.curvature * place.radius * place.radius + rounding;
+    mapping.size = place.half_side + mapping.bending;
+    const bool is_finite = core_is_finite(mapping.size + core_max_norm(mapping.position));
+    mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING * place.half_side;
+    // x = x(xi) + J d + e, |e| <= L |d|^2 / 2, with a Jacobian that changes by L |d| at most: twice as much as measured.
+    const elvis_vec3 sides = abs(mapping.jacobian[0]) + abs(mapping.jacobian[1]) + abs(mapping.jacobian[2]);
+    const elvis_vec3 bent_box = place.radius * (sides + turn) + core_max_norm(place.shift) * sides;
+    mapping.half_box = (mapping.is_linear ? min(mapping.size * sides, bent_box) : bent_box) +
+                       elvis_real(8.0 * CORE_FLOAT_ROUNDOFF) * mapping.sizes;
+    return mapping;
+}
+
+void core_write_vector(uint at, vec3 v) {
+    for (int k = 0; k < 3; ++k) {
+        core_words[at + uint(k)] = floatBitsToUint(v[k]);
+    }
+}
+
+// All of the record but the field.
+void core_write_mapping(uint at, uint element, uint code, core_octant_mapping mapping) {
+    const vec3 middle = vec3(mapping.position);
+    const float scale = 1.0 / float(mapping.size);
+    core_write_vector(at, scale * vec3(mapping.frame.row0));
+    core_write_vector(at + 4u, scale * vec3(mapping.frame.row1));
+    core_write_vector(at + 8u, scale * vec3(mapping.frame.row2));
+    for (int k = 0; k < 3; ++k) {
+        core_words[at + 4u * uint(k) + 3u] = floatBitsToUint(middle[k]);
+    }
+    core_words[at + 17u] = floatBitsToUint(mapping.is_linear ? float(mapping.size) : 0.0);
+    core_words[at + 18u] = element;
+    core_words[at + 19u] = code;
+    core_words[at + 20u] = floatBitsToUint(float(mapping.curvature));
+    core_write_vector(at + 26u, middle - vec3(mapping.half_box));
+    core_write_vector(at + 29u, middle + vec3(mapping.half_box));
+}
