@@ -65,20 +65,34 @@ std::shared_ptr<Background::Work> Background::hand_over(std::function<void()> wh
     return work;
 }
 
-void Background::serve() {
-    while (true) {
-        std::shared_ptr<Work> next;
-        {
-            std::unique_lock lock(m_mutex);
-            m_has_work.wait(lock, [this] { return m_is_over || !m_queue.empty(); });
-            if (m_is_over) {
-                return;
-            }
-            next = std::move(m_queue.front());
-            m_queue.pop_front();
-        }
-        next->begin();
+void Background::finish() {
+    std::unique_lock lock(m_mutex);
+    while (!m_queue.empty()) {
+        do_next(lock);
     }
+    m_is_idle.wait(lock, [this] { return m_n_running == 0; });
+}
+
+void Background::serve() {
+    std::unique_lock lock(m_mutex);
+    while (true) {
+        m_has_work.wait(lock, [this] { return m_is_over || !m_queue.empty(); });
+        if (m_is_over) {
+            return;
+        }
+        do_next(lock);
+    }
+}
+
+void Background::do_next(std::unique_lock<std::mutex>& lock) {
+    const std::shared_ptr<Work> next = std::move(m_queue.front());
+    m_queue.pop_front();
+    ++m_n_running;
+    lock.unlock();
+    next->begin();
+    lock.lock();
+    --m_n_running;
+    m_is_idle.notify_all();
 }
 
 } // namespace elvis

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -48,13 +49,19 @@ public:
 
     /** From any thread. */
     std::shared_ptr<Work> hand_over(std::function<void()> what);
+    /** Returns when all that was handed over is done; takes its part in it. Throws nothing: those who wait for a piece learn.
+     */
+    void finish();
 
 private:
     void serve();
+    /** Does the first piece of the queue, with the lock let go meanwhile. */
+    void do_next(std::unique_lock<std::mutex>& lock);
 
     unsigned m_n_threads;
     std::mutex m_mutex;
-    std::condition_variable m_has_work;
+    std::condition_variable m_has_work, m_is_idle;
+    std::size_t m_n_running = 0;
     std::deque<std::shared_ptr<Work>> m_queue;
     bool m_is_over = false;
     std::vector<std::thread> m_threads;

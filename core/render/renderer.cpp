@@ -124,9 +124,9 @@ std::vector<SurfaceFacts> Renderer::Impl::draw_surfaces(const FrameRequest& requ
         const Clock::time_point start = Clock::now();
         picture.provide(surface);
         drawing.provide();
+        const DeviceTimer timer(device);
         times.compile_milliseconds += milliseconds_since(start);
 
-        const DeviceTimer timer(device);
         facts[index].offset = drawing.offset();
         if (drawing.traits().plane != nullptr) {
             facts[index].normal = drawing.rays().normal;
@@ -144,9 +144,9 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, Frame& frame) {
     const Clock::time_point start = Clock::now();
     VolumePass& pass = passes.of(wanted.field).volume();
     pass.choose(wanted, offset, fields.component(wanted.field));
+    const DeviceTimer timer(device);
     times.compile_milliseconds += milliseconds_since(start);
 
-    const DeviceTimer timer(device);
     picture.draw(pass, data);
     frame.render_milliseconds += timer.wall_milliseconds();
     frame.device_milliseconds += timer.milliseconds();

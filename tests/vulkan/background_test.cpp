@@ -3,8 +3,10 @@
 #include <catch2/catch.hpp>
 
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <stdexcept>
+#include <thread>
 
 using namespace elvis;
 
@@ -40,6 +42,21 @@ TEST_CASE("Who waits for work that nobody has begun does it") {
     REQUIRE(n_done == 1);
     may_end.set_value();
     blocking->wait();
+}
+
+TEST_CASE("Nothing is at work once the background has finished") {
+    Background background(2);
+    std::atomic<int> n_done{0};
+    for (int i = 0; i < 50; ++i) {
+        background.hand_over([&n_done] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            ++n_done;
+        });
+    }
+    const auto failing = background.hand_over([] { throw std::runtime_error("why"); });
+    background.finish();
+    REQUIRE(n_done == 50);
+    REQUIRE_THROWS_WITH(failing->wait(), "why");
 }
 
 TEST_CASE("What is left in the background when it ends can still be waited for") {

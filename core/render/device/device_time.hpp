@@ -4,8 +4,10 @@
  */
 #pragma once
 
+#include <core/base/background.hpp>
 #include <core/vulkan/device.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <thread>
@@ -13,12 +15,17 @@
 namespace elvis {
 
 /**
- * Time since construction. On devices that are the processor, this process's processor time over the number of processors: what
- * an idle machine would take, whatever else runs. On others wall time.
+ * Time since construction, which waits until kernels that were made before are compiled. On devices that are the processor,
+ * this process's processor time over the number of processors: what an idle machine would take, whatever else runs. On others
+ * wall time.
  */
 class DeviceTimer {
 public:
-    explicit DeviceTimer(const Device& device) : m_is_processor(device.summary().type == "cpu") {}
+    explicit DeviceTimer(const Device& device) : m_is_processor(device.summary().type == "cpu") {
+        device.background().finish();
+        m_processor = processor();
+        m_wall = std::chrono::steady_clock::now();
+    }
 
     double milliseconds() const { return m_is_processor ? (processor() - m_processor) / n_processors() : wall_milliseconds(); }
     double wall_milliseconds() const {
@@ -35,8 +42,8 @@ private:
     }
 
     bool m_is_processor;
-    double m_processor = processor();
-    std::chrono::steady_clock::time_point m_wall = std::chrono::steady_clock::now();
+    double m_processor;
+    std::chrono::steady_clock::time_point m_wall;
 };
 
 } // namespace elvis
