@@ -1,10 +1,12 @@
 #include <core/shader/composer.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/milliseconds.hpp>
 #include <core/shader/compiler.hpp>
 #include <core/shader/request_records.hpp>
 
 #include <cassert>
+#include <chrono>
 
 namespace elvis {
 
@@ -50,7 +52,11 @@ ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& reques
     // The request and its snippets are not kept: their text is.
     m_building = device.background().hand_over([this, &device, text = compose_text(device, request),
                                                 layout = layout_of(device, request), bytes = request.push_constant_bytes] {
-        m_kernel.emplace(device, compile_shader(text, m_name), layout, bytes, m_name);
+        const auto start = std::chrono::steady_clock::now();
+        const std::vector<std::uint32_t> spirv = compile_shader(text, m_name);
+        const double compiler = milliseconds_since(start);
+        m_kernel.emplace(device, spirv, layout, bytes, m_name);
+        device.add({m_name, compiler, milliseconds_since(start) - compiler, spirv.size() * sizeof(std::uint32_t)});
     });
 }
 

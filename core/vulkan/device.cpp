@@ -262,6 +262,16 @@ std::uint64_t Device::n_kernels() const { return m_impl->n_kernels; }
 
 Background& Device::background() const { return m_impl->background; }
 
+std::vector<KernelBuild> Device::kernel_builds() const {
+    const std::lock_guard lock(m_impl->builds_mutex);
+    return m_impl->builds;
+}
+
+void Device::add(KernelBuild build) const {
+    const std::lock_guard lock(m_impl->builds_mutex);
+    m_impl->builds.push_back(std::move(build));
+}
+
 std::vector<std::string> Device::validation_messages() const {
     const ValidationLog& log = m_impl->instance.log();
     const std::lock_guard lock(log.mutex);

@@ -39,6 +39,17 @@ DeviceSummary choose_device(const std::string& wanted);
 
 class Background;
 
+/** What making a kernel took. */
+struct KernelBuild {
+    std::string kernel;
+    /** From GLSL to SPIR-V, or reading it from the cache. */
+    double compiler_milliseconds = 0;
+    /** From SPIR-V to what the device runs. Drivers may put off a part until the kernel first runs. */
+    double driver_milliseconds = 0;
+    /** Of SPIR-V. */
+    std::uint64_t code_bytes = 0;
+};
+
 /** What data buffers are for shaders. */
 enum class DataBuffers { automatic, texel, storage };
 
@@ -104,6 +115,9 @@ public:
 
     /** Threads that compile kernels for it. */
     Background& background() const;
+    /** Of the kernels made so far, in the order in which they were ready. */
+    std::vector<KernelBuild> kernel_builds() const;
+    void add(KernelBuild build) const;
 
     /** For the other files of core/vulkan. */
     struct Impl;

@@ -14,6 +14,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace elvis {
 
@@ -77,6 +78,9 @@ struct Device::Impl {
     /** Guards the staging buffer; taken before submit_mutex. */
     std::mutex staging_mutex;
     Staging staging;
+    /** Guards the builds. */
+    std::mutex builds_mutex;
+    std::vector<KernelBuild> builds;
     /** Guards the tasks. */
     std::mutex tasks_mutex;
     /** By thread. */

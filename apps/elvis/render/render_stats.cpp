@@ -4,6 +4,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <functional>
+
 namespace elvis::commands {
 
 nlohmann::ordered_json counts_json(const FrameCounts& counts) {
@@ -44,6 +47,20 @@ nlohmann::ordered_json counts_json(const FrameCounts& counts) {
             {"spared_pixels", counts.spared_pixels}};
 }
 
+/** Those that took longest first. */
+nlohmann::ordered_json kernels_json(std::vector<KernelBuild> builds) {
+    const auto milliseconds = [](const KernelBuild& build) { return build.compiler_milliseconds + build.driver_milliseconds; };
+    std::ranges::stable_sort(builds, std::greater{}, milliseconds);
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const KernelBuild& build : builds) {
+        list.push_back({{"kernel", build.kernel},
+                        {"compiler", build.compiler_milliseconds},
+                        {"driver", build.driver_milliseconds},
+                        {"bytes", build.code_bytes}});
+    }
+    return list;
+}
+
 nlohmann::ordered_json stats_json(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer,
                                   double load, double total, const std::vector<double>& repeated) {
     nlohmann::ordered_json root;
@@ -62,6 +79,7 @@ nlohmann::ordered_json stats_json(const Device& device, Precision precision, con
     root["counts"] = counts_json(frame.counts);
     const RendererMemory memory = renderer.memory();
     root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
+    root["kernels"] = kernels_json(device.kernel_builds());
     if (!repeated.empty()) {
         root["frame_milliseconds"] = repeated;
     }
