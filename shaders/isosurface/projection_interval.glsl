@@ -19,12 +19,8 @@
 // Takes a sample. Returns whether there are as many as a degree of the polynomial needs.
 bool core_projection_add(core_ray_sample found, inout core_projection_search search) {
     core_add_sample(search.interval, found);
-    bool is_enough = search.interval.values.status != CORE_FIT_WANTS;
-    for (int i = 0; i < CORE_FIT_LEVELS; ++i) {
-        is_enough = is_enough || search.interval.values.n_samples == core_fit_counts[i];
-    }
     core_want_sample(search);
-    return is_enough;
+    return core_fit_is_decision(search.interval.values);
 }
 
 // What the samples tell: no isovalue is taken, or the polynomial is good enough to look for where; else more samples, or half the interval.
@@ -39,7 +35,7 @@ void core_projection_judge(inout core_projection_search search) {
     const elvis_real margin = elvis_real(2) * search.fit.error;
     const uint first = core_isovalue_from(least - margin);
     const bool is_free = first == core_isovalues_end(first, most + margin);
-    const bool is_full = search.interval.values.status != CORE_FIT_WANTS;
+    const bool is_full = core_fit_is_full(search.interval.values);
     const bool is_crude = search.fit.error > elvis_real(0.25LF) * (most - least) + elvis_real(2) * search.floor_error;
     const bool is_rough = search.fit.error > CORE_ROUGH * (most - least) + elvis_real(2) * search.floor_error;
     const bool can_halve = search.interval.level < CORE_MOST_LEVELS && CORE_PLAIN == 0;
@@ -69,7 +65,7 @@ void core_projection_solve(core_traced_ray traced_ray, inout core_projection_sea
     const elvis_real upper_value = core_bernstein_value(search.bernstein, search.candidate.upper);
     const bool is_uncertain = search.candidate.kind != CORE_CROSSING_VERIFIED && search.fit.error > elvis_real(2) * search.floor_error;
     const bool refines = !is_none && is_uncertain && CORE_PLAIN == 0;
-    const bool is_full = search.interval.values.status != CORE_FIT_WANTS;
+    const bool is_full = core_fit_is_full(search.interval.values);
     const bool halves = refines && is_full && search.interval.level < CORE_MOST_LEVELS;
     search.isovalue = core_isovalues[search.candidate.index];
     search.rises = lower_value < upper_value;

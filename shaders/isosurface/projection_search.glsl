@@ -59,8 +59,8 @@ core_projection_search core_projection_begin() {
     search.segment_from = search.segment_to = search.from = search.to = elvis_real(0);
     search.interval.values = search.interval.slopes = core_fit_begin();
     search.interval.level = search.interval.index = 0u;
-    search.fit = core_fit_of(search.interval.values);
-    search.bernstein = search.fit.chebyshev;
+    search.bernstein = core_polynomial_zero();
+    search.fit = core_fit(search.bernstein, elvis_real(0), 0u);
     search.floor_error = elvis_real(0);
     search.isolation = core_isolation_begin();
     search.candidate = core_root_candidate(CORE_CROSSING_NONE, 0u, elvis_real(0), elvis_real(0), elvis_real(0));

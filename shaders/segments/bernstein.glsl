@@ -14,6 +14,14 @@ struct core_polynomial {
     elvis_real c[CORE_FIT_SIZE];
 };
 
+core_polynomial core_polynomial_zero() {
+    core_polynomial p;
+    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
+        p.c[k] = elvis_real(0);
+    }
+    return p;
+}
+
 core_polynomial core_to_bernstein(core_polynomial chebyshev) {
     core_polynomial p;
     for (int j = 0; j < CORE_FIT_SIZE; ++j) {

@@ -46,7 +46,7 @@ void core_add_sample(inout core_dyadic_interval interval, core_ray_sample found)
         interval.slopes.samples[i] = uint(i) == interval.slopes.n_samples ? found.slope : interval.slopes.samples[i];
     }
     interval.slopes.n_samples += 1u;
-    core_fit_add(interval.values, found.value, found.error, elvis_real(-1));
+    core_fit_add(interval.values, found.value, found.error);
 }
 
 // What the samples' slopes say about the error of a polynomial on an interval of this length: between nodes at distances h the difference

@@ -1,15 +1,15 @@
 // Samples to polynomial. Each iteration of a kernel's loop takes one sample:
 //
 //     core_fit_samples segment = core_fit_begin();
-//     while (segment.status == CORE_FIT_WANTS) {
-//         const elvis_real value = (the field at core_fit_parameter(segment));
-//         core_fit_add(segment, value, sample_error, tolerance);
-//     }
-//     const core_fit fit = core_fit_of(segment);
+//     (while more samples are wanted)
+//         core_fit_add(segment, (the field at core_fit_parameter(segment)), sample_error);
+//         if (core_fit_is_decision(segment)) {
+//             fit = core_fit_of(segment), and is its error small enough?
+//         }
 //
-// The degree is raised (2, 4, 8) until the error estimate is below the tolerance; each degree uses all samples of the one before.
-// If the highest is not enough, the caller halves the segment: core_fit_half hands on the samples at ends and middle. Tables
-// for one fixed degree leave one decision, done or split.
+// The degree is raised (2, 4, 8) until the caller finds the error estimate small enough; each degree uses all samples of the one before.
+// If the highest is not enough (core_fit_is_full), the caller halves the segment: core_fit_half hands on the samples at ends and middle.
+// Tables for one fixed degree leave one decision. core_fit_of is long: a kernel calls it at one place only.
 //
 // Error estimate: E = misfit + tail + rounding.
 //   misfit    The interpolant p_n is compared with the field at two points between the nodes. This bounds the difference from the
@@ -27,13 +27,6 @@
 #include "arithmetic/finite.glsl"
 #include "segments/bernstein.glsl"
 
-#define CORE_FIT_WANTS 0u
-#define CORE_FIT_DONE 1u
-// Not good enough: halve the segment, or go on with the fit and its error.
-#define CORE_FIT_SPLIT 2u
-// A sample was NaN or infinite.
-#define CORE_FIT_NOT_FINITE 3u
-
 #define CORE_FIT_FASTEST_DECAY elvis_real(0.25LF)
 #define CORE_FIT_SLOWEST_DECAY elvis_real(0.75LF)
 
@@ -43,7 +36,8 @@
 struct core_fit_samples {
     elvis_real samples[CORE_FIT_SAMPLES];
     uint n_samples;
-    uint status;
+    // No sample was NaN or infinite.
+    bool is_finite;
     // Largest absolute error of a sample.
     elvis_real sample_error;
 };
@@ -62,7 +56,7 @@ core_fit_samples core_fit_begin() {
         sampled.samples[i] = elvis_real(0);
     }
     sampled.n_samples = 0u;
-    sampled.status = CORE_FIT_WANTS;
+    sampled.is_finite = true;
     sampled.sample_error = elvis_real(0);
     return sampled;
 }
@@ -91,9 +85,7 @@ core_fit core_fit_of(core_fit_samples sampled) {
     core_fit fit;
     elvis_real error = elvis_real(0);
     fit.degree = 0u;
-    for (int k = 0; k < CORE_FIT_SIZE; ++k) {
-        fit.chebyshev.c[k] = elvis_real(0);
-    }
+    fit.chebyshev = core_polynomial_zero();
     for (int level = 0; level < CORE_FIT_LEVELS; ++level) {
         const bool is_judged = sampled.n_samples >= core_fit_counts[level];
         const uint degree = core_fit_degrees[level];
@@ -123,25 +115,25 @@ core_fit core_fit_of(core_fit_samples sampled) {
 }
 
 // `value` at core_fit_parameter(segment), with an absolute error of `sample_error` at most.
-void core_fit_add(inout core_fit_samples sampled, elvis_real value, elvis_real sample_error, elvis_real tolerance) {
+void core_fit_add(inout core_fit_samples sampled, elvis_real value, elvis_real sample_error) {
     for (int i = 0; i < CORE_FIT_SAMPLES; ++i) {
         sampled.samples[i] = uint(i) == sampled.n_samples ? value : sampled.samples[i];
     }
     sampled.n_samples += 1u;
     sampled.sample_error = max(sampled.sample_error, sample_error);
-    bool is_decision = false;
+    sampled.is_finite = sampled.is_finite && core_is_finite(value);
+}
+
+// There are as many samples as the highest degree needs.
+bool core_fit_is_full(core_fit_samples sampled) { return sampled.n_samples == uint(CORE_FIT_SAMPLES); }
+
+// There are as many samples as one of the degrees needs, or no more are of use.
+bool core_fit_is_decision(core_fit_samples sampled) {
+    bool is_decision = !sampled.is_finite;
     for (int level = 0; level < CORE_FIT_LEVELS; ++level) {
         is_decision = is_decision || sampled.n_samples == core_fit_counts[level];
     }
-    bool is_good = false;
-    if (is_decision) {
-        is_good = core_fit_of(sampled).error <= tolerance;
-    }
-    const bool is_full = sampled.n_samples == uint(CORE_FIT_SAMPLES);
-    sampled.status = !core_is_finite(value) ? CORE_FIT_NOT_FINITE
-                     : is_good              ? CORE_FIT_DONE
-                     : is_full              ? CORE_FIT_SPLIT
-                                            : CORE_FIT_WANTS;
+    return is_decision;
 }
 
 #endif

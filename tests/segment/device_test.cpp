@@ -94,17 +94,22 @@ constexpr const char* fit_kernel = R"(
 void main() {
     const uint i = gl_GlobalInvocationID.x, size = CORE_FIT_SIZE, to = i * (size + 4u);
     core_fit_samples sampled = core_fit_begin();
-    while (sampled.status == CORE_FIT_WANTS) {
+    core_fit fit;
+    bool is_over = false;
+    while (!is_over) {
         const elvis_real t = core_fit_parameter(sampled);
         const elvis_real value = elvis_exp(given[4u * i] * t) * elvis_sin(given[4u * i + 1u] * t + given[4u * i + 2u]);
-        core_fit_add(sampled, t == given[4u * i + 3u] ? value / (t - given[4u * i + 3u]) : value, CORE_ROUNDOFF, elvis_real(1e-3LF));
+        core_fit_add(sampled, t == given[4u * i + 3u] ? value / (t - given[4u * i + 3u]) : value, CORE_ROUNDOFF);
+        if (core_fit_is_decision(sampled)) {
+            fit = core_fit_of(sampled);
+            is_over = !sampled.is_finite || fit.error <= elvis_real(1e-3LF) || core_fit_is_full(sampled);
+        }
     }
-    const core_fit fit = core_fit_of(sampled);
     for (int k = 0; k < CORE_FIT_SIZE; ++k) {
         results[to + uint(k)] = fit.chebyshev.c[k];
     }
     results[to + size] = fit.error;
-    results[to + size + 1u] = elvis_real(sampled.status);
+    results[to + size + 1u] = elvis_real(!sampled.is_finite ? 3 : fit.error <= elvis_real(1e-3LF) ? 1 : 2);
     results[to + size + 2u] = elvis_real(sampled.n_samples);
     results[to + size + 3u] = elvis_real(fit.degree);
 }
