@@ -58,3 +58,51 @@ TEST_CASE("Percentiles are of the volume, not of elements or pixels") {
     REQUIRE(place.run("render box.h5 --time-step 2" + view + "one.png").status == 0);
     CHECK(place.read("steps/frame_0001.png") != place.read("one.png"));
 }
+
+TEST_CASE("Several scenes are drawn by one process, each as if alone") {
+    const Workplace place;
+    const char* cut = R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"size": [24, 16]},
+        "surfaces": [{"type": "plane", "plane": [0, 0, 1, 0.1]}]})";
+    const char* boundary = R"({"version": 1, "volume": {"path": "ball.h5"}, "image": {"size": [16, 16]}, "precision": "float64",
+        "surfaces": [{"type": "boundary"}]})";
+    place.write("cut.json", cut);
+    place.write("boundary.json", boundary);
+    place.write("again.json", cut);
+    const Outcome all = place.run(
+        "render cut.json boundary.json again.json -o pictures --stats pictures --buffers buffers --color-map viridis");
+    INFO(all.err);
+    REQUIRE(all.status == 0);
+    for (const std::string name : {"cut", "boundary", "again"}) {
+        INFO(name);
+        REQUIRE(place.run("render " + name + ".json -o alone.png --color-map viridis").status == 0);
+        CHECK(place.read("pictures/" + name + ".png") == place.read("alone.png"));
+        CHECK(fs::exists(place.path("buffers/" + name + ".h5")));
+        const nlohmann::json stats = nlohmann::json::parse(place.read("pictures/" + name + ".json"));
+        CHECK(stats["counts"]["pixels"] == (name == "boundary" ? 256 : 384));
+    }
+}
+
+TEST_CASE("Several inputs that are not scenes of their own names are refused before any work") {
+    const Workplace place;
+    fs::create_directory(place.path("other"));
+    for (const char* name : {"a.json", "b.json", "other/a.json"}) {
+        place.write(name, R"({"version": 1, "volume": {"path": "ball.h5"}})");
+    }
+    const struct {
+        const char* arguments;
+        const char* says;
+    } cases[] = {
+        {"a.json ball.h5 -o new", "'ball.h5' is one of several inputs, and no scene file"},
+        {"a.json other/a.json -o new", "'other/a.json' has the name of another scene"},
+        {"a.json b.json -o ball.h5", "--output: 'ball.h5' is a file"},
+        {"a.json b.json -o new --film x.mp4", "--film: is of one scene"},
+    };
+    for (const auto& bad : cases) {
+        INFO(bad.arguments);
+        const Outcome outcome = place.run("render " + std::string(bad.arguments));
+        INFO(outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.err, Catch::Contains(bad.says));
+        CHECK_FALSE(fs::exists(place.path("new")));
+    }
+}

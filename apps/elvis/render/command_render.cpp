@@ -1,26 +1,10 @@
-#include "field_samples.hpp"
-#include "missed_surfaces.hpp"
-#include "output_endings.hpp"
-#include "render_animation.hpp"
 #include "render_options.hpp"
-#include "render_stats.hpp"
+#include "render_scenes.hpp"
 #include <apps/elvis/commands.hpp>
-#include <apps/elvis/volume_argument.hpp>
 
-#include <core/annotation/font.hpp>
 #include <core/base/error.hpp>
-#include <core/base/milliseconds.hpp>
-#include <core/render/renderer.hpp>
 #include <core/scene/color/color_map.hpp>
-#include <core/scene/frame_request.hpp>
-#include <core/scene/output/buffers_file.hpp>
-#include <core/scene/output/output_file.hpp>
-#include <core/scene/output/png_file.hpp>
-#include <core/scene/scene.hpp>
 
-#include <spdlog/spdlog.h>
-
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -29,120 +13,15 @@ namespace elvis::commands {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/** When the command began, and what loading the volume took. */
-struct Times {
-    Clock::time_point start;
-    double load;
-};
-
-void render_picture(const RenderArguments& arguments, const Scene& scene, const Device& device, const RuntimeVolume& volume,
-                    Renderer& renderer, const Times& times) {
-    const Precision precision = scene.precision.value_or(Precision::float32);
-    FrameRequest request = make_frame_request(scene, volume, renderer.ranges());
-    for (const std::string& remark : request.remarks) {
-        spdlog::warn("{}", remark);
-    }
-    if (request.volume && scene.volume_rendering->has_default_density()) {
-        const auto& density = request.volume->transfer.density;
-        spdlog::info("volume: density rises from {:.6g} at {:.6g} to {:.6g} at {:.6g}", density.front().density,
-                     density.front().value, density.back().density, density.back().value);
-    }
-    request.with_buffers = !arguments.buffers.empty();
-    request.sharing = sharing_of(arguments);
-    Frame frame = renderer.render(request);
-    std::vector<double> repeated;
-    for (int repetition = 0; repetition < arguments.repeat; ++repetition) {
-        const Clock::time_point frame_start = Clock::now();
-        renderer.render(request);
-        repeated.push_back(milliseconds_since(frame_start));
-    }
-    if (scene.annotation) {
-        const AnnotationRequest annotation = make_annotation_request(*scene.annotation, request, frame, volume);
-        for (const std::string& name : annotate(frame, annotation)) {
-            spdlog::warn("annotation: there is no room for the {}", name);
-        }
-    }
-    write_png(frame, arguments.output, arguments.bits);
-    if (!arguments.buffers.empty()) {
-        write_buffers(frame, request, volume, arguments.buffers, precision);
-    }
-    if (!arguments.stats.empty()) {
-        const auto stats =
-            stats_json(device, precision, frame, renderer, times.load, milliseconds_since(times.start), repeated);
-        write_text_file(arguments.stats, stats.dump(2) + "\n");
-    }
-    MissedSurfaces missed;
-    missed.add(request, frame);
-    for (const std::string& remark : missed.remarks(scene, request, renderer.ranges())) {
-        spdlog::warn("{}", remark);
-    }
-    warn_about(frame.counts);
-}
-
-/** Before the work is done: whether the files can be what their names say. */
-void check_names(const RenderArguments& arguments, const Scene& scene) {
-    if (!scene.animation) {
-        need_picture_ending("--output", arguments.output);
-    }
-    if (!arguments.buffers.empty()) {
-        need_hdf5_ending("--buffers", arguments.buffers);
-    }
-    if (!arguments.stats.empty()) {
-        need_ending("--stats", arguments.stats, {".json"});
-    }
-}
-
 void run(const RenderArguments& arguments) {
     if (arguments.schema) {
         std::printf("%s", std::string(scene_schema_text()).c_str());
         return;
     }
-    if (arguments.input.empty() || arguments.output.empty()) {
+    if (arguments.inputs.empty() || arguments.output.empty()) {
         throw UsageError("render", "needs a scene or volume, and -o OUT.png; see elvis render --help");
     }
-    const Clock::time_point start = Clock::now();
-    Scene scene;
-    if (is_scene(arguments.input)) {
-        scene = read_scene(arguments.input);
-    } else {
-        scene.volume = arguments.input;
-    }
-    apply_options(arguments, scene);
-    check_animation(arguments, scene);
-    check_names(arguments, scene);
-    if (scene.volume.empty()) {
-        throw Error(arguments.input, "'volume' is missing");
-    }
-    if (scene.annotation) {
-        // Before the work is done: is there a font?
-        const Font font(scene.annotation->style.font);
-    }
-
-    const PluginRegistry registry;
-    const RuntimeVolume volume = open_volume(registry, scene.volume, scene.plugin, scene.plugin_options);
-    const double load = milliseconds_since(start);
-
-    const Device device(arguments.device, arguments.validation);
-    spdlog::info("device: {}", device.summary().name);
-    Renderer renderer(device, volume, scene.precision.value_or(Precision::float32));
-    if (const auto percentiles = percentiles_of(arguments)) {
-        scene.range_steps = scene.animation ? drawn_steps(scene, volume) : std::vector<std::uint32_t>{};
-        scene.color_map.range = percentile_range(scene, volume, renderer.ranges().bounds(), *percentiles);
-        if (scene.color_map.is_logarithmic && !((*scene.color_map.range)[0] > 0)) {
-            throw Error("--range", "the lower percentile is not above 0, as it must be on a logarithmic scale");
-        }
-        spdlog::info("range: {:.6g} to {:.6g}", (*scene.color_map.range)[0], (*scene.color_map.range)[1]);
-    }
-    if (scene.animation) {
-        render_animation(arguments, scene, device, volume, renderer);
-    } else {
-        render_picture(arguments, scene, device, volume, renderer, {start, load});
-    }
-    if (arguments.validation && !device.validation_messages().empty()) {
-        throw Error("validation layer", device.validation_messages().front());
-    }
+    render_scenes(arguments);
 }
 
 /** The option's library takes nan and inf for numbers, and nan for one in any range. */
@@ -156,8 +35,9 @@ CLI::Validator finite_number() {
 }
 
 void add_surfaces(CLI::App& command, RenderArguments& a) {
-    command.add_option("input", a.input, "Scene file (JSON) or volume");
-    command.add_option("-o,--output", a.output, "Picture to write (PNG), or folder for those of an animation");
+    command.add_option("input", a.inputs, "Scene file (JSON) or volume; of several scenes a picture each");
+    command.add_option("-o,--output", a.output,
+                       "Picture to write (PNG), or folder for those of an animation or of several scenes");
     command.add_option("--field", a.field,
                        "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
     command.add_option("--cut-plane", a.cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
@@ -250,8 +130,9 @@ void add_animation(CLI::App& command, RenderArguments& a) {
 }
 
 void add_output(CLI::App& command, RenderArguments& a) {
-    command.add_option("--buffers", a.buffers, "HDF5 file with what the picture is made of, per pixel");
-    command.add_option("--stats", a.stats, "JSON file with times and counts");
+    command.add_option("--buffers", a.buffers,
+                       "HDF5 file with what the picture is made of, per pixel; of several scenes a folder");
+    command.add_option("--stats", a.stats, "JSON file with times and counts; of several scenes a folder");
     command.add_option("--share", a.share,
                        "What passes take from each other, to compare times: all, none, depths or rows (the default)");
     command.add_option("--repeat", a.repeat, "Draw the frame that many times more, and put the times into --stats")
@@ -264,8 +145,7 @@ void add_output(CLI::App& command, RenderArguments& a) {
 } // namespace
 
 void add_render(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("render", "Draw one picture of a volume, or an animation, from a scene file or options");
+    CLI::App* command = app.add_subcommand("render", "Draw pictures of a volume, or an animation, from scene files or options");
     auto a = std::make_shared<RenderArguments>();
     add_surfaces(*command, *a);
     add_volume(*command, *a);

@@ -15,6 +15,8 @@ namespace elvis::commands {
 
 /** What `elvis render` is told on the command line. */
 struct RenderArguments {
+    /** As given; and the one that is drawn. */
+    std::vector<std::string> inputs;
     std::string input;
     std::string output;
     std::string time_steps;
