@@ -58,6 +58,8 @@ core_face_newton_step core_face_newton(uint face, elvis_real u, elvis_real v, co
 struct core_face_verdict {
     // The step ends at the crossing; the crossing is surely outside of the square; it is in it, and counts for the ray.
     bool has_converged, has_missed, is_hit;
+    // Whether it counts is not known.
+    bool is_doubtful;
 };
 
 // What is known after a step to (u, v), which is `outside` of the square, and at most `left` from the crossing but for rounding.
@@ -68,10 +70,12 @@ core_face_verdict core_judge_face_step(core_ray ray, core_face_newton_step s, el
     verdict.has_converged = s.is_regular && (step_length <= s.error || left <= elvis_real(0.5LF) * s.error);
     // Beyond the diagonal of a triangle u + v is off by both errors.
     verdict.has_missed = s.is_regular && outside > elvis_real(2) * (left + elvis_real(2) * s.error);
-    verdict.is_hit = verdict.has_converged && outside <= elvis_real(2) * s.error && s.t > ray.least_t + ray.widths_behind * s.width;
+    bool is_there = verdict.has_converged && outside <= elvis_real(2) * s.error;
 #if ELVIS_HAS_INSIDE
-    verdict.is_hit = verdict.is_hit && core_is_within(s.element, core_face_xi(s.local_face, u, v), elvis_vec3(s.error));
+    is_there = is_there && core_is_within(s.element, core_face_xi(s.local_face, u, v), elvis_vec3(s.error));
 #endif
+    verdict.is_hit = is_there && s.t > ray.counts_from + ray.widths_behind * s.width;
+    verdict.is_doubtful = is_there && core_is_at_start(ray, s.t, elvis_real(0.25LF) * s.width);
     return verdict;
 }
 

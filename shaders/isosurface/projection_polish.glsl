@@ -61,7 +61,7 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const core_nearest_crossing root = core_polished(found, search, root_t, half_width, bend_here, is_surely_inside);
     const bool is_crossing = is_settled && is_confirmed && is_inside && !core_is_last_again(last, root);
     const bool is_hit = is_crossing && core_is_ahead(ray, root_t, half_width);
-    search.flags |= is_crossing && core_may_be_ahead(ray, root_t, half_width) ? CORE_FLAG_UNDECIDED : 0u;
+    search.flags |= is_crossing && core_is_ahead_doubtful(ray, root_t, half_width) ? CORE_FLAG_UNDECIDED_IN_FRONT : 0u;
     // The last step may be small by chance.
     const elvis_real blur = max(abs(step), CORE_ROOT_SHARE * half_width);
     const bool is_wide = CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size, is_blurred = is_hit && is_wide;
