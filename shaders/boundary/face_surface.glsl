@@ -46,9 +46,9 @@ core_location core_location_of(core_face_crossing nearest) {
     found.x = xi.x;
     found.y = xi.y;
     found.z = xi.z;
-    found.is_on_face = nearest.is_on_edge;
+    found.is_on_face = nearest.is_on_edge || nearest.is_folded;
     found.n_candidates = nearest.n_candidates;
-    found.is_ambiguous = nearest.is_on_edge && core_is_discontinuous != 0u;
+    found.is_ambiguous = nearest.is_folded || (nearest.is_on_edge && core_is_discontinuous != 0u);
     return found;
 }
 

@@ -202,4 +202,24 @@ TEST_CASE("Doubt about what is in front stays where another surface hides what i
     CHECK(count(renderer.render(request))[1] == 0);
 }
 
+TEST_CASE("A ray that enters and leaves beside an edge meets two faces, or the pixel is undecided") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("cube.h5");
+    write_hexahedra(file.path(), {bulge(0, 1, 0)}, faces_of_one());
+    // Pixels are some roundings of single precision wide, and some dozens.
+    const double height = GENERATE(2e-5, 4e-4);
+    const oracle::Vector on_edge{0, 0, 0.45}, eye = on_edge - 3 * oracle::Vector(0.8, -0.5, 0.33);
+    FrameRequest request = request_from(eye, {on_edge.x(), on_edge.y(), on_edge.z()});
+    request.camera.orthographic = true;
+    request.camera.height = height;
+    Surface surface = colored_surface();
+    surface.geometry = BoundaryFaces{};
+    surface.opacity = 0.5;
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, precision);
+    CHECK(tally.hits > tally.pixels / 3);
+    CHECK(tally.far + tally.near == 0);
+    CHECK(tally.flagged < tally.pixels / 2);
+}
+
 } // namespace elvis::hunt
