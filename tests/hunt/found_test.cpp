@@ -222,4 +222,22 @@ TEST_CASE("A ray that enters and leaves beside an edge meets two faces, or the p
     CHECK(tally.flagged < tally.pixels / 2);
 }
 
+TEST_CASE("Isosurfaces in pyramids by projection rest on bounds, not on estimates") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("pyramids.h5");
+    oracle::generate(R"({"generator": 1, "mesh": "box", "shape": "pyramid", "box": [[-1, -1, -1], [1, 1, 1]],)"
+                     R"( "elements": [2, 2, 2], "order": 3, "geometry_order": 1, "field": "waves"})",
+                     file.path());
+    FrameRequest request = request_from({2.1, -1.7, 1.9}, {0, 0, 0});
+    request.camera.field_of_view = 50;
+    Surface surface = colored_surface();
+    surface.geometry = Isosurfaces{.values = {-0.4, 0.1, 0.35}, .method = IsosurfaceMethod::bernstein};
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, precision);
+    WARN(tally.far << " far, " << tally.near << " near, " << tally.flagged << " flagged, " << tally.hits << " hits");
+    CHECK(tally.hits > tally.pixels / 3);
+    CHECK(tally.far + tally.near == 0);
+    CHECK(tally.flagged < tally.pixels / 50);
+}
+
 } // namespace elvis::hunt
