@@ -31,6 +31,9 @@ struct Camera {
     double height = 1;
     /** In pixels: added to column and row. */
     std::array<double, 2> image_shift{};
+    /** Crossings of rays with surfaces count from this depth on: far above rounding, so that surfaces through the eye are not
+     * seen. */
+    double near = 0;
 };
 
 /** What passes of one picture take from each other. Each can be turned on and off to compare. */

@@ -112,6 +112,8 @@ Camera resolve_camera(const Scene& scene, const VolumeExtent& extent, std::span<
     camera.field_of_view = own.field_of_view.value_or(60.0);
     camera.image_shift = own.image_shift;
     camera.look_at = own.look_at.value_or(middle_of(extent.bounds));
+    // Hundreds of roundings of single precision; a tenth of what others clip.
+    camera.near = own.near.value_or(1e-4 * diagonal_of(extent.bounds));
     Vector3 to_eye = default_direction(planes);
     if (own.eye) {
         to_eye = minus(*own.eye, camera.look_at);

@@ -33,6 +33,9 @@ SceneCamera read_camera(const JsonObject& object) {
     if (object.has("height")) {
         camera.height = object.number("height");
     }
+    if (object.has("near")) {
+        camera.near = object.number("near");
+    }
     if (object.has("image_shift")) {
         camera.image_shift = fixed<2>(object.numbers("image_shift"));
     }

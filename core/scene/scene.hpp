@@ -43,7 +43,7 @@ struct SceneColorMap {
 struct SceneCamera {
     std::optional<bool> orthographic;
     std::optional<Vector3> eye, look_at, up;
-    std::optional<double> field_of_view, height;
+    std::optional<double> field_of_view, height, near;
     std::array<double, 2> image_shift{};
 };
 

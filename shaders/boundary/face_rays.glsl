@@ -58,6 +58,8 @@ core_face_newton_step core_face_newton(uint face, elvis_real u, elvis_real v, co
 struct core_face_verdict {
     // The step ends at the crossing; the crossing is surely outside of the square; it is in it, and counts for the ray.
     bool has_converged, has_missed, is_hit;
+    // Whether it counts is not known.
+    bool is_doubtful;
 };
 
 // What is known after a step to (u, v), which is `outside` of the square, and at most `left` from the crossing but for rounding.
@@ -68,10 +70,16 @@ core_face_verdict core_judge_face_step(core_ray ray, core_face_newton_step s, el
     verdict.has_converged = s.is_regular && (step_length <= s.error || left <= elvis_real(0.5LF) * s.error);
     // Beyond the diagonal of a triangle u + v is off by both errors.
     verdict.has_missed = s.is_regular && outside > elvis_real(2) * (left + elvis_real(2) * s.error);
-    verdict.is_hit = verdict.has_converged && outside <= elvis_real(2) * s.error && s.t > ray.least_t + ray.widths_behind * s.width;
+    bool is_there = verdict.has_converged && outside <= elvis_real(2) * s.error;
 #if ELVIS_HAS_INSIDE
-    verdict.is_hit = verdict.is_hit && core_is_within(s.element, core_face_xi(s.local_face, u, v), elvis_vec3(s.error));
+    is_there = is_there && core_is_within(s.element, core_face_xi(s.local_face, u, v), elvis_vec3(s.error));
 #endif
+    // The width is four times the bound of rounding.
+    const elvis_real bound = elvis_real(0.25LF) * s.width;
+    verdict.is_hit = is_there && s.t > ray.counts_from + elvis_real(0.5LF) * ray.widths_behind * s.width;
+    // Behind a crossing, what is within the bound is that crossing again.
+    const bool is_another = ray.widths_behind > elvis_real(0) && !verdict.is_hit && s.t > ray.counts_from + bound;
+    verdict.is_doubtful = is_there && (is_another || core_is_at_start(ray, s.t, bound));
     return verdict;
 }
 
@@ -85,13 +93,18 @@ struct core_face_crossing {
     // Where the next pixel of the column meets the face, to first order.
     elvis_real next_u, next_v;
     bool is_on_edge;
+    // The ray leaves the element; and the element behind the face is not drawn.
+    bool leaves, is_outer;
+    // At an edge, the ray enters by one outer face and leaves by another within rounding, or passes both.
+    bool is_folded;
     // Faces that have the crossing.
     uint n_candidates;
 };
 
 core_face_crossing core_no_crossing() {
     const elvis_real zero = elvis_real(0), far = elvis_real(3.0e38LF);
-    return core_face_crossing(CORE_NO_PATCH, CORE_NO_NUMBER, CORE_NO_PATCH, 0u, zero, zero, far, zero, zero, zero, false, 0u);
+    return core_face_crossing(CORE_NO_PATCH, CORE_NO_NUMBER, CORE_NO_PATCH, 0u, zero, zero, far, zero, zero, zero, false, false, false,
+ false, 0u);
 }
 
 // Behind this nothing need be looked at.
@@ -101,11 +114,12 @@ float core_nearest_end(core_face_crossing nearest) { return float(nearest.t + ne
 core_face_crossing core_face_crossing_at(uint face, uint patch_index, uint square_word, elvis_real u, elvis_real v,
                                          core_face_newton_step s, elvis_vec3 motion) {
     const bool leaves = (s.across > elvis_real(0)) == ((square_word & CORE_FACE_IS_OUTWARD) != 0u);
-    const uint key = (square_word & CORE_FACE_HAS_PARTNER) != 0u && !leaves ? 1u : 0u;
+    const bool is_outer = (square_word & CORE_FACE_HAS_PARTNER) == 0u;
+    const uint key = !is_outer && !leaves ? 1u : 0u;
     const elvis_real excess = (square_word & CORE_FACE_IS_TRIANGLE) != 0u ? max(max(-u, -v) - elvis_real(1), u + v)
                                                                           : max(abs(u), abs(v)) - elvis_real(1);
     return core_face_crossing(face, s.number, patch_index, key, u, v, s.t, s.width, u + dot(s.row_u, motion), v + dot(s.row_v, motion),
-                              excess >= elvis_real(-2) * s.error, 1u);
+                              excess >= elvis_real(-2) * s.error, leaves, is_outer, false, 1u);
 }
 
 // Takes a crossing (`is_hit`) if it is before the nearest, or the same within rounding and goes before it: of two faces that coincide,
@@ -119,8 +133,11 @@ void core_take_crossing(bool is_hit, core_face_crossing found, inout core_face_c
                                                          (is_number_lower && found.slack <= elvis_real(2) * nearest.slack);
     const bool is_before = !is_same && found.t < nearest.t, is_other = is_hit && is_same && found.face != nearest.face;
     const uint n_candidates = is_hit && is_before ? 1u : nearest.n_candidates + (is_other ? 1u : 0u);
+    const bool is_fold = is_other && found.is_outer && nearest.is_outer && found.leaves != nearest.leaves;
+    const bool is_folded = is_fold || (nearest.is_folded && !(is_hit && is_before));
     if (is_hit && (is_same ? is_lower : is_before)) {
         nearest = found;
     }
+    nearest.is_folded = is_folded;
     nearest.n_candidates = n_candidates;
 }

@@ -46,9 +46,9 @@ core_location core_location_of(core_face_crossing nearest) {
     found.x = xi.x;
     found.y = xi.y;
     found.z = xi.z;
-    found.is_on_face = nearest.is_on_edge;
+    found.is_on_face = nearest.is_on_edge || nearest.is_folded;
     found.n_candidates = nearest.n_candidates;
-    found.is_ambiguous = nearest.is_on_edge && core_is_discontinuous != 0u;
+    found.is_ambiguous = nearest.is_folded || (nearest.is_on_edge && core_is_discontinuous != 0u);
     return found;
 }
 
@@ -62,7 +62,7 @@ uint core_show(uint pixel, core_ray ray, core_face_crossing nearest, bool is_sho
     uint n_evaluations = 0u;
     if (is_shown && (has_found || is_cut_short)) {
         const elvis_vec3 position = ray.origin + nearest.t * ray.direction;
-        n_evaluations = core_merge(pixel, core_cut_point(has_found, nearest.t, position, ray.direction, ray.error), found, value);
+        n_evaluations = core_merge(pixel, core_cut_point(has_found, false, false, nearest.t, position, ray.direction, ray.error), found, value);
     }
     if (n_evaluations > 0u) {
         const uint local_face = elvis_fetch4_core_faces(nearest.face, 0u).y;

@@ -47,12 +47,14 @@ struct core_face_search {
     bool is_tracking;
     // The pixel is left to boundary/faces_careful.comp.
     bool is_careful;
+    // A crossing too near to the eye, or not.
+    bool is_doubtful;
     uint n_steps, work;
 };
 
 core_face_search core_face_search_begin(bool is_tracking) {
     const elvis_real zero = elvis_real(0);
-    return core_face_search(CORE_NO_PATCH, 0u, 0u, 0.0, 0.0, zero, zero, 0u, is_tracking, false, 0u, 0u);
+    return core_face_search(CORE_NO_PATCH, 0u, 0u, 0.0, 0.0, zero, zero, 0u, is_tracking, false, false, 0u, 0u);
 }
 
 bool core_goes_on(core_face_search search, core_face_descent descent) {
@@ -105,6 +107,7 @@ void core_step_on_patch(core_ray ray, core_cut_column along, inout core_face_sea
     search.n_steps += is_active ? 1u : 0u;
     const bool is_done = verdict.has_converged || verdict.has_missed;
     search.is_careful = search.is_careful || (is_active && !is_done && search.steps == CORE_STEPS);
+    search.is_doubtful = search.is_doubtful || (is_active && verdict.is_doubtful);
     const elvis_vec3 motion = along.base_row.xyz + s.t * along.direction_row.xyz;
     core_take_crossing(is_active && verdict.is_hit,
                        core_face_crossing_at(search.face, search.patch_index, search.square_word, u, v, s, motion), nearest);
@@ -150,6 +153,9 @@ void main() {
         }
         const bool is_careful = search.is_careful || core_goes_on(search, descent);
         n_evaluations += core_show(pixel, ray, nearest, !is_careful, false);
+        if (search.is_doubtful) {
+            core_marks[pixel].flags |= CORE_FLAG_UNDECIDED_IN_FRONT;
+        }
         if (is_careful) {
             core_list[atomicAdd(core_counts[3], 1u)] = pixel;
         }

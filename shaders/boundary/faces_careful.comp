@@ -49,12 +49,14 @@ struct core_careful_search {
     uint steps;
     // The nearest place where a patch is touched within rounding.
     elvis_real touched_t;
+    // A crossing too near to the eye, or not.
+    bool is_doubtful;
     uint n_steps, work;
 };
 
 core_careful_search core_careful_search_begin() {
     const elvis_real zero = elvis_real(0);
-    return core_careful_search(CORE_NO_PATCH, 0u, 0u, 0u, 0u, false, zero, zero, zero, 0u, elvis_real(3.2e38LF), 0u, 0u);
+    return core_careful_search(CORE_NO_PATCH, 0u, 0u, 0u, 0u, false, zero, zero, zero, 0u, elvis_real(3.2e38LF), false, 0u, 0u);
 }
 
 bool core_has_patch(core_careful_search search) { return search.n_squares > 0u || search.is_polishing; }
@@ -186,6 +188,7 @@ void core_step_in_square(core_ray ray, inout core_careful_search search, inout c
     const core_face_verdict of_step = core_judge_face_step(ray, s, u, v, max(outside, above_diagonal), left);
     core_take_crossing(search.is_polishing && of_step.is_hit,
                        core_face_crossing_at(search.face, search.patch_index, search.square_word, u, v, s, elvis_vec3(0)), nearest);
+    search.is_doubtful = search.is_doubtful || (search.is_polishing && of_step.is_doubtful);
 
     // Near the square's edge a step may show neither a crossing nor a miss; smaller squares have their edges elsewhere.
     const bool is_done = of_step.has_converged || of_step.has_missed;
@@ -230,8 +233,8 @@ void main() {
     }
     const bool is_cut_short = core_goes_on(search, descent) || core_has_driver_given_up(core_surface_number >> 31);
     const uint n_evaluations = core_show(pixel, ray, nearest, is_pixel, is_cut_short);
-    if (is_pixel && search.touched_t <= nearest.t + nearest.slack) {
-        core_marks[pixel].flags |= CORE_FLAG_UNDECIDED;
+    if (is_pixel && (search.is_doubtful || search.touched_t <= nearest.t + nearest.slack)) {
+        core_marks[pixel].flags |= CORE_FLAG_UNDECIDED_IN_FRONT;
     }
     core_count(0u, n_evaluations);
     core_count(1u, search.n_steps);

@@ -21,7 +21,9 @@ elvis_real core_volume_end() {
     return farthest + CORE_HORIZON_MARGIN * (depth + abs(farthest));
 }
 
-elvis_real core_cut_distance(core_cut_point corner) { return corner.is_hit ? corner.t + core_reference.w : elvis_real(3e38LF); }
+elvis_real core_cut_distance(core_cut_point corner) {
+    return corner.is_hit || corner.is_near ? corner.t + core_reference.w : elvis_real(3e38LF);
+}
 
 // `corner0` to `corner3`: rays through the square's corners, some of which do not meet the plane. False if the end is no number.
 bool core_is_behind_volume(core_cut_point corner0, core_cut_point corner1, core_cut_point corner2, core_cut_point corner3,

@@ -92,7 +92,7 @@ void main() {
     while (row < end_row) {
         core_cut_point point = core_cut_pixel(ray, elvis_real(row));
         point.error += data_error;
-        const core_location found = core_locate(point, point.is_hit ? n_entries : 0u, track);
+        const core_location found = core_locate(point, point.is_hit || point.is_doubtful ? n_entries : 0u, track);
         const bool has_found = found.element != CORE_NO_ELEMENT;
         const elvis_vec3 xi = elvis_vec3(found.x, found.y, found.z);
 #if CORE_LINES
@@ -103,7 +103,10 @@ void main() {
         const elvis_real value = core_shown_value(has_found ? found.element : 0u, xi);
 #endif
         const bool is_news = has_found || found.n_failures > 0u || found.is_cut_short;
-        if (is_news) {
+        if (is_news && point.is_doubtful) {
+            core_marks[row * core_size.x + column].flags |= CORE_FLAG_UNDECIDED_IN_FRONT;
+        }
+        if (is_news && point.is_hit) {
             const uint pixel = row * core_size.x + column;
             const uint n_done = core_merge(pixel, point, found, value);
             n_evaluations += n_done;

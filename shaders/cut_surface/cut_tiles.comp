@@ -33,10 +33,10 @@ void main() {
     const core_cut_point p01 = core_cut_pixel(left, last_row), p11 = core_cut_pixel(right, last_row);
 
     // Where the four corner rays meet the plane in front of the eye, the pixels between them meet it inside the quadrilateral of
-    // the four points; where none does, none between does; otherwise the plane's horizon crosses the tile, which then takes all, unless
-    // it is behind the volume.
+    // the four points; otherwise, unless none does, the plane's horizon crosses the tile, which then takes all, unless it is behind the
+    // volume.
     const bool all_hit = p00.is_hit && p10.is_hit && p01.is_hit && p11.is_hit;
-    const bool any_hit = p00.is_hit || p10.is_hit || p01.is_hit || p11.is_hit;
+    const bool any_hit = core_is_any_hit(p00, p10, p01, p11);
     const vec3 shift = vec3(core_reference_in_hierarchy.xyz);
     const vec3 q00 = vec3(p00.position) + shift, q10 = vec3(p10.position) + shift;
     const vec3 q01 = vec3(p01.position) + shift, q11 = vec3(p11.position) + shift;

@@ -10,6 +10,7 @@ core_cut_point core_hit_point(core_cut_column along, elvis_real row, core_hit_re
     core_cut_point point;
     point.t = hit.t;
     point.is_hit = true;
+    point.is_near = point.is_doubtful = false;
     point.direction = direction.xyz;
     point.position = base.xyz + point.t * direction.xyz;
     const elvis_vec3 size = (along.size + abs(down * along.base_row)).xyz + abs(point.t * direction.xyz);

@@ -307,7 +307,7 @@ void main() {
 #endif
     }
     if (is_done && !has_found && (search.is_undecided || is_cut_short)) {
-        core_marks[pixel].flags |= CORE_FLAG_UNDECIDED;
+        core_marks[pixel].flags |= CORE_FLAG_UNDECIDED_IN_FRONT;
     }
     core_count(0u, n_evaluations);
     core_count(1u, found.n_steps);

@@ -18,7 +18,7 @@ core_box_ray core_make_box_ray(core_surface_ray ray, elvis_vec3 origin, elvis_ve
     result.inverse = 1.0 / mix(direction, tiny, lessThan(abs(direction), tiny));
     const vec3 size = abs(vec3(shift));
     result.tolerance = float(elvis_real(2) * ray.noise) + 8.0 * CORE_FLOAT_ROUNDOFF * max(max(size.x, size.y), size.z);
-    result.from = float(max(ray.from, min(ray.after, ray.to)));
+    result.from = float(core_first_t(ray));
     result.to = float(ray.to);
     return result;
 }

@@ -4,8 +4,8 @@
 //
 //     core_hit core_next_hit(core_surface_ray ray)
 //
-// the crossing with the least t in (ray.from, ray.to) that lies beyond ray.after by more than its own rounding error. A ray that is
-// not wanted has from > to, and must cost little.
+// the crossing with the least t in (ray.from, ray.to) that counts (core_counts). A ray that is not wanted has from > to, and must cost
+// little.
 
 #ifndef CORE_SURFACE_HIT
 #define CORE_SURFACE_HIT
@@ -16,7 +16,9 @@
 struct core_surface_ray {
     // The ray is origin + t direction, relative to the picture's reference point; direction is of length 1 to about 2.
     elvis_vec3 origin, direction;
+    // Crossings count behind `after`, by more than their error if a crossing lies there, too.
     elvis_real from, to, after;
+    bool is_behind_crossing;
     // Rounding error of the ray's points between from and to, in each coordinate.
     elvis_real noise;
 };
@@ -48,9 +50,21 @@ core_hit core_no_hit() {
 layout(std140, set = 0, binding = 1) uniform core_shape_block { elvis_vec4 core_shape[CORE_SHAPE_ROWS]; };
 #define CORE_SHAPE(i) core_shape[2 + (i)]
 
-// Whether a crossing counts, and goes before what was found.
-bool core_is_next(core_surface_ray ray, elvis_real t, elvis_real error, core_hit best) {
-    return t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after && t < best.t;
+// From where on crossings are looked for.
+elvis_real core_first_t(core_surface_ray ray) {
+    return ray.is_behind_crossing ? max(ray.from, min(ray.after, ray.to)) : ray.from;
+}
+
+// Whether a crossing counts. Where rounding decides that it is as far from the eye as those that count, the hit is undecided.
+bool core_counts(core_surface_ray ray, elvis_real t, elvis_real error, inout core_hit best) {
+    const bool is_at_start = !ray.is_behind_crossing && abs(t - ray.after) <= elvis_real(2) * error;
+    best.is_undecided = best.is_undecided || is_at_start;
+    return t > ray.from && t < ray.to && t - (ray.is_behind_crossing ? elvis_real(2) * error : elvis_real(0)) > ray.after;
+}
+
+// Whether it goes before what was found, too.
+bool core_is_next(core_surface_ray ray, elvis_real t, elvis_real error, inout core_hit best) {
+    return core_counts(ray, t, error, best) && t < best.t;
 }
 
 void core_take_hit(bool is_better, elvis_real t, elvis_real error, elvis_vec3 normal, elvis_real bending, inout core_hit best) {

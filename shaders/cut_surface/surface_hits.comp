@@ -60,9 +60,9 @@ uint core_next_row(uint column, uint row, uint end_row) {
     return row;
 }
 
-// Behind this parameter of the ray crossings are wanted.
+// Behind this parameter of the ray crossings count.
 elvis_real core_after(uint pixel, elvis_real stretch, elvis_real reference_distance) {
-    elvis_real after = -CORE_FAR;
+    elvis_real after = core_near.x / stretch - reference_distance;
     if (core_round > 0u) {
         after = core_hits[pixel].t + elvis_real(2) * core_hits[pixel].error;
     }
@@ -80,7 +80,9 @@ core_surface_ray core_surface_ray_of(core_cut_column along, elvis_real row, uint
     core_surface_ray ray;
     ray.origin = (along.base + down * along.base_row).xyz;
     ray.direction = (along.direction + down * along.direction_row).xyz;
-    ray.after = core_after(pixel, length(ray.direction), along.reference_distance);
+    const elvis_real stretch = length(ray.direction);
+    ray.after = core_after(pixel, stretch, along.reference_distance);
+    ray.is_behind_crossing = core_round > 0u || core_has_beyond != 0u;
     const elvis_real tiny = elvis_real(1e-30LF);
     const elvis_vec3 inverse = elvis_real(1) / mix(ray.direction, elvis_vec3(tiny), lessThan(abs(ray.direction), elvis_vec3(tiny)));
     const elvis_vec3 one = (core_shape[0].xyz - ray.origin) * inverse, other = (core_shape[1].xyz - ray.origin) * inverse;
@@ -90,7 +92,7 @@ core_surface_ray core_surface_ray_of(core_cut_column along, elvis_real row, uint
     const elvis_real reach = max(abs(enter), abs(leave)) * max(max(abs(ray.direction.x), abs(ray.direction.y)), abs(ray.direction.z));
     ray.noise = elvis_real(4) * CORE_ROUNDOFF * (max(max(terms.x, terms.y), terms.z) + reach);
     const elvis_real margin = elvis_real(16) * CORE_ROUNDOFF * (abs(enter) + abs(leave)) + ray.noise;
-    ray.from = max(enter - margin, -along.reference_distance);
+    ray.from = max(enter - margin, elvis_real(0.5LF) * core_near.x / stretch - along.reference_distance);
     ray.to = leave + margin;
     const bool is_wanted = ray.from < ray.to && ray.after < ray.to;
     ray.to = is_wanted ? ray.to : ray.from - elvis_real(1);
@@ -103,7 +105,7 @@ void core_store_hit(uint pixel, core_surface_ray ray, core_hit hit, bool is_want
     core_hits[pixel].t = is_hit ? hit.t : CORE_FAR;
     // Where the ray runs along the surface, the point's error outgrows what pictures may show.
     const bool is_vague = is_hit && along_ray > core_shape[0].w;
-    const uint flags = (is_wanted && (hit.is_undecided || is_vague) ? CORE_FLAG_UNDECIDED : 0u) |
+    const uint flags = (is_wanted && hit.is_undecided ? CORE_FLAG_UNDECIDED_IN_FRONT : is_vague ? CORE_FLAG_UNDECIDED : 0u) |
                        (is_wanted && hit.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) |
                        (is_wanted && hit.is_estimated ? CORE_FLAG_ESTIMATED : 0u);
     if (flags != 0u) {

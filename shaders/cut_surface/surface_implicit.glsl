@@ -103,7 +103,7 @@ bool core_take_zero(core_surface_ray ray, core_implicit_interval interval, elvis
     const elvis_real error = !interval.is_monotone ? (joins_touch ? interval.high - touch.from : interval.width)
                              : steep > elvis_real(0) && most < steep * extent ? most / steep
                                                                               : elvis_real(0.01LF) * extent;
-    const bool is_taken = !is_pole && t > ray.from && t < ray.to && t - elvis_real(2) * error > ray.after;
+    const bool is_taken = !is_pole && core_counts(ray, t, error, best);
     core_take_hit(is_taken, t, error, gradient, CORE_FAR, best);
     touch.from = is_taken && joins_touch ? CORE_FAR : touch.from;
     best.is_undecided = best.is_undecided || is_pole;
@@ -122,7 +122,7 @@ bool core_take_touch(core_implicit_interval interval, inout core_touch touch) {
 
 core_hit core_next_hit(core_surface_ray ray) {
     core_hit best = core_no_hit();
-    const elvis_real from = max(ray.from, min(ray.after, ray.to)), extent = ray.to - from;
+    const elvis_real from = core_first_t(ray), extent = ray.to - from;
     uint level = 0u, index = 0u, work = 0u;
     core_touch touch = core_touch(CORE_FAR, -CORE_FAR);
     bool is_active = ray.from < ray.to && extent > elvis_real(0);

@@ -44,6 +44,12 @@ elvis_real core_shown_rounding(uint element, elvis_vec3 xi) {
     return sum;
 }
 
+// Bound of second derivatives within `radius` of xi; of the length of a vector, none without a model.
+elvis_real core_shown_bend(uint element, elvis_vec3 xi, elvis_real radius) {
+    const elvis_real bend = core_leaf_bounds(elvis_fetch4_core_bounds(element, core_first_component), xi, radius).x;
+    return core_end_component - core_first_component > 1u ? CORE_UNKNOWN : bend;
+}
+
 bool core_is_model_estimated(uint element) {
     bool is_estimated = false;
     for (uint component = core_first_component; component < core_end_component; ++component) {
@@ -53,6 +59,9 @@ bool core_is_model_estimated(uint element) {
 }
 
 #else
+
+// Of an expression none is known without a model.
+elvis_real core_shown_bend(uint element, elvis_vec3 xi, elvis_real radius) { return CORE_UNKNOWN; }
 
 // Of an expression: what its model leaves over a region that is a point.
 elvis_real core_shown_rounding(uint element, elvis_vec3 xi) {

@@ -108,7 +108,7 @@ uint core_search_step(core_ray ray, const core_last_crossing last, inout core_in
     const core_nearest_crossing found = core_found_at(evaluation, root);
     const bool is_crossing = verdict.is_finished_root && root.is_inside && !core_is_last_again(last, found);
     const bool is_hit = is_crossing && core_is_ahead(ray, found.t, found.slack);
-    const bool is_doubtful = is_crossing && core_may_be_ahead(ray, found.t, found.slack);
+    const bool is_doubtful = is_crossing && core_is_ahead_doubtful(ray, found.t, found.slack);
     core_nearest_take(is_hit, found, nearest);
     const bool is_open = core_interval_search_next(evaluation, verdict, is_hit, core_nearest_end(nearest), search);
     counts.n_evaluations += is_active ? 1u : 0u;
@@ -118,7 +118,7 @@ uint core_search_step(core_ray ray, const core_last_crossing last, inout core_in
     counts.n_undecided += is_open ? 1u : 0u;
     const uint open_flag = evaluation.is_finite ? CORE_FLAG_ISOSURFACE_UNDECIDED : CORE_FLAG_NAN;
     return (is_active && core_is_model_estimated(evaluation.element) ? CORE_FLAG_ESTIMATED : 0u) | (is_open ? open_flag : 0u) |
-           (is_doubtful ? CORE_FLAG_UNDECIDED : 0u);
+           (is_doubtful ? CORE_FLAG_UNDECIDED_IN_FRONT : 0u);
 }
 
 // The nearest crossing of a ray. Returns flags of the pixel.

@@ -71,12 +71,14 @@ bool core_is_last_again(const core_last_crossing last, const core_nearest_crossi
 
 // Whether a crossing found lies ahead of where the ray starts, and behind a crossing that was found before.
 bool core_is_ahead(const core_ray ray, elvis_real t, elvis_real slack) {
-    return t > ray.least_t + ray.widths_behind * slack && t > ray.least_t;
+    return t > ray.counts_from + ray.widths_behind * slack && t > ray.counts_from;
 }
 
-// Whether it can be one of its own all the same: farther from the last one than rounding leads at worst (isosurface/isosurface_blur.glsl).
-bool core_may_be_ahead(const core_ray ray, elvis_real t, elvis_real slack) {
-    return !core_is_ahead(ray, t, slack) && t > ray.least_t + CORE_ROOT_SHARE * ray.widths_behind * slack;
+// Whether that may be otherwise: rounding decides whether it is as far from the eye as those that count; or it can be one of its own all
+// the same, farther from the last one than rounding leads at worst (isosurface/isosurface_blur.glsl).
+bool core_is_ahead_doubtful(const core_ray ray, elvis_real t, elvis_real slack) {
+    const elvis_real share = CORE_ROOT_SHARE * ray.widths_behind * slack;
+    return core_is_at_start(ray, t, slack) || (!core_is_ahead(ray, t, slack) && share > elvis_real(0) && t > ray.counts_from + share);
 }
 
 // The normals are equal but for what nobody sees.

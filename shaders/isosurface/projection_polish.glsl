@@ -49,8 +49,12 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const bool is_last = search.polish_iterations >= (is_candidate ? CORE_CANDIDATE_ITERATIONS : CORE_POLISH_ITERATIONS);
     const bool is_settled = is_at_root || is_narrow || CORE_PLAIN == 1;
     const elvis_real root_t = is_at_root && CORE_PLAIN == 0 ? next : t;
-    const elvis_real bend_here = search.bend + elvis_real(2) * search.curvature * core_model_norm1(found.gradient);
     const elvis_real radius = core_max_norm(found.q) + found.beyond + speed * (half_width + abs(step));
+    // Where the element's model does not bound second derivatives, they have a bound of their own around the sample, or are estimated.
+    const elvis_real own_bend = CORE_ERRORS_TELL_BENDS ? search.bend : core_shown_bend(search.element, found.xi, radius);
+    const bool is_bend_known = own_bend < CORE_UNKNOWN;
+    const elvis_real bend_here =
+        (is_bend_known ? own_bend : search.bend) + elvis_real(2) * search.curvature * core_model_norm1(found.gradient);
     const bool keeps_slope = found.is_known && speed * bend_here * radius < abs(found.slope);
     const bool is_confirmed = !is_candidate || keeps_slope || (search.is_seen_below && search.is_seen_above) || CORE_PLAIN == 1;
     const elvis_real slack = traced_ray.tolerance + elvis_real(0.25LF) * half_width;
@@ -61,7 +65,7 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const core_nearest_crossing root = core_polished(found, search, root_t, half_width, bend_here, is_surely_inside);
     const bool is_crossing = is_settled && is_confirmed && is_inside && !core_is_last_again(last, root);
     const bool is_hit = is_crossing && core_is_ahead(ray, root_t, half_width);
-    search.flags |= is_crossing && core_may_be_ahead(ray, root_t, half_width) ? CORE_FLAG_UNDECIDED : 0u;
+    search.flags |= is_crossing && core_is_ahead_doubtful(ray, root_t, half_width) ? CORE_FLAG_UNDECIDED_IN_FRONT : 0u;
     // The last step may be small by chance.
     const elvis_real blur = max(abs(step), CORE_ROOT_SHARE * half_width);
     const bool is_wide = CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size, is_blurred = is_hit && is_wide;
@@ -74,9 +78,7 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     search.undecided_t = is_undecided || is_blurred ? min(search.undecided_t, is_undecided ? candidate_t : root_t) : search.undecided_t;
 
     core_nearest_take(is_hit, root, nearest);
-    // Where the model's error does not bound second derivatives, it is taken for their size.
-    const bool is_estimated =
-        core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1 || !CORE_ERRORS_TELL_BENDS;
+    const bool is_estimated = core_is_model_estimated(search.element) || search.segment.is_estimated || CORE_PLAIN == 1 || !is_bend_known;
     search.flags |= is_hit && is_estimated ? CORE_FLAG_ESTIMATED : 0u;
     search.phase = is_hit ? CORE_PHASE_SEEK : is_settled || is_last ? CORE_PHASE_SOLVE : CORE_PHASE_POLISH;
     core_follow_to(search.follower, is_within ? next : elvis_real(0.5LF) * (search.bracket_from + search.bracket_to),

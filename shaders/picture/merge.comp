@@ -33,15 +33,13 @@ layout(push_constant) uniform core_parameters {
     uint core_width;
 };
 
-// The picture's flags with those of a pixel of the layer. Flags of a surface that found nothing, or something that is cut away, may hide
-// something that it should have found: they stay, in the upper half. So does doubt about what is seen through something transparent.
-uint core_merged_flags(core_mark layer, uint old_flags, bool is_drawn, bool is_seen, bool is_nearest, bool is_seen_through) {
-    const uint own_flags = is_seen ? layer.flags : 0u;
-    const uint may_hide = CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED;
-    const uint lost_flags = !is_drawn ? layer.flags : is_seen ? 0u : layer.flags & may_hide;
-    const uint doubt = CORE_FLAG_UNDECIDED | CORE_FLAG_OVERLAP;
-    const uint behind_flags = is_seen_through ? (is_nearest ? old_flags : own_flags) & (may_hide | doubt) : 0u;
-    return (is_nearest ? (old_flags & 0xffff0000u) | own_flags : old_flags) | ((lost_flags | behind_flags) << 16);
+// The picture's flags with those of a pixel of the layer. Where a surface found nothing, or what it found is hidden or cut away, some
+// stay; of what is seen through something transparent, doubt does, too.
+uint core_merged_flags(core_mark layer, uint old_flags, bool is_drawn, bool is_nearest, bool is_seen_through) {
+    const uint front_flags = is_nearest ? layer.flags : old_flags, back_flags = is_nearest ? old_flags : layer.flags;
+    const uint doubt = is_seen_through ? CORE_FLAG_UNDECIDED | CORE_FLAG_OVERLAP : 0u;
+    const uint staying = back_flags & (is_drawn ? CORE_FLAGS_STAY | doubt : 0xffffu);
+    return front_flags | (back_flags & 0xffff0000u) | CORE_STAYING(staying);
 }
 
 void main() {
@@ -81,7 +79,7 @@ void main() {
     if (is_inside) {
         const uint low_bits = layer.owner & ((1u << CORE_OWNER_BITS) - 1u);
         core_marks[pixel].owner = is_nearest ? (core_surface_number << CORE_OWNER_BITS) | low_bits : (is_empty ? 0u : old.owner);
-        core_marks[pixel].flags = core_merged_flags(layer, is_first ? 0u : old.flags, is_drawn, is_seen, is_nearest, is_seen_through);
+        core_marks[pixel].flags = core_merged_flags(layer, is_first ? 0u : old.flags, is_drawn, is_nearest, is_seen_through);
     }
     const bool is_in_front = is_opaque && depth < opaque_depth;
     if (is_inside && (is_first || is_in_front)) {

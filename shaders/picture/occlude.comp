@@ -42,7 +42,7 @@ void main() {
     const bool is_hidden = is_drawn && core_layer_samples[safe].depth >= depth;
     if (is_drawn) {
         core_layer_marks[pixel].owner = is_hidden ? 0u : owner;
-        core_layer_marks[pixel].flags = is_hidden ? 0u : core_layer_marks[pixel].flags;
+        core_layer_marks[pixel].flags = core_layer_marks[pixel].flags & (is_hidden ? CORE_FLAGS_STAY | 0xffff0000u : 0xffffffffu);
     }
     const uint n_taken = subgroupAdd(is_left || is_hidden ? 1u : 0u);
     if (subgroupElect() && n_taken > 0u) {

@@ -9,7 +9,7 @@ core_ray core_pixel_ray(core_cut_column along, elvis_real row) {
     core_ray ray;
     ray.origin = (along.base + down * along.base_row).xyz;
     ray.direction = (along.direction + down * along.direction_row).xyz;
-    ray.least_t = -along.reference_distance;
+    ray.least_t = ray.counts_from = -along.reference_distance;
     ray.widths_behind = elvis_real(0);
     const elvis_vec3 size = (along.size + abs(down * along.base_row)).xyz;
     ray.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);

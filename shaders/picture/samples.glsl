@@ -58,4 +58,11 @@ struct core_mark {
 #define CORE_FLAG_RANGE_TOO_FINE 4096u
 #define CORE_FLAG_OVERLAP 8192u
 
+// Flags of a surface that stay where it is not seen: it may have missed something in front.
+#define CORE_FLAGS_STAY (CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED)
+// Where they stay, apart from those of what is seen.
+#define CORE_STAYING(flags) ((flags) << 16)
+// Rounding decides whether the surface has something in front of what was found.
+#define CORE_FLAG_UNDECIDED_IN_FRONT (CORE_FLAG_UNDECIDED | CORE_STAYING(CORE_FLAG_UNDECIDED))
+
 #endif

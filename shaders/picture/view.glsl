@@ -22,10 +22,13 @@ layout(std140, set = 0, binding = 0) uniform core_view {
     elvis_vec4 core_reference_in_hierarchy;
     // xyz: unit normal of the plane; w: row0.
     elvis_vec4 core_plane_normal;
+    // x: the depth from which on crossings with surfaces count.
+    elvis_vec4 core_near;
 };
 
 struct core_cut_point {
-    bool is_hit;
+    // The plane is met from the depth on from which crossings count; nearer to the eye, before or behind it; rounding decides which.
+    bool is_hit, is_near, is_doubtful;
     // Along the axis of view, from base.
     elvis_real t;
     // Relative to the reference point.
@@ -73,12 +76,18 @@ core_cut_point core_cut_pixel(core_cut_column column, elvis_real row) {
     const elvis_vec4 direction = column.direction + down * column.direction_row;
     core_cut_point point;
     point.t = -base.w / direction.w;
-    point.is_hit = direction.w != elvis_real(0) && point.t + column.reference_distance > elvis_real(0);
     point.direction = direction.xyz;
     point.position = base.xyz + point.t * direction.xyz;
     // Rounding of numbers of these sizes: the terms of base and the product; and those of the level, which the slope makes a
     // distance along the ray.
     const elvis_vec4 terms = column.size + abs(down * column.base_row);
+    const elvis_real from_eye = point.t + column.reference_distance, stretch = length(direction.xyz), least = core_near.x / stretch;
+    // The slope's terms are as large as the direction.
+    const elvis_real along_ray =
+        CORE_ROUNDOFF * (elvis_real(4) * terms.w + elvis_real(8) * stretch * abs(point.t)) / abs(direction.w);
+    point.is_hit = direction.w != elvis_real(0) && from_eye > least;
+    point.is_near = direction.w != elvis_real(0) && abs(from_eye) <= least;
+    point.is_doubtful = direction.w != elvis_real(0) && abs(from_eye - least) <= along_ray;
     const elvis_vec3 size = terms.xyz + (abs(point.t) + terms.w / abs(direction.w)) * abs(direction.xyz);
     point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);
     return point;
@@ -92,10 +101,18 @@ struct core_picture_square {
 // The corners of a square of the picture on the plane.
 struct core_cut_square {
     elvis_vec3 corner0, corner1, corner2, corner3;
-    // Whether the rays through all of them, or through any, meet the plane in front of the eye; where none does, none between does.
+    // Whether the rays through all of them, or through any or any between them, meet the plane in front of the eye.
     bool all_hit, any_hit;
     elvis_real error;
 };
+
+// Whether the plane is seen between four places of the picture. The reciprocal of its distance from the eye is linear there: near corners
+// and others may have it between them.
+bool core_is_any_hit(core_cut_point p0, core_cut_point p1, core_cut_point p2, core_cut_point p3) {
+    const bool any_near = p0.is_near || p1.is_near || p2.is_near || p3.is_near;
+    const bool all_near = p0.is_near && p1.is_near && p2.is_near && p3.is_near;
+    return p0.is_hit || p1.is_hit || p2.is_hit || p3.is_hit || (any_near && !all_near);
+}
 
 core_cut_square core_cut_corners(core_picture_square place) {
     const core_cut_column left = core_cut_begin(place.column - place.half_size);
@@ -109,7 +126,7 @@ core_cut_square core_cut_corners(core_picture_square place) {
     square.corner2 = p2.position;
     square.corner3 = p3.position;
     square.all_hit = p0.is_hit && p1.is_hit && p2.is_hit && p3.is_hit;
-    square.any_hit = p0.is_hit || p1.is_hit || p2.is_hit || p3.is_hit;
+    square.any_hit = core_is_any_hit(p0, p1, p2, p3);
     square.error = max(max(p0.error, p1.error), max(p2.error, p3.error));
     return square;
 }

@@ -27,7 +27,7 @@ core_ray core_source_ray(uint column, uint row, uint index) {
     core_ray ray;
     ray.origin = first.xyz;
     ray.direction = core_rays[2u * index + 1u].xyz;
-    ray.least_t = first.w;
+    ray.least_t = ray.counts_from = first.w;
     ray.widths_behind = elvis_real(0);
     ray.box_origin = vec3(ray.origin);
     const vec3 far = abs(ray.box_origin);

@@ -6,10 +6,15 @@ struct core_ray {
     vec3 box_origin;
     // Size of the coordinates that box_origin is made of.
     float far;
-    // Crossings count only if t > least_t + widths_behind x the crossing's error.
-    elvis_real least_t, widths_behind;
+    // Crossings are looked for from least_t on, and count only if t > counts_from + widths_behind x the crossing's error.
+    elvis_real least_t, counts_from, widths_behind;
     elvis_real error;
 };
+
+// Whether rounding decides that a crossing is as far from the eye as those that count.
+bool core_is_at_start(core_ray ray, elvis_real t, elvis_real slack) {
+    return ray.widths_behind == elvis_real(0) && abs(t - ray.counts_from) <= slack;
+}
 
 // Least and greatest t at which the ray may be in the box; the least is above the greatest if it misses it.
 vec2 core_box_span(core_node node, vec3 origin, vec3 direction, float far) {

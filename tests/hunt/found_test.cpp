@@ -10,6 +10,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <iomanip>
+#include <sstream>
+
 namespace elvis::hunt {
 
 namespace {
@@ -26,23 +29,35 @@ Tally judge_picture(const std::string& path, const FrameRequest& request, Precis
     return judge.judge(renderer.render(request), precision).tally;
 }
 
-/** An element of the unit cube between two y, the lower face of which is bent down far. */
-oracle::Map bulge(double from, double to) {
+/** An element of the unit cube between two y, the lower face of which is bent down. */
+oracle::Map bulge(double from, double to, double depth = 1.2) {
     return [=](const oracle::Vector& xi) -> oracle::Vector {
         oracle::Vector x = 0.5 * (oracle::Vector::Ones() + xi);
         x.y() = from + (to - from) * x.y();
-        x.z() -= 0.6 * (1 - xi.x() * xi.x()) * (1 - xi.y() * xi.y()) * (1 - xi.z());
+        x.z() -= 0.5 * depth * (1 - xi.x() * xi.x()) * (1 - xi.y() * xi.y()) * (1 - xi.z());
         return x;
     };
 }
 
-Tally judge_cut(const std::vector<oracle::Map>& maps, double y, Precision precision) {
-    const native::Space geometry = oracle::space_of(native::Shape::hexahedron, 2);
+std::string text_of(double number) {
+    std::ostringstream text;
+    text << std::setprecision(17) << number;
+    return text.str();
+}
+
+double field(const oracle::Vector& x) { return x.x() + x.y() * x.z(); }
+
+void write_hexahedra(const std::string& path, const std::vector<oracle::Map>& maps,
+                     const std::vector<native::Face>& faces = {}) {
+    const native::Space space = oracle::space_of(native::Shape::hexahedron, 2);
     oracle::VolumeData data;
-    data.classes.push_back(
-        oracle::make_class(geometry, geometry, maps, [](const oracle::Vector& x) { return x.x() + x.y() * x.z(); }));
+    data.classes.push_back(oracle::make_class(space, space, maps, field));
+    write_volume(path, data, faces);
+}
+
+Tally judge_cut(const std::vector<oracle::Map>& maps, double y, Precision precision) {
     const TemporaryFile file("bulge.h5");
-    oracle::write_volume(file.path(), data);
+    write_hexahedra(file.path(), maps);
     FrameRequest request;
     request.width = 120;
     request.height = 90;
@@ -56,6 +71,34 @@ Tally judge_cut(const std::vector<oracle::Map>& maps, double y, Precision precis
     surface.mesh_lines.emplace();
     request.surfaces = {surface};
     return judge_picture(file.path(), request, precision);
+}
+
+std::vector<native::Face> faces_of_one() {
+    std::vector<native::Face> faces;
+    for (std::int32_t face = 0; face < 6; ++face)
+        faces.push_back({0, -1, face, -1, -1});
+    return faces;
+}
+
+/** Beside the middle of the lower face. */
+const oracle::Vector on_bent_face{0.3, -0.2, -1};
+
+FrameRequest request_from(const oracle::Vector& eye, const Vector3& look_at) {
+    FrameRequest request;
+    request.width = 80;
+    request.height = 60;
+    request.camera.eye = {eye.x(), eye.y(), eye.z()};
+    request.camera.look_at = look_at;
+    request.camera.up = {0, 1, 0};
+    request.camera.field_of_view = 100;
+    request.camera.near = 2e-4;
+    return request;
+}
+
+Surface colored_surface() {
+    Surface surface;
+    surface.colors.points = {{-3, {0, 0.1, 0.9}}, {3, {1, 0.8, 0.1}}};
+    return surface;
 }
 
 } // namespace
@@ -110,6 +153,91 @@ TEST_CASE("Beyond the diagonal of a triangle its field makes no contour") {
     const Tally tally = judge_picture(file.path(), request, precision);
     CHECK(tally.lines > 200);
     CHECK(tally.far + tally.near == 0);
+}
+
+TEST_CASE("Surfaces through the eye are not seen, and are no reason for a flag") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("bulge.h5");
+    const oracle::Map map = bulge(0, 1);
+    write_hexahedra(file.path(), {map}, faces_of_one());
+    const oracle::Vector eye = map(on_bent_face), centre = eye + 0.4 * oracle::Vector(0.36, 0.48, -0.8);
+    FrameRequest request = request_from(eye, {0.5, 0.6, 0.7});
+    Surface surface = colored_surface();
+    const Vector3 at{centre.x(), centre.y(), centre.z()};
+    SECTION("a plane") { surface.geometry = CutPlane{{0.48, 0.6, 0.64, -oracle::Vector(0.48, 0.6, 0.64).dot(eye)}}; }
+    SECTION("a sphere") { surface.geometry = Sphere{at, 0.4}; }
+    SECTION("a torus") { surface.geometry = Torus{at, {0.48, -0.36, 0}, 0.3, 0.1}; }
+    SECTION("an implicit surface") { surface.geometry = CutShape(ImplicitSurface{"x + y * z - " + text_of(field(eye))}); }
+    SECTION("faces") { surface.geometry = BoundaryFaces{}; }
+    SECTION("an isosurface") { surface.geometry = Isosurfaces{.values = {field(eye)}}; }
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, precision);
+    CHECK(tally.far + tally.near == 0);
+    CHECK(tally.flagged < tally.pixels / 20);
+}
+
+TEST_CASE("Doubt about what is in front stays where another surface hides what is behind") {
+    // The eye is on a face that is bent towards it: rays along it go on to other faces.
+    const TemporaryFile file("bulge.h5");
+    const oracle::Map map = bulge(0, 1, -0.7);
+    write_hexahedra(file.path(), {map}, faces_of_one());
+    FrameRequest request = request_from(map(on_bent_face), {0, 0.7, 0.6});
+    Surface boundary = colored_surface(), plane = boundary;
+    boundary.geometry = BoundaryFaces{};
+    plane.geometry = CutPlane{{1, 0, 0, -0.3}};
+    const RuntimeVolume volume = oracle::open_volume(file.path());
+    Renderer renderer(test::device(), volume, Precision::float32);
+    request.surfaces = {boundary};
+    const Frame alone = renderer.render(request);
+    const auto count = [&](const Frame& frame) {
+        std::array<int, 2> n{};
+        for (std::size_t pixel = 0; pixel < alone.flags.size(); ++pixel)
+            if ((alone.flags[pixel] & pixel_flag::undecided) != 0 && !std::isnan(alone.depth[pixel]))
+                ++n[(frame.flags[pixel] & pixel_flag::undecided) != 0 ? 0 : 1];
+        return n;
+    };
+    CHECK(count(alone)[0] > 20);
+    const bool is_first = GENERATE(true, false);
+    request.surfaces = is_first ? std::vector{boundary, plane} : std::vector{plane, boundary};
+    CHECK(count(renderer.render(request))[1] == 0);
+}
+
+TEST_CASE("A ray that enters and leaves beside an edge meets two faces, or the pixel is undecided") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("cube.h5");
+    write_hexahedra(file.path(), {bulge(0, 1, 0)}, faces_of_one());
+    // Pixels are some roundings of single precision wide, and some dozens.
+    const double height = GENERATE(2e-5, 4e-4);
+    const oracle::Vector on_edge{0, 0, 0.45}, eye = on_edge - 3 * oracle::Vector(0.8, -0.5, 0.33);
+    FrameRequest request = request_from(eye, {on_edge.x(), on_edge.y(), on_edge.z()});
+    request.camera.orthographic = true;
+    request.camera.height = height;
+    Surface surface = colored_surface();
+    surface.geometry = BoundaryFaces{};
+    surface.opacity = 0.5;
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, precision);
+    CHECK(tally.hits > tally.pixels / 3);
+    CHECK(tally.far + tally.near == 0);
+    CHECK(tally.flagged < tally.pixels / 2);
+}
+
+TEST_CASE("Isosurfaces in pyramids by projection rest on bounds, not on estimates") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("pyramids.h5");
+    oracle::generate(R"({"generator": 1, "mesh": "box", "shape": "pyramid", "box": [[-1, -1, -1], [1, 1, 1]],)"
+                     R"( "elements": [2, 2, 2], "order": 3, "geometry_order": 1, "field": "waves"})",
+                     file.path());
+    FrameRequest request = request_from({2.1, -1.7, 1.9}, {0, 0, 0});
+    request.camera.field_of_view = 50;
+    Surface surface = colored_surface();
+    surface.geometry = Isosurfaces{.values = {-0.4, 0.1, 0.35}, .method = IsosurfaceMethod::bernstein};
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, precision);
+    WARN(tally.far << " far, " << tally.near << " near, " << tally.flagged << " flagged, " << tally.hits << " hits");
+    CHECK(tally.hits > tally.pixels / 3);
+    CHECK(tally.far + tally.near == 0);
+    CHECK(tally.flagged < tally.pixels / 50);
 }
 
 } // namespace elvis::hunt

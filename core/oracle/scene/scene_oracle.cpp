@@ -156,7 +156,7 @@ void SceneOracle::add_layers(const Line& line, const Perturbation& perturbation,
         const Surface& surface = m_request.surfaces[i];
         if (!(surface.opacity > 0))
             continue;
-        for (SurfacePoint& point : m_looks[i].tracer->trace(line, perturbation)) {
+        for (SurfacePoint& point : m_looks[i].tracer->trace(line, m_request.camera.near, perturbation)) {
             if (is_clipped(surface, line.at(point.t)))
                 continue;
             layers.push_back({static_cast<int>(i), point});

@@ -167,7 +167,7 @@ public:
         m_upper = middle + factor * (model.tree.upper() - middle);
     }
 
-    std::vector<SurfacePoint> trace(const Line& line, const Perturbation& perturbation) override {
+    std::vector<SurfacePoint> trace(const Line& line, double near, const Perturbation& perturbation) override {
         double from = 0, to = infinity;
         for (Eigen::Index d = 0; d < 3; ++d) {
             const double one = (m_lower[d] - line.origin[d]) / line.direction[d],
@@ -181,7 +181,7 @@ public:
         if (!(from < to) || to == infinity)
             return points;
         for (const ShapePart& part : m_parts)
-            add(part, line, from, to, perturbation, points);
+            add(part, line, from, to, near, perturbation, points);
         std::ranges::sort(points, {}, &SurfacePoint::t);
         return points;
     }
@@ -189,7 +189,7 @@ public:
     std::uint64_t n_failures() const override { return m_inverter.counts().unresolved; }
 
 private:
-    void add(const ShapePart& part, const Line& line, double from, double to, const Perturbation& perturbation,
+    void add(const ShapePart& part, const Line& line, double from, double to, double near, const Perturbation& perturbation,
              std::vector<SurfacePoint>& points) {
         constexpr std::size_t degree = 8, n_samples = 300;
         const auto t_of = [&](double s) { return 0.5 * ((1 - s) * from + (1 + s) * to); };
@@ -215,7 +215,7 @@ private:
                 const double step = part.value(line.at(t)) / part.gradient(line.at(t)).dot(line.direction);
                 t -= std::abs(step) < 1e-9 * (to - from) ? step : 0;
             }
-            if (t > 0 && part.holds(line.at(t)))
+            if (t > near && part.holds(line.at(t)))
                 add_point(part, line, t, perturbation, points);
         }
     }

@@ -22,10 +22,10 @@ public:
           m_normal(Vector(plane.plane[0], plane.plane[1], plane.plane[2]).normalized()),
           m_offset(plane.plane[3] / Vector(plane.plane[0], plane.plane[1], plane.plane[2]).norm()) {}
 
-    std::vector<SurfacePoint> trace(const Line& line, const Perturbation& perturbation) override {
+    std::vector<SurfacePoint> trace(const Line& line, double near, const Perturbation& perturbation) override {
         SurfacePoint point;
         point.t = -(m_normal.dot(line.origin) + m_offset + perturbation.plane) / m_normal.dot(line.direction);
-        if (!(point.t > 0) || !std::isfinite(point.t))
+        if (!(point.t > near) || !std::isfinite(point.t))
             return {};
         // A perturbed plane lies where it lies. That of the scene may lie in faces, exactly but for rounding.
         const double inside = perturbation.plane == 0 ? 1e-13 : 0;
@@ -58,12 +58,12 @@ public:
         }
     }
 
-    std::vector<SurfacePoint> trace(const Line& line, const Perturbation&) override {
+    std::vector<SurfacePoint> trace(const Line& line, double near, const Perturbation&) override {
         std::vector<SurfacePoint> points;
         for (const SegmentFinder::Entry& entry : m_finder.boxes(line))
             for (const std::size_t constraint : m_constraints[entry.element])
                 for (const double t : m_finder.crossings(entry.element, constraint, line))
-                    if (t > 0)
+                    if (t > near)
                         add(entry.element, constraint, line, t, points);
         // Of faces that share an edge, the one of the element with the lowest number.
         std::sort(points.begin(), points.end(), [&](const SurfacePoint& a, const SurfacePoint& b) {
@@ -104,10 +104,10 @@ class IsosurfacePoints : public SurfaceTracer {
 public:
     IsosurfacePoints(const Model& model, const Isosurface& isosurface) : m_tracer(model, isosurface) {}
 
-    std::vector<SurfacePoint> trace(const Line& line, const Perturbation& perturbation) override {
+    std::vector<SurfacePoint> trace(const Line& line, double near, const Perturbation& perturbation) override {
         std::vector<SurfacePoint> points;
         for (const Crossing& crossing : m_tracer.all(line, perturbation.field * m_tracer.range())) {
-            if (crossing.t <= 0)
+            if (crossing.t <= near)
                 continue;
             SurfacePoint point;
             point.t = crossing.t;

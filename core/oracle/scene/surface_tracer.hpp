@@ -41,8 +41,8 @@ struct Perturbation {
 class SurfaceTracer {
 public:
     virtual ~SurfaceTracer() = default;
-    /** Points with t > 0, ascending. */
-    virtual std::vector<SurfacePoint> trace(const Line& line, const Perturbation& perturbation) = 0;
+    /** Points with t > near, ascending. */
+    virtual std::vector<SurfacePoint> trace(const Line& line, double near, const Perturbation& perturbation) = 0;
     /** Times that the answer may lack something. */
     virtual std::uint64_t n_failures() const = 0;
 };

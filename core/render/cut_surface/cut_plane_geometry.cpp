@@ -84,7 +84,8 @@ CutPlaneGeometry cut_plane_geometry(const CutPlane& plane, const Camera& camera,
                      row(direction_row, dot(normal, direction_row)),
                      row(reference, distance),
                      row(plus(reference, convert(centre), -1), column0),
-                     row(towards_viewer, row0)};
+                     row(towards_viewer, row0),
+                     {camera.near, 0, 0, 0}};
     return geometry;
 }
 

@@ -17,7 +17,7 @@ namespace elvis {
 
 struct CutPlaneGeometry {
     /** The uniform block's rows of four, in its order. */
-    std::array<std::array<double, 4>, 9> rows{};
+    std::array<std::array<double, 4>, 10> rows{};
     /** Unit normal of the plane, towards the viewer's half space. */
     Vector3 normal{};
     /** Whether the plane's normal as given points away from the viewer. */

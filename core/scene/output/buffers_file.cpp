@@ -86,6 +86,7 @@ void write_camera(hid_t file, const Camera& camera) {
         write_attribute(file, "camera_field_of_view", camera.field_of_view);
     }
     write_attribute(file, "camera_image_shift", camera.image_shift);
+    write_attribute(file, "camera_near", camera.near);
 }
 
 void write_all(hid_t file, const Frame& frame, const FrameRequest& request, const RuntimeVolume& volume, hid_t real) {

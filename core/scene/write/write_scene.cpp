@@ -20,6 +20,7 @@ SceneJson camera_json(const SceneCamera& camera) {
     set(json, "up", camera.up);
     set(json, "field_of_view", camera.field_of_view);
     set(json, "height", camera.height);
+    set(json, "near", camera.near);
     if (camera.image_shift != std::array<double, 2>{}) {
         json["image_shift"] = camera.image_shift;
     }
