@@ -7,6 +7,7 @@
 #include "tiles/hierarchy.glsl"
 #include "element/inside.glsl"
 #include "element/linearization.glsl"
+#include "cut_surface/reach.glsl"
 
 struct core_side {
     bool is_inside, is_on_face;
@@ -87,9 +88,14 @@ core_newton core_newton_start(uint element, elvis_vec3 target) {
 #define CORE_START_ERROR elvis_real(1e-2LF)
 
 // Whether the start alone, a prediction from the centroid, is far enough outside.
-bool core_is_outside(core_newton state) {
-    return core_excess(state.x, state.y, state.z) >
-           CORE_CONSTRAINT_NORM * (core_prediction_error(state.curvature, state.last_step) + CORE_START_ERROR);
+bool core_is_outside(uint element, core_newton start) {
+    bool is_outside = core_excess(start.x, start.y, start.z) >
+                      CORE_CONSTRAINT_NORM * (core_prediction_error(start.curvature, start.last_step) + CORE_START_ERROR);
+#ifdef elvis_fetch4_core_reaches
+    const elvis_vec3 linear = elvis_vec3(start.x, start.y, start.z);
+    is_outside = is_outside || core_is_beyond_reach(elvis_fetch4_core_reaches(element, 0u), linear, CORE_START_ERROR);
+#endif
+    return is_outside;
 }
 
 struct core_element_candidate {

@@ -74,7 +74,7 @@ void core_next_element(core_cut_point point, vec3 in_hierarchy, float box_tolera
         candidate.target = core_target_in(node.child, point);
         candidate.state =
             core_newton_start(node.child, elvis_vec3(candidate.target.x, candidate.target.y, candidate.target.z));
-        candidate.element = core_is_outside(candidate.state) ? CORE_NO_ELEMENT : node.child;
+        candidate.element = core_is_outside(node.child, candidate.state) ? CORE_NO_ELEMENT : node.child;
     }
     // Entries are leaves as a rule.
     if (is_touched && !node.is_leaf) {
@@ -119,7 +119,9 @@ void core_step_in_candidate(core_cut_point point, inout core_element_candidate c
     const bool is_alone = is_held && CORE_OVERLAPS == 0;
     const bool is_dismissed = status == CORE_NEWTON_OUTSIDE || status == CORE_NEWTON_FAILED ||
                               (status == CORE_NEWTON_CONVERGED && excess > most);
-    found.is_open = found.is_open || (is_active && !candidate.is_tracked && is_dismissed && !candidate.state.is_certain);
+    const bool is_open = is_active && !candidate.is_tracked && is_dismissed && !candidate.state.is_certain;
+    found.n_open += is_open ? 1u : 0u;
+    found.open_element = is_open ? candidate.element : found.open_element;
     const bool is_accepted = side.is_inside && (is_alone || !candidate.is_tracked);
     found.n_holders += is_held ? 1u : 0u;
     core_take_candidate(is_accepted, candidate, elvis_fetch_core_elements(element, 0u), side, found);
@@ -170,7 +172,8 @@ void core_list_other(uint pixel, core_location found) {
 
 // No element was found, and some were dismissed without a bound, or given up.
 void core_list_open_point(uint pixel, core_location found) {
-    if (found.is_open && found.element == CORE_NO_ELEMENT) {
-        core_open_points[atomicAdd(core_n_open_points, 1u)] = pixel;
+    if (found.n_open > 0u && found.element == CORE_NO_ELEMENT) {
+        core_open_points[atomicAdd(core_n_open_points, 1u)] =
+            core_open_point(pixel, found.n_open == 1u ? found.open_element : CORE_NO_ELEMENT);
     }
 }

@@ -16,6 +16,7 @@ const Choice yes(const char* name) { return {name, {"1"}}; }
 const Choice no(const char* name) { return {name, {"0"}}; }
 
 const std::vector<std::string> elements{"core_nodes", "core_elements"};
+const std::vector<std::string> bent_elements{"core_nodes", "core_elements", "core_reaches"};
 const std::vector<std::string> faces{"core_nodes", "core_faces", "core_patches"};
 const std::vector<std::string> fitted_faces{"core_nodes", "core_faces", "core_patches", "core_face_points"};
 const std::vector<std::string> octants{"core_elements", "core_nodes", "core_octants"};
@@ -63,15 +64,20 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
                     .choices = {group},
                     .is_for_solids = true,
                     .watches_loops = true});
+    uses.push_back({.kernel = "cut_surface/element_reaches",
+                    .element = Element::snippet,
+                    .buffers = {"core_elements"},
+                    .is_for_solids = true,
+                    .watches_loops = true});
     uses.push_back({.kernel = "cut_surface/open_points",
                     .element = Element::value,
-                    .buffers = {"core_nodes", "core_elements", "core_octants", "core_octant_nodes"},
+                    .buffers = {"core_nodes", "core_elements", "core_reaches", "core_octants", "core_octant_nodes"},
                     .choices = {group, element_class, no_or_yes("CORE_ON_PLANE")},
                     .is_for_solids = true});
     uses.push_back({.kernel = "cut_surface/cut_tiles", .buffers = elements, .choices = {width, height}});
     uses.push_back({.kernel = "cut_surface/cut_plane",
                     .element = Element::value,
-                    .buffers = elements,
+                    .buffers = bent_elements,
                     .choices = {width, height, no("CORE_LINES"), no_or_yes("CORE_OVERLAPS")},
                     .is_for_solids = true});
     uses.push_back({.kernel = "cut_surface/cut_plane",
@@ -87,7 +93,7 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
     uses.push_back({.kernel = "cut_surface/surface_tiles", .buffers = elements, .choices = {width, height}});
     uses.push_back({.kernel = "cut_surface/surface_pixels",
                     .element = Element::value,
-                    .buffers = elements,
+                    .buffers = bent_elements,
                     .choices = {width, height, no_or_yes("CORE_OVERLAPS"), element_class},
                     .is_for_solids = true});
     const std::vector<Choice> hits{width, height, {"CORE_HIT_ROWS", {"4u"}}, {"CORE_SHAPE_ROWS", {"8"}}};

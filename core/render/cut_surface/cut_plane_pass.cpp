@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace elvis {
 
@@ -81,6 +82,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         ClassKernels kernels;
         kernels.element_class = index;
         kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
+        std::ranges::copy(m_open.buffers(index), std::back_inserter(request.buffers));
 
         data.add_field(request, index, m_with_lines);
         if (edit) {

@@ -2,6 +2,8 @@
 #include <core/render/device/in_batches.hpp>
 #include <core/render/device/provide_buffer.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace elvis {
@@ -26,12 +28,26 @@ struct Parameters {
 } // namespace
 
 OpenPoints::OpenPoints(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool is_on_plane)
-    : m_device(device), m_volume(volume), m_data(data), m_is_on_plane(is_on_plane), m_classes(volume.classes().size()) {}
+    : m_device(device), m_volume(volume), m_data(data), m_is_on_plane(is_on_plane), m_classes(volume.classes().size()) {
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        if (volume.dimension() == 3 && ElementReaches::has_bent(data.curvatures(index))) {
+            m_classes[index].reaches = std::make_unique<ElementReaches>(device, volume, data, index);
+        }
+    }
+}
+
+std::vector<FetchBuffer> OpenPoints::buffers(std::uint32_t element_class) const {
+    const std::unique_ptr<ElementReaches>& reaches = m_classes[element_class].reaches;
+    return reaches ? std::vector{reaches->buffer()} : std::vector<FetchBuffer>{};
+}
 
 const Buffer& OpenPoints::begin(std::uint32_t element_class, std::uint64_t n_pixels) {
-    Buffer& list = provide_buffer(m_classes[element_class].list, m_device, (n_pixels + 1) * sizeof(std::uint32_t));
+    Buffer& list = provide_buffer(m_classes[element_class].list, m_device, (2 * n_pixels + 1) * sizeof(std::uint32_t));
     const std::uint32_t none = 0;
     list.write_items(std::span(&none, 1));
+    if (m_classes[element_class].reaches) {
+        m_classes[element_class].reaches->begin();
+    }
     return list;
 }
 
@@ -46,9 +62,8 @@ void OpenPoints::provide_kernel(std::uint32_t element_class) {
     request.kernel = "cut_surface/open_points.comp";
     request.precision = m_data.precision();
     request.buffers = m_data.host_buffers(element_class);
-    for (const FetchBuffer& buffer : of_class.octants->buffers()) {
-        request.buffers.push_back(buffer);
-    }
+    std::ranges::copy(buffers(element_class), std::back_inserter(request.buffers));
+    std::ranges::copy(of_class.octants->buffers(), std::back_inserter(request.buffers));
     m_data.add_field(request, element_class);
     request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)},
                        {"CORE_CLASS", std::to_string(element_class) + "u"},
@@ -79,6 +94,7 @@ void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
     }
     of_class.octants->begin();
     // Where octants were missing it is done again with them.
+    std::vector<std::uint32_t> elements;
     do {
         in_batches(n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
             const Parameters parameters{layer.width,
@@ -93,7 +109,11 @@ void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
                                         surface.places != nullptr ? 1u : 0u};
             of_class.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
         });
-    } while (of_class.octants->provide());
+        elements = of_class.octants->provide();
+        if (of_class.reaches) {
+            of_class.reaches->provide(elements);
+        }
+    } while (!elements.empty());
 }
 
 } // namespace elvis

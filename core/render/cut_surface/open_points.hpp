@@ -9,6 +9,7 @@
 #include <core/shader/composer.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/element/element_octants.hpp>
+#include <core/volume/element/element_reaches.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -40,6 +41,8 @@ public:
         float most_error = 0;
     };
 
+    /** For kernels that search elements of a class: what dismisses points, if there is something (`core_reaches`). */
+    std::vector<FetchBuffer> buffers(std::uint32_t element_class) const;
     /** An empty list for the kernel that draws pixels of a class. */
     const Buffer& begin(std::uint32_t element_class, std::uint64_t n_pixels);
     /** Searches what the class's list holds. */
@@ -48,6 +51,8 @@ public:
 private:
     struct OfClass {
         std::optional<Buffer> list;
+        /** Only if there are strongly bent elements. */
+        std::unique_ptr<ElementReaches> reaches;
         std::unique_ptr<ElementOctants> octants;
         std::unique_ptr<ComposedKernel> kernel;
     };

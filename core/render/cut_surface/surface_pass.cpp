@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace elvis {
 
@@ -76,6 +77,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         ClassKernels kernels;
         kernels.element_class = index;
         kernels.tiles = std::make_unique<ComposedKernel>(device, request);
+        std::ranges::copy(m_open.buffers(index), std::back_inserter(request.buffers));
 
         request.name = "surface_pixels of element class " + std::to_string(index);
         request.kernel = "cut_surface/surface_pixels.comp";

@@ -1,0 +1,84 @@
+#include <core/volume/element/element_reaches.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+namespace {
+
+/** Elements of one dispatch, a work group each; and of one write. */
+constexpr std::size_t block = 16384;
+/** shaders/cut_surface/reach.glsl: six numbers of half precision, of which nothing is known. */
+constexpr std::uint32_t record_size = 3;
+constexpr std::uint32_t unknown = 0x7b537b53;
+
+KernelRequest kernel_request(const DeviceVolume& data, std::uint32_t element_class) {
+    KernelRequest request;
+    request.name = "element_reaches of element class " + std::to_string(element_class);
+    request.kernel = "cut_surface/element_reaches.comp";
+    request.watches_loops = true;
+    request.precision = data.precision();
+    request.instances = {data.instance(element_class)};
+    request.buffers = {data.elements(element_class)};
+    request.bindings = buffer_bindings({.storage = 2});
+    return request;
+}
+
+/** shaders/cut_surface/reach.glsl */
+constexpr float least_bent = 0.5F;
+
+} // namespace
+
+bool ElementReaches::has_bent(std::span<const float> curvatures) {
+    return std::ranges::any_of(curvatures, [](float curvature) { return curvature > least_bent; });
+}
+
+ElementReaches::ElementReaches(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                               std::uint32_t element_class)
+    : m_device(device), m_data(data), m_class(element_class), m_n_elements(volume.classes()[element_class].n_elements),
+      m_records(device, RecordKind::uint, data.precision(), m_n_elements, record_size),
+      m_geometry_version(data.geometry_version()) {
+    clear();
+}
+
+void ElementReaches::clear() {
+    const std::vector<std::uint32_t> words(record_size * std::min<std::uint64_t>(block, m_n_elements), unknown);
+    for (std::uint64_t first = 0; first < m_n_elements; first += block) {
+        const std::uint64_t count = std::min<std::uint64_t>(block, m_n_elements - first);
+        m_records.write_uints(first, std::span(words).first(record_size * count));
+    }
+}
+
+void ElementReaches::begin() {
+    if (m_geometry_version != m_data.geometry_version()) {
+        clear();
+        m_geometry_version = m_data.geometry_version();
+    }
+}
+
+void ElementReaches::provide(std::span<const std::uint32_t> elements) {
+    if (elements.empty()) {
+        return;
+    }
+    if (!m_kernel) {
+        m_kernel.emplace(m_device, kernel_request(m_data, m_class));
+    }
+    const std::size_t at_once = std::min(elements.size(), block);
+    const Buffer input(m_device, at_once * sizeof(std::uint32_t));
+    const Buffer output(m_device, at_once * record_size * sizeof(std::uint32_t));
+    const std::array<const Buffer*, 2> bindings = {&input, &output};
+    for (std::size_t first = 0; first < elements.size(); first += at_once) {
+        const std::span<const std::uint32_t> wanted = elements.subspan(first, std::min(at_once, elements.size() - first));
+        input.write_items(wanted);
+        m_kernel->dispatch(bindings, {}, static_cast<std::uint32_t>(wanted.size()));
+        const auto words = output.read_items<std::uint32_t>(wanted.size() * record_size);
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            m_records.write_uints(wanted[i], std::span(words).subspan(record_size * i, record_size));
+        }
+    }
+}
+
+} // namespace elvis
