@@ -1,7 +1,8 @@
 // The error of a prediction of Newton's method that started from a point of the element (or face) at distance d from the solution
 // is at most C d^2, where the curvature C is half the Lipschitz constant of the Jacobian, relative to the Jacobian: all in the
 // maximum norm of reference coordinates (the remainder of Newton's method; e.g. J. Stoer, R. Bulirsch, Introduction to Numerical
-// Analysis, theorem 5.3.2). C is measured for each element when a volume is opened (element/linearize.comp).
+// Analysis, theorem 5.3.2). C is bounded for each element when a volume is opened (core/volume/element/mapping_curvature.hpp), or
+// measured where that cannot be (element/linearize.comp).
 
 #ifndef CORE_PREDICTION
 #define CORE_PREDICTION
