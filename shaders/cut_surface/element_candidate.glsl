@@ -89,7 +89,8 @@ core_newton core_newton_start(uint element, elvis_vec3 target) {
 // Whether the start alone, a prediction from the centroid, is far enough outside.
 bool core_is_outside(core_newton state) {
     return core_excess(state.x, state.y, state.z) >
-           CORE_CONSTRAINT_NORM * (core_prediction_error(state.curvature, state.last_step) + CORE_START_ERROR);
+           CORE_CONSTRAINT_NORM *
+               (core_prediction_error_within(state.curvature, state.last_step, CORE_EXTENT) + CORE_START_ERROR);
 }
 
 struct core_element_candidate {

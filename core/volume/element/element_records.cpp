@@ -20,8 +20,6 @@ constexpr std::uint32_t group_size = 32;
 constexpr std::uint64_t block = 65536;
 /** Of which a thread bounds the curvatures before it takes others. */
 constexpr std::uint64_t elements_a_thread = 512;
-/** Not 0: some divide by it. */
-constexpr float affine_curvature = 1e-7F;
 /** Those of the record but for the number; then the curvature, and a box. */
 constexpr std::uint32_t curvature_at = element_record_size - 1, box_at = element_record_size;
 constexpr std::uint32_t words_an_element = box_at + 6;
@@ -68,7 +66,7 @@ void check_box(const RuntimeVolume& volume, std::uint64_t element, std::span<con
 /** What shaders/element/linearize.comp expects. */
 std::vector<float> proven_curvatures(const Device& device, const RuntimeVolume& volume, const ClassInfo& info) {
     if (info.is_affine) {
-        return std::vector<float>(info.n_elements, affine_curvature);
+        return std::vector<float>(info.n_elements, 0.0F);
     }
     if (!volume.has_evaluation() || !CurvatureBounder::can_bound(info)) {
         return std::vector<float>(info.n_elements, -1.0F);

@@ -23,13 +23,8 @@ constexpr double close_enough = 1.5;
 constexpr std::size_t most_parts = 128;
 /** Nothing rests on larger ones (CORE_ASSUMED_CURVATURE of shaders/segments/segment.glsl), and they take long. */
 constexpr double most_curvature = 4;
-/**
- * Of positions, relative to their size: 32 roundings, as is taken for what solvers and converters write. Interpolation and
- * differences round by less.
- */
-constexpr double rounding = 32 * 0x1p-53;
-/** Slopes of nine entries go into a norm. */
-constexpr double n_entries = 9;
+/** For the rounding of sums, by far. */
+constexpr double margin = 1 + 1e-6;
 
 using Matrix3 = std::array<double, 9>;
 
@@ -116,7 +111,9 @@ std::optional<Part> part_of(elvis_shape shape, const Vector3& middle, double hal
 double extent(elvis_shape shape) { return shape == ELVIS_SHAPE_HEXAHEDRON ? 1.0 : shape == ELVIS_SHAPE_PRISM ? 4.0 / 3 : 1.5; }
 
 float rounded_up(double curvature) {
-    return curvature <= most_curvature ? std::nextafter(static_cast<float>(curvature), unknown_curvature) : unknown_curvature;
+    const double with_margin = margin * curvature;
+    return with_margin <= most_curvature ? std::nextafter(static_cast<float>(with_margin), unknown_curvature)
+                                         : unknown_curvature;
 }
 
 /** Of the part in which the Jacobian changes by 2 curvature radius at most. */
@@ -155,12 +152,13 @@ struct CurvatureBounder::Element {
     };
     /** The largest come first. */
     std::vector<Form> forms;
-    /** Of their rounding. */
-    double noise;
 
     /** |a^-1 J0^-1 D^2x| / 2. */
     double curvature(const Matrix3& a) const {
         const Matrix3 to = inverse_of(a);
+        if (!is_finite(to)) {
+            return std::numeric_limits<double>::infinity();
+        }
         const double stretch = norm(to);
         double largest = 0;
         for (const Form& form : forms) {
@@ -169,7 +167,7 @@ struct CurvatureBounder::Element {
             }
             raise_to_norm_of(form, to, largest);
         }
-        return 0.5 * (largest + stretch * noise);
+        return 0.5 * largest;
     }
 
     static void raise_to_norm_of(const Form& form, const Matrix3& to, double& largest) {
@@ -211,7 +209,6 @@ void CurvatureBounder::operator()(const ElementMapping& mapping, std::uint64_t f
 }
 
 void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures) const {
-    std::array<double, lanes> sizes{};
     const std::size_t n_nodes = m_derivatives.n_nodes(), polynomial = m_derivatives.polynomial_at();
     for (std::size_t lane = 0; lane < group.count; ++lane) {
         std::vector<double>& x = group.positions;
@@ -219,7 +216,6 @@ void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures) co
         for (std::size_t node = 0; node < n_nodes; ++node) {
             for (std::size_t i = 0; i < 3; ++i) {
                 group.at(node, i, lane) = x[3 * node + i] - x[i];
-                sizes[lane] = std::max(sizes[lane], std::abs(x[3 * node + i]));
             }
         }
     }
@@ -259,13 +255,12 @@ void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures) co
         }
     }
     for (std::size_t lane = 0; lane < group.count; ++lane) {
-        const double noise = n_entries * m_derivatives.amplification() * rounding * sizes[lane] * norm(inverses[lane]);
-        const double curvature = 0.5 * (largest[lane] + noise), bound = bound_on(curvature, extent(m_shape));
+        const double curvature = 0.5 * largest[lane], bound = bound_on(curvature, extent(m_shape));
         if (!is_finite(inverses[lane]) || bound <= close_enough * curvature) {
             curvatures[lane] = is_finite(inverses[lane]) ? rounded_up(bound) : unknown_curvature;
             continue;
         }
-        Element element{group.mapping, group.first + lane, inverses[lane], {}, noise};
+        Element element{group.mapping, group.first + lane, inverses[lane], {}};
         for (std::size_t coefficient = 0; coefficient < m_derivatives.n_coefficients(); ++coefficient) {
             Element::Form& form = element.forms.emplace_back();
             for (std::size_t entry = 0; entry < form.entries.size(); ++entry) {

@@ -10,6 +10,9 @@
  * coefficients. For one point a of a part of K whose points are no farther than r from it, this is a number C_a; on the part J
  * changes by 2 C_a r relative to J(a), so that (Neumann's series) C <= C_a / (1 - 2 C_a r) there. Parts are halved until this
  * is close.
+ *
+ * It is that of the polynomial through positions as they are evaluated. The mapping differs from it by the rounding of
+ * positions, which all who compare positions allow for.
  */
 #pragma once
 

@@ -142,7 +142,6 @@ public:
         std::size_t source = 0;
         for (std::size_t factor = 0; factor < m_factors.size(); ++factor) {
             const Matrix map = m_factors[factor].interpolation();
-            m_of.m_amplification *= map.cwiseAbs().rowwise().sum().maxCoeff();
             source = add(m_of.m_interpolation, map, factor, source, m_sizes);
         }
         m_of.m_polynomial_at = source;
@@ -151,7 +150,6 @@ public:
     void differentiate(std::size_t derivative, std::array<std::size_t, 2> directions) {
         std::vector<std::size_t> done, sizes = m_sizes;
         std::size_t source = m_of.m_polynomial_at;
-        double largest = 1;
         for (std::size_t factor = 0; factor < m_factors.size(); ++factor) {
             std::vector<std::size_t> in;
             for (const std::size_t direction : directions) {
@@ -165,7 +163,6 @@ public:
                 continue;
             }
             const Matrix map = m_factors[factor].derivative(in, m_factors.size() > 1);
-            largest *= map.cwiseAbs().rowwise().sum().maxCoeff();
             for (const std::size_t direction : in) {
                 done.push_back(m_factors[factor].directions[direction]);
             }
@@ -176,10 +173,7 @@ public:
         }
         m_of.m_derivatives_at[derivative] = source;
         m_of.m_n_coefficients = product(sizes);
-        m_largest = std::max(m_largest, largest);
     }
-
-    double largest() const { return m_largest; }
 
 private:
     static std::size_t product(std::span<const std::size_t> sizes) {
@@ -214,7 +208,6 @@ private:
     std::span<const Factor> m_factors;
     std::vector<std::size_t> m_sizes;
     std::map<std::vector<std::size_t>, std::size_t> m_known;
-    double m_largest = 0;
 };
 
 SecondDerivatives::SecondDerivatives(elvis_shape shape, std::span<const std::uint32_t, 3> order) {
@@ -236,7 +229,6 @@ SecondDerivatives::SecondDerivatives(elvis_shape shape, std::span<const std::uin
             planner.differentiate(derivative++, {j, k});
         }
     }
-    m_amplification *= planner.largest();
 }
 
 void SecondDerivatives::place_nodes(std::span<const Factor> factors) {

@@ -33,8 +33,6 @@ public:
     std::size_t n_nodes() const { return m_nodes.size() / 3; }
     /** Derivatives at the shape's centroid from the polynomial's n_nodes() coefficients: three weights each. */
     std::span<const double> gradient_weights() const { return m_gradient_weights; }
-    /** Errors of values at nodes are at most this times larger in coefficients of second derivatives. */
-    double amplification() const { return m_amplification; }
 
     /** Numbers for each polynomial: in front its values at nodes. */
     std::size_t size() const { return m_size; }
@@ -80,7 +78,6 @@ private:
     std::vector<Step> m_interpolation, m_differentiation;
     std::array<std::size_t, n_derivatives> m_derivatives_at{};
     std::size_t m_polynomial_at = 0, m_n_coefficients = 0, m_size = 0;
-    double m_amplification = 1;
 };
 
 template <std::size_t count> void SecondDerivatives::apply(const Step& step, double* numbers) const {
