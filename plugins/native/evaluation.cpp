@@ -121,8 +121,17 @@ void Volume::evaluate_mapping(std::uint64_t element, std::span<const double> xi,
                               std::span<double> jacobians) const {
     const Place where = place(element);
     const Coefficients coefficients = element_geometry(where);
-    VectorFunction mapping(geometry_space(where.element_class), coefficients.numbers);
-    for (std::size_t i = 0; i < xi.size() / 3; ++i) {
+    const native::Space& space = geometry_space(where.element_class);
+    const std::size_t n_points = xi.size() / 3;
+    if (jacobians.empty() && !positions.empty() && n_points >= ModeTables::least_points) {
+        const ModeTables::Table table = m_mode_tables.get(space, xi);
+        const Eigen::Map<const Eigen::MatrixX3d> of_modes(coefficients.numbers.data(), table->cols(), 3);
+        Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(positions.data(), table->rows(), 3).noalias() =
+            *table * of_modes;
+        return;
+    }
+    VectorFunction mapping(space, coefficients.numbers);
+    for (std::size_t i = 0; i < n_points; ++i) {
         mapping.move_to(point(xi, i));
         if (!positions.empty())
             Eigen::Map<Vector3>(positions.data() + 3 * i) = mapping.value();

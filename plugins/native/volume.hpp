@@ -5,6 +5,7 @@
 #pragma once
 
 #include "block_cache.hpp"
+#include "mode_table.hpp"
 
 #include <elvis/native/conversion.hpp>
 #include <elvis/native/derivative_bounds.hpp>
@@ -133,6 +134,7 @@ private:
     /** By class, then by field. */
     std::vector<std::vector<elvis_constant>> m_constants;
     mutable BlockCache m_cache;
+    mutable ModeTables m_mode_tables;
     mutable std::mutex m_conversions_mutex;
     mutable std::vector<std::pair<native::Space, std::unique_ptr<const Conversion>>> m_conversions;
     struct KnownBounder {

@@ -90,7 +90,8 @@ core_newton core_newton_start(uint element, elvis_vec3 target) {
 // Whether the start alone, a prediction from the centroid, is far enough outside.
 bool core_is_outside(uint element, core_newton start) {
     bool is_outside = core_excess(start.x, start.y, start.z) >
-                      CORE_CONSTRAINT_NORM * (core_prediction_error(start.curvature, start.last_step) + CORE_START_ERROR);
+                      CORE_CONSTRAINT_NORM *
+                          (core_prediction_error_within(start.curvature, start.last_step, CORE_EXTENT) + CORE_START_ERROR);
 #ifdef elvis_fetch4_core_reaches
     const elvis_vec3 linear = elvis_vec3(start.x, start.y, start.z);
     is_outside = is_outside || core_is_beyond_reach(elvis_fetch4_core_reaches(element, 0u), linear, CORE_START_ERROR);

@@ -99,8 +99,7 @@ elvis_real core_enter_octant(uint code, inout core_newton state) {
 bool core_is_beyond_octant(uint code, core_newton state, core_inverse inverse, elvis_real farthest) {
     const elvis_vec3 way = elvis_vec3(state.x, state.y, state.z) - elvis_vec3(core_octant_middle(code));
     const elvis_real rounding = elvis_real(2) * max(max(inverse.error0, inverse.error1), inverse.error2);
-    const elvis_real error = rounding + min(core_prediction_error(state.curvature, state.last_step),
-                                            state.curvature * farthest * farthest);
+    const elvis_real error = rounding + core_prediction_error_within(state.curvature, state.last_step, farthest);
     return core_max_norm(way) > elvis_real(core_octant_half_side(code)) + error ||
            core_excess(state.x, state.y, state.z) > CORE_CONSTRAINT_NORM * error;
 }

@@ -137,7 +137,9 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
                               step * step * step <= elvis_real(0.25LF) * tolerance * state.last_step * state.last_step;
     const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));
     const elvis_real rounding = elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;
-    state.is_certain = is_regular && excess > CORE_CONSTRAINT_NORM * core_prediction_error(state.curvature, step) + rounding;
+    // Points of the shape are no farther from there.
+    const elvis_real off = core_prediction_error_within(state.curvature, step, elvis_real(1) + core_max_norm(xi));
+    state.is_certain = is_regular && excess > CORE_CONSTRAINT_NORM * off + rounding;
     const bool is_steady = is_regular && has_change && state.steps > 0u && excess > elvis_real(8) * change + rounding;
     const bool outside = state.is_certain || is_steady;
     core_newton_move(xi, next, excess, is_regular, state);

@@ -11,7 +11,7 @@ bool core_is_far_outside(elvis_vec3 start, elvis_real extent, elvis_real curvatu
     const elvis_vec3 from_centroid = abs(start - CORE_CENTROID);
     const elvis_real step = max(max(from_centroid.x, from_centroid.y), from_centroid.z) + extent;
     return core_excess(start.x, start.y, start.z) >
-           CORE_CONSTRAINT_NORM * (core_prediction_error(curvature, step) + extent + start_error);
+           CORE_CONSTRAINT_NORM * (core_prediction_error_within(curvature, step, CORE_EXTENT) + extent + start_error);
 }
 
 elvis_vec3 core_corner_offset(core_linearization linearization, elvis_vec3 corner, elvis_vec3 start) {

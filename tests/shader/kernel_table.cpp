@@ -42,7 +42,10 @@ void add_element_kernels(std::vector<KernelUse>& uses) {
     uses.push_back(
         {.kernel = "segments/face_cones", .element = Element::snippet, .is_for_solids = true, .watches_loops = true});
     uses.push_back({.kernel = "boundary/face_samples", .element = Element::snippet, .buffers = {"core_faces"}});
-    uses.push_back({.kernel = "element/linearize", .element = Element::snippet, .watches_loops = true});
+    uses.push_back({.kernel = "element/linearize",
+                    .element = Element::snippet,
+                    .choices = {no_or_yes("CORE_IS_MEASURED")},
+                    .watches_loops = true});
     uses.push_back({.kernel = "field/sampled_range", .element = Element::value, .buffers = elements, .watches_loops = true});
     uses.push_back(
         {.kernel = "field/point_values", .element = Element::value, .choices = {{"CORE_GROUP_SIZE", {"64"}}, element_class}});

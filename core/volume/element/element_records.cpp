@@ -1,10 +1,13 @@
+#include <core/base/background.hpp>
 #include <core/base/error.hpp>
 #include <core/volume/element/element_records.hpp>
+#include <core/volume/element/mapping_curvature.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -15,6 +18,8 @@ namespace {
 constexpr std::uint32_t group_size = 32;
 /** Elements of one dispatch: bounds its time and the memory for its results. */
 constexpr std::uint64_t block = 65536;
+/** Of which a thread bounds the curvatures before it takes others. */
+constexpr std::uint64_t elements_a_thread = 512;
 /** Those of the record but for the number; then the curvature, and a box. */
 constexpr std::uint32_t curvature_at = element_record_size - 1, box_at = element_record_size;
 constexpr std::uint32_t words_an_element = box_at + 6;
@@ -58,23 +63,61 @@ void check_box(const RuntimeVolume& volume, std::uint64_t element, std::span<con
                               : "`elvis check-plugin` tells more"));
 }
 
+/** What shaders/element/linearize.comp expects. */
+std::vector<float> proven_curvatures(const Device& device, const RuntimeVolume& volume, const ClassInfo& info) {
+    if (info.is_affine) {
+        return std::vector<float>(info.n_elements, 0.0F);
+    }
+    if (!volume.has_evaluation() || !CurvatureBounder::can_bound(info)) {
+        return std::vector<float>(info.n_elements, -1.0F);
+    }
+    const CurvatureBounder bounder(info.shape, info.geometry_order);
+    const ElementMapping mapping = [&](std::uint64_t element, std::span<const double> xi, std::span<double> positions,
+                                       std::span<double> jacobians) {
+        volume.evaluate_mapping(element, xi, positions, jacobians);
+    };
+    std::vector<float> curvatures(info.n_elements);
+    std::vector<std::shared_ptr<Background::Work>> parts;
+    for (std::uint64_t first = 0; first < info.n_elements; first += elements_a_thread) {
+        const auto part = std::span(curvatures).subspan(first, std::min(elements_a_thread, info.n_elements - first));
+        parts.push_back(
+            device.background().hand_over([&, first, part] { bounder(mapping, info.first_element + first, part); }));
+    }
+    try {
+        for (const auto& part : parts) {
+            device.check_task();
+            part->wait();
+        }
+    } catch (...) {
+        for (const auto& part : parts) {
+            part->drop();
+        }
+        throw;
+    }
+    return curvatures;
+}
+
 } // namespace
 
 std::vector<float> write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
                                   const SnippetInstance& instance, Precision precision, const ElementBoxes& said,
                                   RecordBuffer& records) {
     const ClassInfo& info = volume.classes()[element_class];
+    const std::vector<float> proven = proven_curvatures(device, volume, info);
+    const bool is_measured = std::ranges::any_of(proven, [](float of) { return of < 0 || of == unknown_curvature; });
     KernelRequest request;
     request.name = "linearize of element class " + std::to_string(element_class);
     request.kernel = "element/linearize.comp";
     request.watches_loops = true;
     request.precision = precision;
     request.instances = {instance};
-    request.bindings = {{0, BindingType::storage_buffer}};
+    request.defines = {{"CORE_IS_MEASURED", is_measured ? "1" : "0"}};
+    request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
     request.push_constant_bytes = sizeof(Parameters);
     const ComposedKernel kernel(device, request);
-    const Buffer output(device, std::min(block, info.n_elements) * words_an_element * sizeof(std::uint32_t));
-    const std::array<const Buffer*, 1> bindings = {&output};
+    const std::uint64_t largest = std::min(block, info.n_elements);
+    const Buffer output(device, largest * words_an_element * sizeof(std::uint32_t)), input(device, largest * sizeof(float));
+    const std::array<const Buffer*, 2> bindings = {&output, &input};
 
     std::vector<float> curvatures;
     std::vector<std::int64_t> numbers;
@@ -82,6 +125,7 @@ std::vector<float> write_elements(const Device& device, const RuntimeVolume& vol
     for (std::uint64_t first = 0; first < info.n_elements; first += block) {
         const auto count = static_cast<std::uint32_t>(std::min(block, info.n_elements - first));
         const Parameters parameters{static_cast<std::uint32_t>(first), count};
+        input.write_items(std::span(proven).subspan(first, count));
         kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
         const auto computed = output.read_items<std::uint32_t>(std::size_t{count} * words_an_element);
         numbers.resize(count);

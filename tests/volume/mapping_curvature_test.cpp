@@ -1,0 +1,228 @@
+// The proven curvature of polynomial mappings: never below what a dense sample shows, and not much above.
+#include <tests/support/test_volumes.hpp>
+
+#include <core/base/vector3.hpp>
+#include <core/oracle/samples/meshes.hpp>
+#include <core/volume/device_volume.hpp>
+#include <core/volume/element/mapping_curvature.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <random>
+#include <vector>
+
+namespace elvis {
+namespace {
+
+struct Term {
+    std::array<int, 3> power;
+    Vector3 factor;
+};
+
+/** x = xi + sum of terms. */
+class Polynomial {
+public:
+    explicit Polynomial(std::vector<Term> terms) : m_terms(std::move(terms)) {}
+
+    Vector3 at(const Vector3& xi) const { return plus(xi, derivative(xi, {})); }
+    std::array<double, 9> jacobian(const Vector3& xi) const {
+        std::array<double, 9> result{1, 0, 0, 0, 1, 0, 0, 0, 1};
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Vector3 column = derivative(xi, {j});
+            for (std::size_t i = 0; i < 3; ++i) {
+                result[3 * i + j] += column[i];
+            }
+        }
+        return result;
+    }
+    /** Of the terms. */
+    Vector3 derivative(const Vector3& xi, const std::vector<std::size_t>& directions) const {
+        Vector3 sum{};
+        for (const Term& term : m_terms) {
+            double value = 1;
+            std::array<int, 3> power = term.power;
+            for (const std::size_t direction : directions) {
+                value *= power[direction];
+                --power[direction];
+            }
+            for (std::size_t i = 0; i < 3 && value != 0; ++i) {
+                value *= std::pow(xi[i], power[i]);
+            }
+            sum = plus(sum, scaled(term.factor, value));
+        }
+        return sum;
+    }
+
+private:
+    std::vector<Term> m_terms;
+};
+
+ElementMapping mapping_of(const Polynomial& polynomial) {
+    return [&polynomial](std::uint64_t, std::span<const double> xi, std::span<double> positions, std::span<double> jacobians) {
+        for (std::size_t point = 0; point < xi.size() / 3; ++point) {
+            const Vector3 at{xi[3 * point], xi[3 * point + 1], xi[3 * point + 2]};
+            if (!positions.empty()) {
+                std::ranges::copy(polynomial.at(at), positions.begin() + static_cast<std::ptrdiff_t>(3 * point));
+            }
+            if (!jacobians.empty()) {
+                std::ranges::copy(polynomial.jacobian(at), jacobians.begin() + static_cast<std::ptrdiff_t>(9 * point));
+            }
+        }
+    };
+}
+
+bool is_inside(elvis_shape shape, const Vector3& xi) {
+    return shape == ELVIS_SHAPE_HEXAHEDRON || (shape == ELVIS_SHAPE_PRISM && xi[0] + xi[2] <= 1e-12) ||
+           (shape == ELVIS_SHAPE_TETRAHEDRON && xi[0] + xi[1] + xi[2] <= -1 + 1e-12);
+}
+
+/** Points of a lattice, corners and edges among them. */
+std::vector<Vector3> lattice(elvis_shape shape, int n) {
+    std::vector<Vector3> points;
+    for (int place = 0; place < n * n * n; ++place) {
+        const auto at = [n](int index) { return -1 + 2.0 * index / (n - 1); };
+        const Vector3 xi{at(place % n), at(place / n % n), at(place / n / n)};
+        if (is_inside(shape, xi)) {
+            points.push_back(xi);
+        }
+    }
+    return points;
+}
+
+std::array<double, 9> inverse_of(const std::array<double, 9>& m) {
+    const Vector3 a{m[0], m[1], m[2]}, b{m[3], m[4], m[5]}, c{m[6], m[7], m[8]};
+    const Vector3 columns[] = {cross(b, c), cross(c, a), cross(a, b)};
+    std::array<double, 9> result{};
+    for (std::size_t i = 0; i < 9; ++i) {
+        result[i] = columns[i % 3][i / 3] / dot(a, columns[0]);
+    }
+    return result;
+}
+
+/** sup |J(a)^-1 D^2x(b)| / 2 over the points given. */
+double sampled(const Polynomial& polynomial, const std::vector<Vector3>& of_jacobians, const std::vector<Vector3>& of_bends) {
+    std::vector<std::array<Vector3, 9>> bends;
+    for (const Vector3& xi : of_bends) {
+        auto& of_point = bends.emplace_back();
+        for (std::size_t entry = 0; entry < 9; ++entry) {
+            of_point[entry] = polynomial.derivative(xi, {entry / 3, entry % 3});
+        }
+    }
+    double largest = 0;
+    for (const Vector3& xi : of_jacobians) {
+        const std::array<double, 9> inverse = inverse_of(polynomial.jacobian(xi));
+        for (const auto& bend : bends) {
+            for (std::size_t i = 0; i < 9; i += 3) {
+                const Vector3 row{inverse[i], inverse[i + 1], inverse[i + 2]};
+                for (unsigned signs = 0; signs < 4; ++signs) {
+                    double sum = 0;
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        sum += std::abs(dot(row, bend[k]) + ((signs & 1u) != 0 ? 1 : -1) * dot(row, bend[3 + k]) +
+                                        ((signs & 2u) != 0 ? 1 : -1) * dot(row, bend[6 + k]));
+                    }
+                    largest = std::max(largest, sum / 2);
+                }
+            }
+        }
+    }
+    return largest;
+}
+
+double proven(const Polynomial& polynomial, elvis_shape shape, const std::array<std::uint32_t, 3>& order) {
+    std::array<float, 1> curvature{};
+    CurvatureBounder(shape, order)(mapping_of(polynomial), 0, curvature);
+    return curvature[0];
+}
+
+/** All terms that the shape's orders allow, of degree 2 or more, small enough that the element does not fold. */
+Polynomial random_polynomial(elvis_shape shape, int order, double bend, std::mt19937& engine) {
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<Term> terms;
+    double sum = 0;
+    for (int place = 0; place < (order + 1) * (order + 1) * (order + 1); ++place) {
+        const std::array<int, 3> power{place % (order + 1), place / (order + 1) % (order + 1),
+                                       place / (order + 1) / (order + 1)};
+        const bool is_of_space = shape == ELVIS_SHAPE_HEXAHEDRON ||
+                                 (shape == ELVIS_SHAPE_PRISM && power[0] + power[2] <= order) ||
+                                 power[0] + power[1] + power[2] <= order;
+        const int degree = power[0] + power[1] + power[2];
+        if (is_of_space && degree >= 2) {
+            // Coefficients fall, as those of smooth boundaries do.
+            const double size = std::pow(0.4, degree);
+            terms.push_back({power, {size * number(engine), size * number(engine), size * number(engine)}});
+            sum += size * degree;
+        }
+    }
+    for (Term& term : terms) {
+        term.factor = scaled(term.factor, bend / sum);
+    }
+    return Polynomial(std::move(terms));
+}
+
+} // namespace
+
+TEST_CASE("no sample of a polynomial mapping bends more than its proven curvature") {
+    std::mt19937 engine(20);
+    for (const elvis_shape shape : {ELVIS_SHAPE_HEXAHEDRON, ELVIS_SHAPE_PRISM, ELVIS_SHAPE_TETRAHEDRON}) {
+        for (std::uint32_t order = 1; order <= 8; ++order) {
+            double worst = 0;
+            std::size_t n_bounded = 0;
+            for (const double bend : {0.02, 0.2, 0.6, 1.2}) {
+                for (int repeat = 0; repeat < 2; ++repeat) {
+                    const Polynomial polynomial = random_polynomial(shape, static_cast<int>(order), bend, engine);
+                    const double bound = proven(polynomial, shape, {order, order, order});
+                    const double shown = sampled(polynomial, lattice(shape, 4), lattice(shape, 7));
+                    INFO("shape " << shape << ", order " << order << ", bend " << bend);
+                    CHECK(bound >= shown);
+                    if (bound < unknown_curvature && shown > 1e-6) {
+                        worst = std::max(worst, bound / shown);
+                        ++n_bounded;
+                    }
+                }
+            }
+            std::cout << "shape " << shape << ", order " << order << ": bounds up to " << worst << " times too large, "
+                      << n_bounded << " known\n";
+        }
+    }
+}
+
+TEST_CASE("what bends only between the points where curvatures are measured is known to bend") {
+    // The Jacobian is 1 + 0.8 x (x^2 - 1) (x^2 - 1/4): it is 1 at the ends, the middle and half-way between.
+    const Polynomial polynomial(
+        std::vector<Term>{{{6, 0, 0}, {0.8 / 6, 0, 0}}, {{4, 0, 0}, {-0.25, 0, 0}}, {{2, 0, 0}, {0.1, 0, 0}}});
+    const double shown = sampled(polynomial, lattice(ELVIS_SHAPE_HEXAHEDRON, 9), lattice(ELVIS_SHAPE_HEXAHEDRON, 17));
+    REQUIRE(shown > 0.5);
+    const native::Space space = oracle::space_of(native::Shape::hexahedron, 6);
+    oracle::VolumeData data;
+    data.classes.push_back(oracle::make_class(space, space, {[&](const oracle::Vector& xi) {
+                                                  const Vector3 x = polynomial.at({xi[0], xi[1], xi[2]});
+                                                  return oracle::Vector(x[0], x[1], x[2]);
+                                              }},
+                                              [](const oracle::Vector& x) { return x[0]; }));
+    const TemporaryFile file("bump.h5");
+    oracle::write_volume(file.path(), data);
+    const RuntimeVolume volume = oracle::open_volume(file.path());
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        DeviceVolume on_device(test::device(), volume, precision, nullptr);
+        on_device.select(0, 0, {0});
+        REQUIRE(on_device.curvatures(0).size() == 1);
+        CHECK(on_device.curvatures(0)[0] >= shown);
+        CHECK(on_device.curvatures(0)[0] < unknown_curvature);
+    }
+}
+
+TEST_CASE("elements that fold, or are flat, have no curvature") {
+    for (const double bend : {0.6, 0.5}) {
+        const Polynomial folded(std::vector<Term>{{{2, 0, 0}, {bend, 0, 0}}});
+        CHECK(proven(folded, ELVIS_SHAPE_HEXAHEDRON, {2, 1, 1}) == unknown_curvature);
+    }
+    const Polynomial flat(std::vector<Term>{{{0, 0, 1}, {0, 0, -1}}});
+    CHECK(proven(flat, ELVIS_SHAPE_HEXAHEDRON, {1, 1, 1}) == unknown_curvature);
+    const Polynomial nowhere(std::vector<Term>{{{1, 0, 0}, {std::nan(""), 0, 0}}});
+    CHECK(proven(nowhere, ELVIS_SHAPE_HEXAHEDRON, {1, 1, 1}) == unknown_curvature);
+}
+
+} // namespace elvis
