@@ -10,6 +10,8 @@ layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
     float core_tolerance;
+    // What colours are off because they have few breakpoints.
+    float core_color_error;
 };
 
 void main() {
@@ -18,6 +20,6 @@ void main() {
         core_walk_state(-CORE_FAR, CORE_FAR, -CORE_FAR, CORE_NO_ELEMENT, CORE_NO_ELEMENT, CORE_RAY_SEEKS, 0u);
     const elvis_real none = elvis_real(0);
     if (pixel < core_n_pixels) {
-        core_states[pixel] = core_volume_state(walk, CORE_FAR, core_light(none, none, none, elvis_real(1), none, none));
+        core_states[pixel] = core_volume_state(walk, CORE_FAR, core_light(none, none, none, elvis_real(1), elvis_real(core_color_error), none));
     }
 }

@@ -14,6 +14,8 @@ layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
     float core_tolerance;
+    // What colours are off because they have few breakpoints.
+    float core_color_error;
 };
 
 #include "arithmetic/count.glsl"

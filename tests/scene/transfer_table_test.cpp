@@ -2,6 +2,8 @@
 
 #include "fixture.hpp"
 
+#include <core/scene/color/color_map.hpp>
+
 #include <limits>
 
 using namespace elvis;
@@ -74,6 +76,48 @@ TEST_CASE("Pieces of a table agree with the functions they were cut from") {
             }
         }
     }
+}
+
+TEST_CASE("Colours of fewer breakpoints are within the error they are allowed") {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> anywhere(-3, 4), channel(0, 1);
+    double worst = 0;
+    for (int round = 0; round < 1000; ++round) {
+        TransferFunction transfer = random_transfer(random);
+        // Something between the points, too, and the steps that there are.
+        for (int i = 0; i < 40; ++i) {
+            const double value = anywhere(random), shade = 0.5 + 0.4 * std::sin(3 * value) + 0.02 * channel(random);
+            transfer.color.push_back({value, {shade, shade * shade, 1 - shade}});
+        }
+        std::stable_sort(transfer.color.begin(), transfer.color.end(), [](auto& a, auto& b) { return a.value < b.value; });
+        const double error = round % 2 == 0 ? 0.01 : 0.1;
+        const TransferTable table = cut_at_breakpoints(transfer, error);
+        for (int sample = 0; sample < 100; ++sample) {
+            const double value = sample < 40 ? transfer.color[static_cast<std::size_t>(sample)].value : anywhere(random);
+            const TransferPiece& piece = table.piece_at(value);
+            REQUIRE(std::abs(density_in(piece, value) - density_at(transfer, value)) < 1e-13);
+            for (std::size_t c = 0; c < 3 && density_at(transfer, value) > 0; ++c) {
+                const double color = piece.rgb[c] + (value - piece.from) * piece.rgb_slope[c];
+                worst = std::max(worst, std::abs(color - color_at(transfer, value, c)) / error);
+            }
+        }
+    }
+    std::cout << "colours of fewer breakpoints: at most " << worst << " of the error allowed\n";
+    CHECK(worst < 1 + 1e-9);
+    CHECK(worst > 0.5);
+}
+
+TEST_CASE("A smooth colour map needs few breakpoints") {
+    TransferFunction transfer;
+    transfer.density = {{0, 0}, {1, 2}};
+    for (const SceneColorMap::Point& point : piecewise_linear(built_in_color_map("coolwarm"), surface_table_tolerance)) {
+        transfer.color.push_back({point.position, point.rgb});
+    }
+    const std::size_t all = cut_at_breakpoints(transfer).pieces.size(),
+                      few = cut_at_breakpoints(transfer, 2.5e-4).pieces.size();
+    std::cout << "coolwarm: " << all << " pieces, " << few << " within 1/4 of a thousandth\n";
+    CHECK(few < 70);
+    CHECK(all > 200);
 }
 
 TEST_CASE("Every breakpoint of a table changes something") {

@@ -1,6 +1,7 @@
 #include <core/render/volume/transfer_function.hpp>
 
 #include <core/base/error.hpp>
+#include <core/render/volume/simpler_colors.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -128,8 +129,9 @@ const TransferPiece& TransferTable::piece_at(double value) const {
     return pieces[static_cast<std::size_t>(above - breakpoints.begin())];
 }
 
-TransferTable cut_at_breakpoints(const TransferFunction& transfer) {
-    check(transfer);
+TransferTable cut_at_breakpoints(const TransferFunction& wanted, double color_error) {
+    check(wanted);
+    const TransferFunction transfer{wanted.density, color_error > 0 ? simpler_colors(wanted.color, color_error) : wanted.color};
     std::vector<double> values;
     double largest_density = 0;
     for (const TransferFunction::DensityPoint& point : transfer.density) {

@@ -37,8 +37,14 @@ struct MarchParameters {
 
 struct PixelParameters {
     std::uint32_t n_pixels, groups_x;
-    float tolerance;
+    float tolerance, color_error;
 };
+
+/**
+ * Of the tolerance, for colours of fewer breakpoints: light of a ray is off by no more, as it is a mean of colours. Coolwarm
+ * has 255 pieces, within 1/4 of 0.001 it has 55; 1/8 leaves 82.
+ */
+constexpr double color_share = 0.25;
 
 /** Bytes of one core_volume_state. */
 std::size_t state_bytes(Precision precision) { return 10 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
@@ -91,7 +97,8 @@ VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const 
       m_march(m_search.ranges().size()) {}
 
 void VolumePass::choose(const VolumeRendering& wanted, double offset, const ShownComponent& component) {
-    const TransferTable table = cut_at_breakpoints(wanted.transfer);
+    m_color_error = has_steps(wanted.integrator) ? 0 : color_share * wanted.tolerance;
+    const TransferTable table = cut_at_breakpoints(wanted.transfer, m_color_error);
     std::vector<double> values, pieces;
     for (const double value : table.breakpoints) {
         values.push_back(value - offset);
@@ -218,7 +225,8 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
     m_walk_data.look_from(start);
     Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live};
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance)};
+    const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance),
+                                     static_cast<float>(m_color_error)};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
     dispatch_pixels(m_begin, {&states}, bytes, n_pixels);
     m_search.list_starts(picture.rays);

@@ -61,6 +61,8 @@ private:
     ShownComponent m_component;
     std::uint32_t m_n_breakpoints = 0;
     double m_steepest = 0;
+    /** What colours are off because they have few breakpoints. */
+    double m_color_error = 0;
     bool m_has_jumps = false;
     std::optional<Buffer> m_breakpoints, m_pieces;
     /** Kept from frame to frame. */
