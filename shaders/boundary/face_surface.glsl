@@ -62,7 +62,8 @@ uint core_show(uint pixel, core_ray ray, core_face_crossing nearest, bool is_sho
     uint n_evaluations = 0u;
     if (is_shown && (has_found || is_cut_short)) {
         const elvis_vec3 position = ray.origin + nearest.t * ray.direction;
-        n_evaluations = core_merge(pixel, core_cut_point(has_found, false, false, nearest.t, position, ray.direction, ray.error), found, value);
+        const core_cut_point point = core_cut_point(has_found, false, false, nearest.t, position, ray.direction, ray.error);
+        n_evaluations = core_merge(pixel, point, found, value);
     }
     if (n_evaluations > 0u) {
         const uint local_face = elvis_fetch4_core_faces(nearest.face, 0u).y;

@@ -261,7 +261,7 @@ bool core_consider_square(uint index, bool is_active, core_surface_ray ray, core
     const core_bezier_root root = core_bezier_newton(unit, is_open && verdict.is_simple);
     const core_bezier_point point = core_bezier_point_at(surface, u_low + h * root.a, v_low + h * root.b, frame.stretch);
     const bool is_ahead = point.t > ray.from && point.t < ray.to;
-    const bool counts = is_open && verdict.is_simple && root.is_root && core_counts(ray, point.t, point.error, best);
+    const bool counts = is_open && verdict.is_simple && root.is_root && core_is_counted(ray, point.t, point.error, best);
     const bool is_better = core_vote(votes, best, point.t, point.error, true, root.is_clear, point.normal.z < elvis_real(0), counts);
     const elvis_vec3 in_world = point.normal.x * frame.across_x + point.normal.y * frame.across_y + point.normal.z * frame.along;
     core_take_hit(is_better, point.t, point.error, in_world, CORE_FAR, best);

@@ -4,7 +4,7 @@
 //
 //     core_hit core_next_hit(core_surface_ray ray)
 //
-// the crossing with the least t in (ray.from, ray.to) that counts (core_counts). A ray that is not wanted has from > to, and must cost
+// the crossing with the least t in (ray.from, ray.to) that counts (core_is_counted). A ray that is not wanted has from > to, and must cost
 // little.
 
 #ifndef CORE_SURFACE_HIT
@@ -56,7 +56,7 @@ elvis_real core_first_t(core_surface_ray ray) {
 }
 
 // Whether a crossing counts. Where rounding decides that it is as far from the eye as those that count, the hit is undecided.
-bool core_counts(core_surface_ray ray, elvis_real t, elvis_real error, inout core_hit best) {
+bool core_is_counted(core_surface_ray ray, elvis_real t, elvis_real error, inout core_hit best) {
     const bool is_at_start = !ray.is_behind_crossing && abs(t - ray.after) <= elvis_real(2) * error;
     best.is_undecided = best.is_undecided || is_at_start;
     return t > ray.from && t < ray.to && t - (ray.is_behind_crossing ? elvis_real(2) * error : elvis_real(0)) > ray.after;
@@ -64,7 +64,7 @@ bool core_counts(core_surface_ray ray, elvis_real t, elvis_real error, inout cor
 
 // Whether it goes before what was found, too.
 bool core_is_next(core_surface_ray ray, elvis_real t, elvis_real error, inout core_hit best) {
-    return core_counts(ray, t, error, best) && t < best.t;
+    return core_is_counted(ray, t, error, best) && t < best.t;
 }
 
 void core_take_hit(bool is_better, elvis_real t, elvis_real error, elvis_vec3 normal, elvis_real bending, inout core_hit best) {

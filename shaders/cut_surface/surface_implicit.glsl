@@ -103,7 +103,7 @@ bool core_take_zero(core_surface_ray ray, core_implicit_interval interval, elvis
     const elvis_real error = !interval.is_monotone ? (joins_touch ? interval.high - touch.from : interval.width)
                              : steep > elvis_real(0) && most < steep * extent ? most / steep
                                                                               : elvis_real(0.01LF) * extent;
-    const bool is_taken = !is_pole && core_counts(ray, t, error, best);
+    const bool is_taken = !is_pole && core_is_counted(ray, t, error, best);
     core_take_hit(is_taken, t, error, gradient, CORE_FAR, best);
     touch.from = is_taken && joins_touch ? CORE_FAR : touch.from;
     best.is_undecided = best.is_undecided || is_pole;

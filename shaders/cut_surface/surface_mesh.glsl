@@ -82,7 +82,7 @@ void core_consider_triangle(uint triangle, bool is_active, core_surface_ray ray,
     const elvis_vec3 normal = cross(corner_b - corner_a, corner_c - corner_a);
     const elvis_real across = abs(dot(normal, ray.direction));
     const elvis_real error = off * core_norm1(normal) / max(across, elvis_real(1e-30LF) * core_norm1(normal));
-    const bool counts = is_active && is_regular && is_near && core_counts(ray, t, error, best);
+    const bool counts = is_active && is_regular && is_near && core_is_counted(ray, t, error, best);
     const bool is_better = core_vote(votes, best, t, error, is_within, is_clear, area < elvis_real(0), counts);
     core_take_hit(is_better, t, error, normal, elvis_real(0), best);
 }

@@ -234,7 +234,6 @@ TEST_CASE("Isosurfaces in pyramids by projection rest on bounds, not on estimate
     surface.geometry = Isosurfaces{.values = {-0.4, 0.1, 0.35}, .method = IsosurfaceMethod::bernstein};
     request.surfaces = {surface};
     const Tally tally = judge_picture(file.path(), request, precision);
-    WARN(tally.far << " far, " << tally.near << " near, " << tally.flagged << " flagged, " << tally.hits << " hits");
     CHECK(tally.hits > tally.pixels / 3);
     CHECK(tally.far + tally.near == 0);
     CHECK(tally.flagged < tally.pixels / 50);
