@@ -44,6 +44,7 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 #define CORE_OTHERS_BINDING 7
 #include "cut_surface/other_elements.glsl"
 #define CORE_OPEN_POINTS_BINDING 8
+#define CORE_WANTED_REACHES_BINDING 9
 #include "cut_surface/open_points.glsl"
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"

@@ -17,6 +17,14 @@
 
 #include "cut_surface/element_candidate.glsl"
 
+#ifdef elvis_fetch4_core_reaches
+// Elements whose reaches are wanted (cut_surface/reach.glsl): whether there are any, then a word for each element.
+layout(set = 0, binding = CORE_WANTED_REACHES_BINDING, std430) buffer core_wanted_reaches_block {
+    uint core_wants_reaches;
+    uint core_wants_reach_of[];
+};
+#endif
+
 // Iterations of one pixel. A driver ends loops silently after 65535 iterations of an invocation, with those inside the snippet; this is
 // far above what any sensible search takes and leaves room for a tile's other pixels.
 #define CORE_WORK_LIMIT 2000u
@@ -170,8 +178,14 @@ void core_list_other(uint pixel, core_location found) {
     }
 }
 
-// No element was found, and some were dismissed without a bound, or given up.
+// Some elements were dismissed without a bound, or given up. If none was found the point is open.
 void core_list_open_point(uint pixel, core_location found) {
+#ifdef elvis_fetch4_core_reaches
+    if (found.n_open > 0u && core_wants_reach_of[found.open_element] == 0u) {
+        core_wants_reach_of[found.open_element] = 1u;
+        core_wants_reaches = 1u;
+    }
+#endif
     if (found.n_open > 0u && found.element == CORE_NO_ELEMENT) {
         core_open_points[atomicAdd(core_n_open_points, 1u)] =
             core_open_point(pixel, found.n_open == 1u ? found.open_element : CORE_NO_ELEMENT);

@@ -47,6 +47,7 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 #define CORE_OTHERS_BINDING 6
 #include "cut_surface/other_elements.glsl"
 #define CORE_OPEN_POINTS_BINDING 9
+#define CORE_WANTED_REACHES_BINDING 10
 #include "cut_surface/open_points.glsl"
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"

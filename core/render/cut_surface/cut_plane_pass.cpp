@@ -92,7 +92,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "cut_surface/cut_plane.comp";
-        request.bindings = buffer_bindings({.uniform = 1, .storage = 8});
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 9});
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(m_device, request);
         if (m_with_lines) {
@@ -165,15 +165,17 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
     kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)), divided_up(tiles.n_tiles, tiles_group_size));
     // Isovalues are not read without lines: anything of reals.
     const Buffer& isovalues = m_with_lines ? *m_isovalues : layer.samples;
-    const std::array<const Buffer*, 9> bindings = {&m_frame,
-                                                   &layer.samples,
-                                                   &*kernels.tile_nodes,
-                                                   &m_counts,
-                                                   &layer.marks,
-                                                   &isovalues,
-                                                   &listed,
-                                                   &m_others.begin(layer.n_pixels(), component),
-                                                   &m_open.begin(kernels.element_class, layer.n_pixels())};
+    const auto [open, wanted_reaches] = m_open.begin(kernels.element_class, layer.n_pixels());
+    const std::array<const Buffer*, 10> bindings = {&m_frame,
+                                                    &layer.samples,
+                                                    &*kernels.tile_nodes,
+                                                    &m_counts,
+                                                    &layer.marks,
+                                                    &isovalues,
+                                                    &listed,
+                                                    &m_others.begin(layer.n_pixels(), component),
+                                                    open,
+                                                    wanted_reaches};
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
     const TileList::Range range = m_listed.read().shallow;
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {

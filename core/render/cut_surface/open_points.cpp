@@ -38,17 +38,20 @@ OpenPoints::OpenPoints(const Device& device, const RuntimeVolume& volume, const 
 
 std::vector<FetchBuffer> OpenPoints::buffers(std::uint32_t element_class) const {
     const std::unique_ptr<ElementReaches>& reaches = m_classes[element_class].reaches;
-    return reaches ? std::vector{reaches->buffer()} : std::vector<FetchBuffer>{};
+    return reaches ? std::vector{reaches->records()} : std::vector<FetchBuffer>{};
 }
 
-const Buffer& OpenPoints::begin(std::uint32_t element_class, std::uint64_t n_pixels) {
+std::array<const Buffer*, 2> OpenPoints::begin(std::uint32_t element_class, std::uint64_t n_pixels) {
     Buffer& list = provide_buffer(m_classes[element_class].list, m_device, (2 * n_pixels + 1) * sizeof(std::uint32_t));
     const std::uint32_t none = 0;
     list.write_items(std::span(&none, 1));
-    if (m_classes[element_class].reaches) {
-        m_classes[element_class].reaches->begin();
+    const std::unique_ptr<ElementReaches>& reaches = m_classes[element_class].reaches;
+    if (!reaches) {
+        // Not written to.
+        return {&list, &list};
     }
-    return list;
+    reaches->begin();
+    return {&list, &reaches->wanted()};
 }
 
 void OpenPoints::provide_kernel(std::uint32_t element_class) {
@@ -74,6 +77,9 @@ void OpenPoints::provide_kernel(std::uint32_t element_class) {
 }
 
 void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
+    if (m_classes[element_class].reaches) {
+        m_classes[element_class].reaches->provide();
+    }
     const Buffer& list = *m_classes[element_class].list;
     const std::uint32_t n_listed = list.read_items<std::uint32_t>(1)[0];
     if (n_listed == 0) {
@@ -94,7 +100,6 @@ void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
     }
     of_class.octants->begin();
     // Where octants were missing it is done again with them.
-    std::vector<std::uint32_t> elements;
     do {
         in_batches(n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
             const Parameters parameters{layer.width,
@@ -109,11 +114,7 @@ void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
                                         surface.places != nullptr ? 1u : 0u};
             of_class.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
         });
-        elements = of_class.octants->provide();
-        if (of_class.reaches) {
-            of_class.reaches->provide(elements);
-        }
-    } while (!elements.empty());
+    } while (of_class.octants->provide());
 }
 
 } // namespace elvis

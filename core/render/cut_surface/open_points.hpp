@@ -11,6 +11,7 @@
 #include <core/volume/element/element_octants.hpp>
 #include <core/volume/element/element_reaches.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,10 +42,10 @@ public:
         float most_error = 0;
     };
 
-    /** For kernels that search elements of a class: what dismisses points, if there is something (`core_reaches`). */
+    /** For kernels that draw pixels of a class: what dismisses points, if there is something (`core_reaches`). */
     std::vector<FetchBuffer> buffers(std::uint32_t element_class) const;
-    /** An empty list for the kernel that draws pixels of a class. */
-    const Buffer& begin(std::uint32_t element_class, std::uint64_t n_pixels);
+    /** An empty list for them, and where they say of which elements they would like to know more. */
+    std::array<const Buffer*, 2> begin(std::uint32_t element_class, std::uint64_t n_pixels);
     /** Searches what the class's list holds. */
     void search(std::uint32_t element_class, const Surface& surface);
 

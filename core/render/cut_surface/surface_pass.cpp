@@ -84,7 +84,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         data.add_field(request, index);
         request.defines.emplace_back("CORE_OVERLAPS", data.has_overlaps() ? "1" : "0");
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
-        request.bindings = buffer_bindings({.uniform = 1, .storage = 9});
+        request.bindings = buffer_bindings({.uniform = 1, .storage = 10});
         request.push_constant_bytes = sizeof(PixelsParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(device, request);
         m_kernels.push_back(std::move(kernels));
@@ -138,9 +138,9 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
     // Places are not written if they are not wanted: anything of reals.
     const Buffer& places = picture.target.places != nullptr ? *picture.target.places : layer.normals;
     const Buffer& others = m_others.begin(layer.n_pixels(), picture.component);
-    const Buffer& open = m_open.begin(kernels.element_class, layer.n_pixels());
-    const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,
-                                                    &*m_hits, &others,        &places,   &listed,   &open};
+    const auto [open, wanted_reaches] = m_open.begin(kernels.element_class, layer.n_pixels());
+    const std::array<const Buffer*, 11> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,  &*m_hits,
+                                                    &others,  &places,        &listed,   open,      wanted_reaches};
     const TileList::Range range = m_listed.read().shallow;
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height);
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {

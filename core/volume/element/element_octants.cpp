@@ -70,10 +70,10 @@ void ElementOctants::begin() {
     m_asked.write_items(std::span(&none, 1));
 }
 
-std::vector<std::uint32_t> ElementOctants::provide() {
+bool ElementOctants::provide() {
     const std::uint32_t n_asked = m_asked.read_items<std::uint32_t>(1)[0];
     if (n_asked == 0) {
-        return {};
+        return false;
     }
     std::vector<std::uint32_t> elements = m_asked.read_items<std::uint32_t>(n_asked, 1);
     // Kernels ask in any order; pictures are to be the same each time.
@@ -98,7 +98,7 @@ std::vector<std::uint32_t> ElementOctants::provide() {
     }
     const std::uint32_t none = 0;
     m_asked.write_items(std::span(&none, 1));
-    return elements;
+    return true;
 }
 
 /** The octants of elements, as the kernel gives them. Level by level, as long as there is room for more. */

@@ -24,8 +24,8 @@ public:
 
     /** Before a search: forgets octants of elements that have another shape now, and all if there was no room for some. */
     void begin();
-    /** Makes octants of the elements that were asked for, and returns these. */
-    std::vector<std::uint32_t> provide();
+    /** Makes octants of the elements that were asked for. Returns whether any was. */
+    bool provide();
 
     /** `core_octants`, and `core_octant_nodes`: a hierarchy over the octants of each element. Valid as long as this. */
     std::vector<FetchBuffer> buffers() const;

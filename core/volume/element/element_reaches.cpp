@@ -40,11 +40,13 @@ ElementReaches::ElementReaches(const Device& device, const RuntimeVolume& volume
                                std::uint32_t element_class)
     : m_device(device), m_data(data), m_class(element_class), m_n_elements(volume.classes()[element_class].n_elements),
       m_records(device, RecordKind::uint, data.precision(), m_n_elements, record_size),
-      m_geometry_version(data.geometry_version()) {
+      m_wanted(device, (m_n_elements + 1) * sizeof(std::uint32_t)), m_geometry_version(data.geometry_version()) {
     clear();
 }
 
 void ElementReaches::clear() {
+    m_wanted.fill(0);
+    m_is_known.assign(m_n_elements, false);
     const std::vector<std::uint32_t> words(record_size * std::min<std::uint64_t>(block, m_n_elements), unknown);
     for (std::uint64_t first = 0; first < m_n_elements; first += block) {
         const std::uint64_t count = std::min<std::uint64_t>(block, m_n_elements - first);
@@ -59,10 +61,24 @@ void ElementReaches::begin() {
     }
 }
 
-void ElementReaches::provide(std::span<const std::uint32_t> elements) {
-    if (elements.empty()) {
+void ElementReaches::provide() {
+    if (m_wanted.read_items<std::uint32_t>(1)[0] == 0) {
         return;
     }
+    const std::vector<std::uint32_t> is_wanted = m_wanted.read_items<std::uint32_t>(m_n_elements, 1);
+    std::vector<std::uint32_t> elements;
+    for (std::uint32_t element = 0; element < m_n_elements; ++element) {
+        if (is_wanted[element] != 0 && !m_is_known[element]) {
+            elements.push_back(element);
+            m_is_known[element] = true;
+        }
+    }
+    bound(elements);
+    const std::uint32_t none = 0;
+    m_wanted.write_items(std::span(&none, 1));
+}
+
+void ElementReaches::bound(std::span<const std::uint32_t> elements) {
     if (!m_kernel) {
         m_kernel.emplace(m_device, kernel_request(m_data, m_class));
     }

@@ -13,11 +13,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace elvis {
 
-/** Of one class. Those of an element are unknown, so that it dismisses no point, until they are asked for; then they are kept.
- */
+/** Of one class. Those of an element are unknown, so that they dismiss no point, until they are wanted; then they are kept. */
 class ElementReaches {
 public:
     /** Whether there is something to know of elements with these curvatures. */
@@ -28,20 +28,25 @@ public:
 
     /** Forgets all if elements have another shape now. */
     void begin();
-    /** Bounds the reaches of these elements. */
-    void provide(std::span<const std::uint32_t> elements);
+    /** Bounds the reaches that kernels want. */
+    void provide();
 
     /** `core_reaches`. Valid as long as this. */
-    FetchBuffer buffer() const { return {"core_reaches", &m_records}; }
+    FetchBuffer records() const { return {"core_reaches", &m_records}; }
+    /** Where kernels say what they want: whether there is anything, then a word for each element. */
+    const Buffer& wanted() const { return m_wanted; }
 
 private:
     void clear();
+    void bound(std::span<const std::uint32_t> elements);
 
     const Device& m_device;
     const DeviceVolume& m_data;
     std::uint32_t m_class;
     std::uint64_t m_n_elements;
     RecordBuffer m_records;
+    Buffer m_wanted;
+    std::vector<bool> m_is_known;
     /** Made when first needed. */
     std::optional<ComposedKernel> m_kernel;
     std::uint64_t m_geometry_version;
