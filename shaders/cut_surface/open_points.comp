@@ -14,21 +14,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
-layout(push_constant) uniform core_parameters {
-    uvec2 core_size;
-    uint core_first;
-    // Counted from 1; 0 is no surface.
-    uint core_surface_number;
-    uint core_first_component;
-    uint core_end_component;
-    // Elements that share a point may have other values there.
-    uint core_lists_others;
-    // Of values: what makes no difference to the picture.
-    float core_value_tolerance;
-    // core_hit_point
-    float core_most_error;
-    uint core_wants_places;
-};
+#include "cut_surface/point_parameters.glsl"
 
 #define CORE_OPEN_POINTS_BINDING 4
 #include "cut_surface/open_points.glsl"

@@ -20,27 +20,12 @@ layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_ma
 layout(set = 0, binding = 5, std430) readonly buffer core_hits_block { core_hit_record core_hits[]; };
 // Written if core_wants_places.
 layout(set = 0, binding = 7, std430) writeonly buffer core_places_block { core_place core_places[]; };
-layout(push_constant) uniform core_parameters {
-    uvec2 core_size;
-    uint core_first_listed;
-    // Counted from 1; 0 is no surface.
-    uint core_surface_number;
-    // Components of the field: the only one, or all that make up the length of the vector.
-    uint core_first_component;
-    uint core_end_component;
-    // Elements that share a point may have other values there: one of them is listed.
-    uint core_lists_others;
-    // Of values: what makes no difference to the picture.
-    float core_value_tolerance;
-    // core_hit_point
-    float core_most_error;
-    uint core_wants_places;
-};
+#include "cut_surface/point_parameters.glsl"
 
 #define CORE_LISTED_BINDING 8
 #include "tiles/listed_tile.glsl"
 
-uint core_first_entry() { return core_listed_tile(core_first_listed) * CORE_TILE_STRIDE + 1u; }
+uint core_first_entry() { return core_listed_tile(core_first) * CORE_TILE_STRIDE + 1u; }
 
 uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 
@@ -68,7 +53,7 @@ uint core_next_row(uint column, uint row, uint end_row) {
 }
 
 void main() {
-    const uint tile = core_listed_tile(core_first_listed), tiles_per_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
+    const uint tile = core_listed_tile(core_first), tiles_per_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
     const uint column = tile % tiles_per_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
     const uint first_row = tile / tiles_per_row * CORE_TILE_HEIGHT;
     const uint n_entries = core_tiles[core_first_entry() - 1u];

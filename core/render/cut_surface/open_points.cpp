@@ -1,4 +1,5 @@
 #include <core/render/cut_surface/open_points.hpp>
+#include <core/render/cut_surface/point_parameters.hpp>
 #include <core/render/device/in_batches.hpp>
 #include <core/render/device/provide_buffer.hpp>
 
@@ -13,17 +14,6 @@ namespace {
 constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: bounds its time. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 15;
-
-struct Parameters {
-    std::uint32_t width, height;
-    std::uint32_t first;
-    std::uint32_t surface;
-    std::uint32_t first_component, end_component;
-    std::uint32_t lists_others;
-    float value_tolerance;
-    float most_error;
-    std::uint32_t wants_places;
-};
 
 } // namespace
 
@@ -72,7 +62,7 @@ void OpenPoints::provide_kernel(std::uint32_t element_class) {
                        {"CORE_CLASS", std::to_string(element_class) + "u"},
                        {"CORE_ON_PLANE", m_is_on_plane ? "1" : "0"}};
     request.bindings = buffer_bindings({.uniform = 1, .storage = m_is_on_plane ? 6u : 8u});
-    request.push_constant_bytes = sizeof(Parameters);
+    request.push_constant_bytes = sizeof(PointParameters);
     of_class.kernel = std::make_unique<ComposedKernel>(m_device, request);
 }
 
@@ -96,22 +86,15 @@ void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
                                            &of_class.octants->roots(),
                                            &of_class.octants->asked()};
     if (!m_is_on_plane) {
-        bindings.insert(bindings.end(), {surface.hits, surface.places != nullptr ? surface.places : &layer.normals});
+        bindings.insert(bindings.end(),
+                        {surface.hits, surface.target.places != nullptr ? surface.target.places : &layer.normals});
     }
     of_class.octants->begin();
+    PointParameters parameters(surface.target, surface.number, surface.component, surface.most_error);
     // Where octants were missing it is done again with them.
     do {
         in_batches(n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-            const Parameters parameters{layer.width,
-                                        layer.height,
-                                        first,
-                                        surface.number,
-                                        surface.component.first(),
-                                        surface.component.end(),
-                                        surface.component.is_discontinuous ? 1u : 0u,
-                                        surface.component.value_tolerance,
-                                        surface.most_error,
-                                        surface.places != nullptr ? 1u : 0u};
+            parameters.first = first;
             of_class.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
         });
     } while (of_class.octants->provide());

@@ -36,9 +36,8 @@ public:
         /** View and counts. */
         const Buffer& frame;
         const Buffer& counts;
-        /** Unless it is a plane: the crossings, where places go, and the most that a point's error may be. */
+        /** Unless it is a plane: the crossings, and the most that a point's error may be. */
         const Buffer* hits = nullptr;
-        const Buffer* places = nullptr;
         float most_error = 0;
     };
 

@@ -1,4 +1,5 @@
 #include <core/base/bounds.hpp>
+#include <core/render/cut_surface/point_parameters.hpp>
 #include <core/render/cut_surface/surface_pass.hpp>
 #include <core/render/device/in_batches.hpp>
 #include <core/render/device/pixel_kernel.hpp>
@@ -29,17 +30,6 @@ constexpr double most_error_along_ray = 3e-5;
 
 struct TilesParameters {
     std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile, boxes_a_tile;
-};
-
-struct PixelsParameters {
-    std::uint32_t width, height;
-    std::uint32_t first_listed;
-    std::uint32_t surface;
-    std::uint32_t first_component, end_component;
-    std::uint32_t lists_others;
-    float value_tolerance;
-    float most_error;
-    std::uint32_t wants_places;
 };
 
 /** Where a shape is looked for if what lies outside of the volume is shown, too. */
@@ -85,7 +75,7 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         request.defines.emplace_back("CORE_OVERLAPS", data.has_overlaps() ? "1" : "0");
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
         request.bindings = buffer_bindings({.uniform = 1, .storage = 10});
-        request.push_constant_bytes = sizeof(PixelsParameters);
+        request.push_constant_bytes = sizeof(PointParameters);
         kernels.pixels = std::make_unique<ComposedKernel>(device, request);
         m_kernels.push_back(std::move(kernels));
     }
@@ -143,17 +133,9 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
                                                     &others,  &places,        &listed,   open,      wanted_reaches};
     const TileList::Range range = m_listed.read().shallow;
     const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height);
+    PointParameters pixels(picture.target, picture.surface, picture.component, static_cast<float>(picture.most_error));
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-        const PixelsParameters pixels{layer.width,
-                                      layer.height,
-                                      range.first + first,
-                                      picture.surface,
-                                      picture.component.first(),
-                                      picture.component.end(),
-                                      picture.component.is_discontinuous ? 1u : 0u,
-                                      picture.component.value_tolerance,
-                                      static_cast<float>(picture.most_error),
-                                      picture.target.places != nullptr ? 1u : 0u};
+        pixels.first = range.first + first;
         kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), count);
     });
     m_others.compare(kernels.element_class, picture.component, layer, counts);
@@ -174,8 +156,8 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     write_view(m_frame, m_precision, view);
     solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error);
     m_counts.fill(0);
-    const OpenPoints::Surface open{surface,  component, target,        m_frame,
-                                   m_counts, &*m_hits,  target.places, static_cast<float>(picture.most_error)};
+    const OpenPoints::Surface open{
+        surface, component, target, m_frame, m_counts, &*m_hits, static_cast<float>(picture.most_error)};
     std::uint32_t n_found_before = 0;
     for (std::uint32_t round = 0; round < most_rounds; ++round) {
         const std::uint32_t n_hits = find_hits(picture, round);
