@@ -1,5 +1,6 @@
 #include <core/base/bounds.hpp>
 #include <core/base/float_rounding.hpp>
+#include <core/surface/quadric_level.hpp>
 #include <core/surface/shape_frame.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -99,7 +100,7 @@ struct FormOf {
             q = std::abs(q) <= 16 * std::numeric_limits<Real>::epsilon() * largest ? 0 : q;
         }
         form.linear = form.to_local * (linear + 2 * matrix * reference);
-        form.level = reference.dot(matrix * reference) + linear.dot(reference) + c[9];
+        form.level = quadric_level(quadric, {reference[0], reference[1], reference[2]});
         return form;
     }
     /** These have rows of their own. */

@@ -2,6 +2,8 @@
 #include "formula.hpp"
 #include "surface_tracer.hpp"
 
+#include <core/surface/quadric_level.hpp>
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -49,7 +51,7 @@ std::vector<ShapePart> parts_of(const Quadric& q, const Vector& middle) {
     Matrix a;
     a << c[0], c[3] / 2, c[5] / 2, c[3] / 2, c[1], c[4] / 2, c[5] / 2, c[4] / 2, c[2];
     const LongVector at = middle.cast<long double>(), b(c[6], c[7], c[8]), along = a.cast<long double>() * at;
-    return {quadric(middle, a, (2 * along + b).cast<double>(), static_cast<double>(at.dot(along) + b.dot(at) + c[9]))};
+    return {quadric(middle, a, (2 * along + b).cast<double>(), static_cast<double>(quadric_level(q, {at[0], at[1], at[2]})))};
 }
 
 /** Between two ends, where the radius changes evenly. */
