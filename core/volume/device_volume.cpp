@@ -120,6 +120,7 @@ void DeviceVolume::build_class(std::uint32_t element_class, const std::vector<do
         }
         data.elements =
             std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, info.n_elements, element_record_size);
+        data.curvature_records = std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, info.n_elements, 2);
     }
     m_classes.push_back(std::move(data));
 }
@@ -186,9 +187,16 @@ void DeviceVolume::select(const FieldSelection& selection) {
                 const ElementBoxes said =
                     said_boxes(m_classes[element_class].hierarchy, info.n_elements,
                                std::span<const double>(m_origins).subspan(3 * info.first_element, n_origins), m_centre);
-                m_classes[element_class].curvatures = write_elements(m_device, m_volume, element_class, instance(element_class),
-                                                                     m_precision, said, *m_classes[element_class].elements);
-                m_classes[element_class].curvature_records.reset();
+                ClassData& data = m_classes[element_class];
+                data.curvatures = write_elements(m_device, m_volume, element_class, instance(element_class), m_precision, said,
+                                                 *data.elements);
+                std::vector<double> numbers;
+                numbers.reserve(2 * info.n_elements);
+                for (std::uint64_t element = 0; element < info.n_elements; ++element) {
+                    numbers.insert(numbers.end(),
+                                   {data.curvatures.numbers[element], data.curvatures.are_proven[element] ? 1.0 : 0.0});
+                }
+                data.curvature_records->write_reals(0, numbers);
             }
         }
         ++m_geometry_version;
@@ -307,7 +315,7 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
         }
     }
     if (with_bounds) {
-        request.buffers.push_back({"core_curvatures", m_classes[element_class].curvature_records.get()});
+        request.buffers.push_back(curvature_records(element_class));
     }
     if (m_is_own_boundary) {
         request.text = "#include \"field/own_boundary.glsl\"\n";
@@ -332,6 +340,10 @@ FetchBuffer DeviceVolume::elements(std::uint32_t element_class) const {
     return {"core_elements", m_classes[element_class].elements.get()};
 }
 
+FetchBuffer DeviceVolume::curvature_records(std::uint32_t element_class) const {
+    return {"core_curvatures", m_classes[element_class].curvature_records.get()};
+}
+
 std::vector<FetchBuffer> DeviceVolume::host_buffers(std::uint32_t element_class) const {
     return {{"core_nodes", m_classes[element_class].nodes.get()}, elements(element_class)};
 }
@@ -347,13 +359,6 @@ void DeviceVolume::provide_derivative_bounds() {
             }
         }
         of.bounds_time_step = m_time_step;
-    }
-    for (ClassData& data : m_classes) {
-        if (!data.curvatures.empty() && !data.curvature_records) {
-            data.curvature_records =
-                std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, data.curvatures.size(), 1);
-            data.curvature_records->write_reals(0, std::vector<double>(data.curvatures.begin(), data.curvatures.end()));
-        }
     }
 }
 

@@ -10,6 +10,7 @@
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/shader/composer.hpp>
+#include <core/volume/element/element_records.hpp>
 #include <core/vulkan/buffer.hpp>
 
 #include <array>
@@ -85,12 +86,14 @@ public:
 
     /** `core_elements`: number and linearized inverse mapping of the class's elements (shaders/element/linearization.glsl). */
     FetchBuffer elements(std::uint32_t element_class) const;
+    /** `core_curvatures`: that of each of the class's elements, and 1 if it is proven, else 0. */
+    FetchBuffer curvature_records(std::uint32_t element_class) const;
     /** Nodes of the class's hierarchy as `core_nodes`, and its elements. */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
     /** Of the class's elements. */
     const Hierarchy& hierarchy(std::uint32_t element_class) const { return m_classes[element_class].hierarchy; }
     /** Of the mapping of each element of the class (shaders/element/prediction.glsl), once a field is selected. */
-    std::span<const float> curvatures(std::uint32_t element_class) const { return m_classes[element_class].curvatures; }
+    std::span<const float> curvatures(std::uint32_t element_class) const { return m_classes[element_class].curvatures.numbers; }
 
     /**
      * Makes bounds of the selected fields and their derivatives in every element, if they are not there yet. For kernels that
@@ -133,8 +136,7 @@ private:
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
         std::unique_ptr<RecordBuffer> elements;
-        /** Of each element's mapping (shaders/element/prediction.glsl); on the device once bounds are wanted. */
-        std::vector<float> curvatures;
+        ElementCurvatures curvatures;
         std::unique_ptr<RecordBuffer> curvature_records;
     };
 

@@ -20,6 +20,6 @@ void main() {
         return;
     }
     const uint element = core_wanted[2u * i], code = core_wanted[2u * i + 1u];
-    const core_octant_mapping mapping = core_mapping_in(element, code, core_place_of(code), CORE_FOLDED_SLOPE);
+    const core_octant_mapping mapping = core_mapping_in(element, code, core_place_of(code));
     core_write_mapping(CORE_WORDS * i, element, code, mapping);
 }

@@ -1,6 +1,6 @@
 // The linear model of the mapping in an octant (isosurface/octant.glsl), its curvature there, and a box.
 //
-// The kernel brings core_words, which the records are written to, and core_centre, that of the hierarchies.
+// The kernel brings core_words, which the records are written to, core_centre, that of the hierarchies, and core_curvatures.
 
 #include "arithmetic/finite.glsl"
 #include "element/element_frame.glsl"
@@ -11,6 +11,9 @@
 #define CORE_WORDS 32u
 // Of elements that are nearly linear it is not measured for each octant.
 #define CORE_SMALL_CURVATURE elvis_real(0.05LF)
+// What is proven of the element holds in its octants. Where it is larger than this, what is measured of each octant is smaller by so much
+// that pictures would take twice as long.
+#define CORE_MOST_PROVEN_CURVATURE elvis_real(1)
 // A linearization that leaves out more than this much of the octant's half side is of no use.
 #define CORE_MOST_BENDING elvis_real(0.5LF)
 
@@ -42,8 +45,7 @@ struct core_octant_mapping {
     bool is_linear;
 };
 
-// `of_element`: the curvature of all of the element.
-core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place place, elvis_real of_element) {
+core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place place) {
     core_octant_mapping mapping;
     elvis_vec3 position;
     elvis_mapping_jacobian(element, place.xi, position, mapping.jacobian);
@@ -63,17 +65,20 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
     mapping.sizes = abs(mapping.position) + abs(elvis_origin(element)) + abs(position);
     const elvis_real rounding = elvis_real(CORE_OCTANT_ROUNDING) * norm * core_max_norm(mapping.sizes) +
                                 place.half_side * (elvis_real(2) * defect + elvis_real(1e-4LF)) + core_max_norm(frame.xi_error);
-    const bool is_measured = (code & 7u) != 0u && of_element > CORE_SMALL_CURVATURE;
-    elvis_vec3 turn;
-    const elvis_real measured =
-        core_measured_curvature(element, place.xi, mapping.jacobian, place.middle, place.half_side, 1u, turn);
-    mapping.curvature = is_measured ? measured : of_element;
+    const elvis_vec3 sides = abs(mapping.jacobian[0]) + abs(mapping.jacobian[1]) + abs(mapping.jacobian[2]);
+    mapping.curvature = elvis_fetch_core_curvatures(element, 0u);
+    const bool is_proven = elvis_fetch_core_curvatures(element, 1u) > elvis_real(0) && mapping.curvature <= CORE_MOST_PROVEN_CURVATURE;
+    elvis_vec3 turn = elvis_real(2) * mapping.curvature * place.radius * sides;
+    if (!is_proven) {
+        const elvis_real measured =
+            core_measured_curvature(element, place.xi, mapping.jacobian, place.middle, place.half_side, 1u, turn);
+        mapping.curvature = (code & 7u) != 0u && mapping.curvature > CORE_SMALL_CURVATURE ? measured : mapping.curvature;
+    }
     mapping.bending = mapping.curvature * place.radius * place.radius + rounding;
     mapping.size = place.half_side + mapping.bending;
     const bool is_finite = core_is_finite(mapping.size + core_max_norm(mapping.position));
     mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING * place.half_side;
     // x = x(xi) + J d + e, |e| <= L |d|^2 / 2, with a Jacobian that changes by L |d| at most: twice as much as measured.
-    const elvis_vec3 sides = abs(mapping.jacobian[0]) + abs(mapping.jacobian[1]) + abs(mapping.jacobian[2]);
     const elvis_vec3 bent_box = place.radius * (sides + turn) + core_max_norm(place.shift) * sides;
     mapping.half_box = (mapping.is_linear ? min(mapping.size * sides, bent_box) : bent_box) +
                        elvis_real(8.0 * CORE_FLOAT_ROUNDOFF) * mapping.sizes;

@@ -42,7 +42,7 @@ void main() {
     }
     const uint element = core_wanted[2u * i], code = core_wanted[2u * i + 1u];
     const core_octant_place place = core_place_of(code);
-    const core_octant_mapping mapping = core_mapping_in(element, code, place, elvis_fetch_core_curvatures(element, 0u));
+    const core_octant_mapping mapping = core_mapping_in(element, code, place);
     // Where the shape cuts the octant, all of it lies within the radius.
     const elvis_real beyond = ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON ? elvis_real(0) : place.radius;
     elvis_real reach;

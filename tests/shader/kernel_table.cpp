@@ -64,6 +64,7 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
     const Choice group{"CORE_GROUP_SIZE", {"32"}};
     uses.push_back({.kernel = "cut_surface/element_octants",
                     .element = Element::snippet,
+                    .buffers = {"core_curvatures"},
                     .choices = {group},
                     .is_for_solids = true,
                     .watches_loops = true});

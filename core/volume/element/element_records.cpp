@@ -63,6 +63,8 @@ void check_box(const RuntimeVolume& volume, std::uint64_t element, std::span<con
                               : "`elvis check-plugin` tells more"));
 }
 
+bool is_proven(float curvature) { return curvature >= 0 && curvature < unknown_curvature; }
+
 /** What shaders/element/linearize.comp expects. */
 std::vector<float> proven_curvatures(const Device& device, const RuntimeVolume& volume, const ClassInfo& info) {
     if (info.is_affine) {
@@ -99,12 +101,12 @@ std::vector<float> proven_curvatures(const Device& device, const RuntimeVolume& 
 
 } // namespace
 
-std::vector<float> write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
-                                  const SnippetInstance& instance, Precision precision, const ElementBoxes& said,
-                                  RecordBuffer& records) {
+ElementCurvatures write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
+                                 const SnippetInstance& instance, Precision precision, const ElementBoxes& said,
+                                 RecordBuffer& records) {
     const ClassInfo& info = volume.classes()[element_class];
     const std::vector<float> proven = proven_curvatures(device, volume, info);
-    const bool is_measured = std::ranges::any_of(proven, [](float of) { return of < 0 || of == unknown_curvature; });
+    const bool is_measured = !std::ranges::all_of(proven, is_proven);
     KernelRequest request;
     request.name = "linearize of element class " + std::to_string(element_class);
     request.kernel = "element/linearize.comp";
@@ -119,7 +121,7 @@ std::vector<float> write_elements(const Device& device, const RuntimeVolume& vol
     const Buffer output(device, largest * words_an_element * sizeof(std::uint32_t)), input(device, largest * sizeof(float));
     const std::array<const Buffer*, 2> bindings = {&output, &input};
 
-    std::vector<float> curvatures;
+    ElementCurvatures curvatures;
     std::vector<std::int64_t> numbers;
     std::vector<std::uint32_t> words;
     for (std::uint64_t first = 0; first < info.n_elements; first += block) {
@@ -135,7 +137,8 @@ std::vector<float> write_elements(const Device& device, const RuntimeVolume& vol
             words.push_back(static_cast<std::uint32_t>(numbers[element]));
             const auto from = computed.begin() + static_cast<std::ptrdiff_t>(element * words_an_element);
             words.insert(words.end(), from, from + element_record_size - 1);
-            curvatures.push_back(std::bit_cast<float>(from[curvature_at]));
+            curvatures.numbers.push_back(std::bit_cast<float>(from[curvature_at]));
+            curvatures.are_proven.push_back(is_proven(proven[first + element]));
             check_box(volume, info.first_element + first + element,
                       std::span(said.boxes).subspan(6 * (first + element)).first<6>(),
                       std::span(said.origins).subspan(3 * (first + element)).first<3>(), said.world_origin,

@@ -24,13 +24,19 @@ struct ElementBoxes {
     std::array<float, 3> world_origin{};
 };
 
+/** Of the elements of a class (shaders/element/prediction.glsl). */
+struct ElementCurvatures {
+    std::vector<float> numbers;
+    /** Else it is measured. */
+    std::vector<bool> are_proven;
+};
+
 /**
- * Writes the records of a class; the linearizations are computed on the device with the class's snippet. Returns the curvature
- * of each element (shaders/element/prediction.glsl). An element that was seen outside of its box is the plugin's fault: an
- * error.
+ * Writes the records of a class; the linearizations are computed on the device with the class's snippet. An element that was
+ * seen outside of its box is the plugin's fault: an error.
  */
-std::vector<float> write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
-                                  const SnippetInstance& instance, Precision precision, const ElementBoxes& said,
-                                  RecordBuffer& records);
+ElementCurvatures write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
+                                 const SnippetInstance& instance, Precision precision, const ElementBoxes& said,
+                                 RecordBuffer& records);
 
 } // namespace elvis
