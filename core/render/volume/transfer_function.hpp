@@ -51,8 +51,9 @@ struct TransferTable {
 };
 
 /**
- * Colours are taken within `color_error` in each channel, with as few breakpoints as that allows. Breakpoints at which nothing changes, but for rounding, are left out, and with them those of colours that no density shows.
- * Throws Error if a list is empty or does not ascend, if a number is not finite, or a density below zero.
+ * Colours are taken within `color_error` in each channel, with as few breakpoints as that allows. Breakpoints at which nothing
+ * changes, but for rounding, are left out, and with them those of colours that no density shows. Throws Error if a list is
+ * empty or does not ascend, if a number is not finite, or a density below zero.
  */
 TransferTable cut_at_breakpoints(const TransferFunction& transfer, double color_error = 0);
 
