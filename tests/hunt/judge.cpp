@@ -123,8 +123,8 @@ public:
             m_coordinates = std::max(m_coordinates, std::abs(eye));
     }
 
-    /** What of `shown` is off the answer by more than the tolerances. */
-    unsigned compare(const PixelAnswer& answer, const Shown& shown, const Line& line);
+    /** What of `shown` is off the answer by more than the tolerances, colours by more than that and `color_slack`. */
+    unsigned compare(const PixelAnswer& answer, const Shown& shown, const Line& line, double color_slack = 0);
     /** Without `asks`, far may be near, and flagged_right a false alarm. */
     Verdict verdict(std::size_t pixel, const Shown& shown, bool asks, unsigned& wrong);
     Shown shown_of(const PixelAnswer& answer) const;
@@ -133,6 +133,7 @@ private:
     unsigned compare_point(const PixelAnswer& answer, const Shown& shown, const Line& line);
     bool is_near(std::size_t pixel, const Shown& shown, double position, double field);
     bool rounding_decides(std::size_t pixel, const PixelAnswer& answer);
+    double color_rounding(const PixelAnswer& answer, const Line& line);
     template <class Visitor> bool any_perturbed(std::size_t pixel, double position, double field, const Visitor& visitor);
     double length(double depth) const { return m_oracle.model().diagonal + std::abs(depth); }
     /** Of coordinates in double precision, which the oracle's positions have. */
@@ -203,14 +204,31 @@ unsigned PixelJudge::compare_point(const PixelAnswer& answer, const Shown& shown
     return wrong;
 }
 
-unsigned PixelJudge::compare(const PixelAnswer& answer, const Shown& shown, const Line& line) {
+unsigned PixelJudge::compare(const PixelAnswer& answer, const Shown& shown, const Line& line, double color_slack) {
     const Color& color = shown.line.color.value_or(answer.color);
     const bool is_known = shown.line.color || !shown.line.is_line;
-    unsigned wrong = !is_known || color_error(color, shown.color) <= m_tolerances.color ? 0 : buffer::color;
+    unsigned wrong = !is_known || color_error(color, shown.color) <= m_tolerances.color + color_slack ? 0 : buffer::color;
     const bool is_hit = answer.surface >= 0;
     if (is_hit != shown.is_hit)
         return wrong | buffer::surface;
     return is_hit ? wrong | compare_point(answer, shown, line) : wrong;
+}
+
+/** What rounding of the oracle's coordinates makes of its colours: much where the ray runs along the surface. */
+double PixelJudge::color_rounding(const PixelAnswer& answer, const Line& line) {
+    if (answer.surface < 0 || answer.point.element == oracle::SurfacePoint::no_element)
+        return 0;
+    Vector gradient;
+    m_oracle.value(answer.surface, answer.point.element, answer.point.xi, &gradient);
+    const double along = coordinate_rounding() / std::max(answer.point.facing, 1e-9);
+    const double value = gradient.norm() * coordinate_rounding() + std::abs(gradient.dot(line.direction)) * along;
+    double steepest = 0;
+    const auto& points = m_judge.m_request.surfaces[static_cast<std::size_t>(answer.surface)].colors.points;
+    for (std::size_t i = 1; i < points.size(); ++i)
+        for (std::size_t channel = 0; channel < 3 && points[i].value > points[i - 1].value; ++channel)
+            steepest = std::max(steepest, std::abs(points[i].rgb[channel] - points[i - 1].rgb[channel]) /
+                                              (points[i].value - points[i - 1].value));
+    return steepest * value;
 }
 
 /** Whether the visitor accepts an answer of scenes that differ by this: the ray aside, planes along their normal, the field. */
@@ -264,6 +282,8 @@ Verdict PixelJudge::verdict(std::size_t pixel, const Shown& shown, bool asks, un
     }
     if (!asks)
         return Verdict::far;
+    if (compare(answer.pixel, shown, line, color_rounding(answer.pixel, line)) == 0)
+        return Verdict::undecidable;
     // Planes exactly in faces and the like: what a few roundings of double precision turn has to be flagged in both precisions.
     constexpr double few_roundings = 1e-15;
     if (is_near(pixel, shown, few_roundings, few_roundings))
