@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace elvis {
 
@@ -131,7 +132,16 @@ const TransferPiece& TransferTable::piece_at(double value) const {
 
 TransferTable cut_at_breakpoints(const TransferFunction& wanted, double color_error) {
     check(wanted);
-    const TransferFunction transfer{wanted.density, color_error > 0 ? simpler_colors(wanted.color, color_error) : wanted.color};
+    TransferTable table;
+    TransferFunction transfer = wanted;
+    if (color_error > 0) {
+        std::vector<TransferFunction::ColorPoint> simpler = simpler_colors(wanted.color, color_error);
+        // An error for little would be no bargain.
+        if (2 * simpler.size() <= wanted.color.size()) {
+            transfer.color = std::move(simpler);
+            table.color_error = color_error;
+        }
+    }
     std::vector<double> values;
     double largest_density = 0;
     for (const TransferFunction::DensityPoint& point : transfer.density) {
@@ -143,7 +153,6 @@ TransferTable cut_at_breakpoints(const TransferFunction& wanted, double color_er
     }
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
-    TransferTable table;
     table.pieces.push_back(piece_below(transfer, values.front()));
     for (std::size_t i = 0; i < values.size(); ++i) {
         const TransferPiece piece = piece_from(transfer, values[i]);

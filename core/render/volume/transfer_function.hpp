@@ -45,15 +45,17 @@ struct TransferTable {
     std::vector<double> breakpoints;
     /** One more than breakpoints: below the first, between, above the last. */
     std::vector<TransferPiece> pieces;
+    /** What colours are off at most because they have fewer breakpoints. */
+    double color_error = 0;
 
     /** The piece that holds a value; of a breakpoint, that above it. */
     const TransferPiece& piece_at(double value) const;
 };
 
 /**
- * Colours are taken within `color_error` in each channel, with as few breakpoints as that allows. Breakpoints at which nothing
- * changes, but for rounding, are left out, and with them those of colours that no density shows. Throws Error if a list is
- * empty or does not ascend, if a number is not finite, or a density below zero.
+ * Breakpoints at which nothing changes, but for rounding, are left out, and with them those of colours that no density shows.
+ * Where it halves the number of colours at least, colours are taken within `color_error` in each channel. Throws Error if a
+ * list is empty or does not ascend, if a number is not finite, or a density below zero.
  */
 TransferTable cut_at_breakpoints(const TransferFunction& transfer, double color_error = 0);
 

@@ -97,8 +97,9 @@ VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const 
       m_march(m_search.ranges().size()) {}
 
 void VolumePass::choose(const VolumeRendering& wanted, double offset, const ShownComponent& component) {
-    m_color_error = has_steps(wanted.integrator) ? 0 : color_share * wanted.tolerance;
-    const TransferTable table = cut_at_breakpoints(wanted.transfer, m_color_error);
+    const TransferTable table =
+        cut_at_breakpoints(wanted.transfer, has_steps(wanted.integrator) ? 0 : color_share * wanted.tolerance);
+    m_color_error = table.color_error;
     std::vector<double> values, pieces;
     for (const double value : table.breakpoints) {
         values.push_back(value - offset);
