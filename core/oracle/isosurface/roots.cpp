@@ -92,4 +92,29 @@ Roots find_roots(const RealFunction& function, double level, std::span<const dou
     return roots;
 }
 
+Roots find_close_roots(const RealFunction& function, double level, std::span<const double> points,
+                       std::span<const double> values) {
+    Roots roots = find_roots(function, level, points, values);
+    const Search search(function, level);
+    const auto changes = [&](std::size_t i) { return (values[i] > 0) != (values[i + 1] > 0); };
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const bool is_beside = (i > 0 && changes(i - 1)) || (i + 2 < points.size() && changes(i + 1));
+        if (changes(i) || !is_beside)
+            continue;
+        const bool is_positive = values[i] > 0;
+        const Roots::NearMiss extreme = search.least(points[i], points[i + 1], is_positive ? 1 : -1);
+        if ((extreme.value > 0) != is_positive) {
+            roots.at.push_back(search.bisect(points[i], extreme.at, is_positive));
+            roots.at.push_back(search.bisect(extreme.at, points[i + 1], !is_positive));
+        }
+    }
+    std::sort(roots.at.begin(), roots.at.end());
+    // Pairs that were found already.
+    const double same = 1e-12 * (points.back() - points.front());
+    const auto repeats =
+        std::unique(roots.at.begin(), roots.at.end(), [same](double one, double other) { return other - one <= same; });
+    roots.at.erase(repeats, roots.at.end());
+    return roots;
+}
+
 } // namespace elvis::oracle

@@ -29,4 +29,8 @@ struct Roots {
  */
 Roots find_roots(const RealFunction& function, double level, std::span<const double> points, std::span<const double> values);
 
+/** The same, with a closer look beside every change of sign, too: between its samples and the next, two more roots may hide. */
+Roots find_close_roots(const RealFunction& function, double level, std::span<const double> points,
+                       std::span<const double> values);
+
 } // namespace elvis::oracle

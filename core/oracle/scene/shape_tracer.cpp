@@ -206,7 +206,7 @@ private:
         Roots roots;
         if (part.is_polynomial) {
             const ChebyshevSeries series(values);
-            roots = find_roots([&](double s) { return series(s); }, 0, lobatto_points(4 * degree), series.dense_values());
+            roots = find_close_roots([&](double s) { return series(s); }, 0, lobatto_points(4 * degree), series.dense_values());
         } else {
             roots = find_roots(along, 0, lobatto_points(n_samples), values);
         }
