@@ -39,11 +39,10 @@ bool core_is_of_class(uint global_element) {
 }
 
 // Goes from element to element towards the point of the ray at t, until one holds it. Returns that element; or CORE_NO_ELEMENT, and in
-// `other` the global element of another class in which to go on, if there is one. `is_lost`: the search has failed, or has left the volume
-// where the mapping's curvature does not prove that it did.
+// `other` the global element of another class in which to go on, if there is one. `is_lost`: the search has failed.
 uint core_find_around(const core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
     other = CORE_NO_LINK;
-    bool has_left = false, is_doubtful = false;
+    bool has_left = false;
     uint hops = 0u;
     bool is_found = false;
     elvis_real x = CORE_CENTROID.x, y = CORE_CENTROID.y, z = CORE_CENTROID.z;
@@ -70,9 +69,6 @@ uint core_find_around(const core_traced_ray ray, uint element, elvis_real t, out
         hops += leaves ? 1u : 0u;
         other = leaves && !is_of_class ? link : other;
         has_left = leaves && !is_of_class;
-        const elvis_real step = core_max_norm(here.model.newton_step), farthest = elvis_real(1) + core_max_norm(elvis_vec3(x, y, z));
-        const elvis_real off = core_prediction_error_within(CORE_SEGMENT_CURVATURE(element), step, farthest);
-        is_doubtful = leaves && link == CORE_NO_LINK && worst <= CORE_CONSTRAINT_NORM * off + noise;
         is_over = is_found || has_left || hops >= CORE_MOST_HOPS || !here.frame.is_sound;
         element = leaves && is_of_class ? link - core_first_element : element;
         steps = leaves ? 0u : steps;
@@ -82,7 +78,7 @@ uint core_find_around(const core_traced_ray ray, uint element, elvis_real t, out
         y = leaves ? CORE_CENTROID.y : new_y;
         z = leaves ? CORE_CENTROID.z : new_z;
     }
-    is_lost = (!is_found && !has_left) || is_doubtful;
+    is_lost = !is_found && !has_left;
 #if ELVIS_HAS_INSIDE
     // Beyond the element's own boundary no neighbour is known.
     is_found = is_found && core_is_within(element, elvis_vec3(x, y, z), elvis_vec3(CORE_ALONG));
