@@ -71,7 +71,9 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const bool is_wide = CORE_PLAIN == 0 && blur > CORE_DEPTH_TOLERANCE * size, is_blurred = is_hit && is_wide;
     // What rounding alone may have led out of the segment may be in it.
     const bool is_led_out = is_wide && !is_inside && outside <= half_width;
-    const bool is_undecided = !is_hit && (is_settled ? !is_confirmed || is_led_out : is_last);
+    // Eigenvalues give the first root of an interval only: behind one that is no crossing, as the last round's found again, may be another.
+    const bool may_hide_another = CORE_USES_COLLEAGUE == 1 && CORE_PLAIN == 0;
+    const bool is_undecided = !is_hit && (is_settled ? !is_confirmed || is_led_out || may_hide_another : is_last);
     search.n_crossings += is_settled && is_confirmed ? 1u : 0u;
     search.n_undecided += is_undecided ? 1u : 0u;
     const elvis_real candidate_t = search.from + search.candidate.t * (search.to - search.from);

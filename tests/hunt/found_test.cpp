@@ -10,7 +10,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <iomanip>
+#include <iostream>
 #include <sstream>
 
 namespace elvis::hunt {
@@ -237,6 +239,32 @@ TEST_CASE("Isosurfaces in pyramids by projection rest on bounds, not on estimate
     CHECK(tally.hits > tally.pixels / 3);
     CHECK(tally.far + tally.near == 0);
     CHECK(tally.flagged < tally.pixels / 50);
+}
+
+TEST_CASE("By eigenvalues, a crossing of the last round that is found again hides no other") {
+    // Far from the origin, rounding lets single precision find the last crossing again.
+    const TemporaryFile file("far.h5");
+    const oracle::Vector middle{1e4, -1e4, 1e4};
+    oracle::VolumeData data;
+    data.classes.push_back(oracle::make_class(
+        oracle::space_of(native::Shape::hexahedron, 1), oracle::space_of(native::Shape::hexahedron, 9),
+        {[=](const oracle::Vector& xi) -> oracle::Vector { return middle + xi; }}, [=](const oracle::Vector& x) {
+            const oracle::Vector d = x - middle;
+            return std::sin(4 * d.x()) * std::cos(3 * d.y()) + 0.5 * std::sin(5 * d.z() + d.x());
+        }));
+    write_volume(file.path(), data);
+    FrameRequest request = request_from(middle + oracle::Vector(2.6, -2, 1.9), {middle.x(), middle.y(), middle.z()});
+    request.camera.field_of_view = 50;
+    Surface surface = colored_surface();
+    surface.geometry = Isosurfaces{.values = {-0.2, 0.1}, .method = IsosurfaceMethod::companion};
+    surface.opacity = 0.5;
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, Precision::float32);
+    std::cout << "companion: " << tally.hits << " hits, " << tally.far + tally.near << " silent, " << tally.flagged
+              << " flagged\n";
+    CHECK(tally.hits > tally.pixels / 4);
+    CHECK(tally.far + tally.near == 0);
+    CHECK(tally.flagged < tally.pixels / 10);
 }
 
 } // namespace elvis::hunt
