@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <iostream>
 
 namespace elvis::oracle {
 namespace {
@@ -123,6 +124,40 @@ TEST_CASE("a crossing in a face is one layer of a transparent isosurface") {
         }
         CAPTURE(static_cast<int>(precision));
         CHECK(n_twice == 0);
+    }
+}
+
+TEST_CASE("a crossing in a face between classes is doubtful where the elements' normals differ") {
+    // The isosurface bends by 27 degrees where it meets the face: which side a ray meets is rounding's to say.
+    const auto behind = [](const Vector& x) { return x.x() + x.y(); };
+    const auto before = [](const Vector& x) { return 3 * x.x() + x.y(); };
+    const native::Space geometry = space_of(native::Shape::hexahedron, 1);
+    VolumeData data;
+    data.classes.push_back(make_class(geometry, geometry, boxes({-1, -1, -1}, {0, 1, 1}, {1, 1, 1}), behind));
+    data.classes.push_back(
+        make_class(geometry, space_of(native::Shape::hexahedron, 2), boxes({0, -1, -1}, {1, 1, 1}, {1, 1, 1}), before, 1));
+    const TemporaryFile file("bend.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    for (const auto& [precision, half_side] : {std::pair(Precision::float32, 4e-6), std::pair(Precision::float64, 4e-15)}) {
+        Renderer renderer(device(), volume, precision);
+        FrameRequest request = request_of(half_side, 1);
+        request.with_buffers = true;
+        const Frame frame = renderer.render(request);
+        int n_hits = 0, n_wrong = 0, n_doubtful = 0;
+        for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
+            const Ray ray = pixel_ray(request.camera, size, size, column_of(pixel), row_of(pixel));
+            const auto y = ray.origin.y() + 3 * ray.direction.y() / -ray.direction.x();
+            const double steep = std::abs(frame.normal[3 * pixel] / frame.normal[3 * pixel + 1]);
+            const bool is_hit = !std::isnan(frame.depth[pixel]);
+            n_hits += is_hit ? 1 : 0;
+            n_doubtful += is_hit && (frame.flags[pixel] & doubtful) != 0 ? 1 : 0;
+            n_wrong += is_hit && (frame.flags[pixel] & doubtful) == 0 && std::abs(steep - (y < 0 ? 3 : 1)) > 0.1 ? 1 : 0;
+        }
+        std::cout << "a bend in a face between classes: " << n_hits << " hits, " << n_doubtful << " doubtful, " << n_wrong
+                  << " on the wrong side\n";
+        CHECK(n_hits > 500);
+        CHECK(n_wrong == 0);
     }
 }
 
