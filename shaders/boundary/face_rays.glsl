@@ -95,7 +95,10 @@ struct core_face_crossing {
     bool is_on_edge;
     // The ray leaves the element; and the element behind the face is not drawn.
     bool leaves, is_outer;
-    // At an edge, the ray enters by one outer face and leaves by another within rounding, or passes both.
+    // Of the face, of any length.
+    elvis_real normal_x, normal_y, normal_z;
+    // At an edge, the ray meets two outer faces within rounding that are not one smooth surface: it may enter by the one, leave by the other,
+    // or pass both.
     bool is_folded;
     // Faces that have the crossing.
     uint n_candidates;
@@ -103,8 +106,8 @@ struct core_face_crossing {
 
 core_face_crossing core_no_crossing() {
     const elvis_real zero = elvis_real(0), far = elvis_real(3.0e38LF);
-    return core_face_crossing(CORE_NO_PATCH, CORE_NO_NUMBER, CORE_NO_PATCH, 0u, zero, zero, far, zero, zero, zero, false, false, false,
- false, 0u);
+    return core_face_crossing(CORE_NO_PATCH, CORE_NO_NUMBER, CORE_NO_PATCH, 0u, zero, zero, far, zero, zero, zero, false, false, false, zero,
+                              zero, zero, false, 0u);
 }
 
 // Behind this nothing need be looked at.
@@ -119,7 +122,15 @@ core_face_crossing core_face_crossing_at(uint face, uint patch_index, uint squar
     const elvis_real excess = (square_word & CORE_FACE_IS_TRIANGLE) != 0u ? max(max(-u, -v) - elvis_real(1), u + v)
                                                                           : max(abs(u), abs(v)) - elvis_real(1);
     return core_face_crossing(face, s.number, patch_index, key, u, v, s.t, s.width, u + dot(s.row_u, motion), v + dot(s.row_v, motion),
-                              excess >= elvis_real(-2) * s.error, leaves, is_outer, false, 1u);
+                              excess >= elvis_real(-2) * s.error, leaves, is_outer, s.normal.x, s.normal.y, s.normal.z, false, 1u);
+}
+
+// The faces are one surface there, but for what nobody sees.
+bool core_has_same_face_normal(const core_face_crossing one, const core_face_crossing other) {
+    const elvis_vec3 a = elvis_vec3(one.normal_x, one.normal_y, one.normal_z);
+    const elvis_vec3 b = elvis_vec3(other.normal_x, other.normal_y, other.normal_z);
+    const elvis_vec3 sine = cross(a, b);
+    return dot(sine, sine) <= elvis_real(1e-6LF) * dot(a, a) * dot(b, b);
 }
 
 // Takes a crossing (`is_hit`) if it is before the nearest, or the same within rounding and goes before it: of two faces that coincide,
@@ -133,7 +144,8 @@ void core_take_crossing(bool is_hit, core_face_crossing found, inout core_face_c
                                                          (is_number_lower && found.slack <= elvis_real(2) * nearest.slack);
     const bool is_before = !is_same && found.t < nearest.t, is_other = is_hit && is_same && found.face != nearest.face;
     const uint n_candidates = is_hit && is_before ? 1u : nearest.n_candidates + (is_other ? 1u : 0u);
-    const bool is_fold = is_other && found.is_outer && nearest.is_outer && found.leaves != nearest.leaves;
+    const bool is_fold =
+        is_other && found.is_outer && nearest.is_outer && (found.leaves != nearest.leaves || !core_has_same_face_normal(found, nearest));
     const bool is_folded = is_fold || (nearest.is_folded && !(is_hit && is_before));
     if (is_hit && (is_same ? is_lower : is_before)) {
         nearest = found;
