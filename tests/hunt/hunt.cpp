@@ -157,7 +157,7 @@ void Hunt::judge(Ground& ground, const Scene& scene, const std::string& kind, co
     judge_picture(ground, judge, request, scene, kind, name, origin);
     if (const std::optional<FrameRequest> smaller = smaller_picture(request))
         judge_picture(ground, Judge(judge, *smaller), *smaller, scene, kind + "/small", name + "_small", origin);
-    if (ground.split)
+    if (ground.split && !hangs_on_bounds(request))
         judge_picture(*ground.split, judge, request, scene, kind + "/split", name + "_split", origin);
 }
 

@@ -1,12 +1,14 @@
 #include "twins.hpp"
 
 #include <core/oracle/samples/random.hpp>
+#include <core/surface/shape_frame.hpp>
 
 #include <elvis/native/volume_file.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <variant>
 #include <vector>
 
 namespace elvis::hunt {
@@ -144,6 +146,15 @@ void split_classes(const std::string& from, const std::string& to, bool raises_g
     reader.read_faces(0, faces.size(), faces);
     writer.write_faces(0, faces.size(), faces);
     writer.commit();
+}
+
+bool hangs_on_bounds(const FrameRequest& request) {
+    return std::ranges::any_of(request.surfaces, [](const Surface& surface) {
+        const auto* shape = std::get_if<CutShape>(&surface.geometry);
+        const bool is_endless =
+            std::holds_alternative<CutPlane>(surface.geometry) || (shape != nullptr && std::isinf(shape_bounds(*shape).back()));
+        return surface.outside && is_endless;
+    });
 }
 
 } // namespace elvis::hunt

@@ -28,4 +28,10 @@ std::size_t pixel_with_same_ray(const FrameRequest& larger, const FrameRequest& 
  */
 void split_classes(const std::string& from, const std::string& to, bool raises_geometry);
 
+/**
+ * Whether the picture hangs on the bounds that are known of the volume, which are tighter where classes are split: surfaces
+ * without end that are shown outside of elements, too, end at three times these.
+ */
+bool hangs_on_bounds(const FrameRequest& request);
+
 } // namespace elvis::hunt

@@ -126,4 +126,21 @@ TEST_CASE("Sums that are written are added when they are read") {
     CHECK(has_silent(sums));
 }
 
+TEST_CASE("Endless surfaces that are shown outside of elements hang on the volume's bounds") {
+    FrameRequest request;
+    Surface surface;
+    const std::array<double, 3> gray{0.5, 0.5, 0.5};
+    for (const auto& [geometry, is_endless] : {std::pair<SurfaceGeometry, bool>{CutPlane{{0, 0, 1, 0}}, true},
+                                               {CutShape(Quadric{{1, 1, -1}}), true},
+                                               {CutShape(Torus{}), false},
+                                               {BoundaryFaces{}, false}}) {
+        surface.geometry = geometry;
+        surface.outside = gray;
+        request.surfaces = {surface};
+        CHECK(hangs_on_bounds(request) == is_endless);
+        request.surfaces[0].outside.reset();
+        CHECK_FALSE(hangs_on_bounds(request));
+    }
+}
+
 } // namespace elvis::hunt
