@@ -79,6 +79,13 @@ TEST_CASE("Several scenes are drawn by one process, each as if alone") {
         CHECK(fs::exists(place.path("buffers/" + name + ".h5")));
         const nlohmann::json stats = nlohmann::json::parse(place.read("pictures/" + name + ".json"));
         CHECK(stats["counts"]["pixels"] == (name == "boundary" ? 256 : 384));
+        // Of all kernels that the process has made so far, the one that took longest first.
+        REQUIRE_FALSE(stats["kernels"].empty());
+        for (const nlohmann::json& kernel : stats["kernels"]) {
+            CHECK_FALSE(kernel["kernel"].get<std::string>().empty());
+            CHECK(kernel["driver"].get<double>() > 0);
+            CHECK(kernel["bytes"].get<int>() > 0);
+        }
     }
 }
 
