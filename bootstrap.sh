@@ -7,9 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 packages=(
     cmake ninja-build g++ pkg-config
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
-    libboost-filesystem-dev libeigen3-dev libhdf5-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libpng-dev
+    libboost-filesystem-dev libeigen3-dev libhdf5-dev libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libpng-dev
     libfreetype-dev fonts-dejavu-core libglfw3-dev libimgui-dev libstb-dev
     libpugixml-dev zlib1g-dev liblz4-dev
+    python3-dev pybind11-dev python3-numpy
 )
 test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py gmsh xvfb xdotool imagemagick abigail-tools)
 
@@ -18,6 +19,8 @@ usage() {
 usage: ./bootstrap.sh demo    install, build, draw the flow past a canister to elvis-demo.png
        ./bootstrap.sh test    install, build, run all tests
        ./bootstrap.sh build   install, build
+       ./bootstrap.sh install [PREFIX]   install, build, then put program, library and Python package below PREFIX
+                              (by default /usr/local as root, else ~/.local)
 END
 }
 
@@ -57,6 +60,23 @@ demo() {
     echo "The picture is in elvis-demo.png, its volume in elvis-demo.h5."
 }
 
+# Python finds the package by itself below /usr/local and ~/.local; elsewhere a file in the user's folder leads to it.
+install_below() {
+    local prefix=$1 packages=dist-packages version
+    version=$(/usr/bin/python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+    case "$prefix" in /usr | /usr/local) ;; *) packages=site-packages ;; esac
+    build -DELVIS_BUILD_TESTS=OFF -DELVIS_PYTHON_DIRECTORY="lib/python$version/$packages"
+    cmake --install build/release --prefix "$prefix"
+    if ! /usr/bin/python3 -c 'import elvis' 2>/dev/null; then
+        local user
+        user=$(/usr/bin/python3 -m site --user-site)
+        mkdir -p "$user"
+        echo "$prefix/lib/python$version/$packages" >"$user/elvis.pth"
+    fi
+    (cd / && /usr/bin/python3 -c 'import elvis; print("Python has the package elvis in", elvis.__path__[0])')
+    echo "The program is $prefix/bin/elvis."
+}
+
 case "${1:-}" in
 demo)
     install_missing "${packages[@]}"
@@ -71,6 +91,11 @@ test)
 build)
     install_missing "${packages[@]}" "${test_packages[@]}"
     build -DELVIS_BUILD_TESTS=ON
+    ;;
+install)
+    install_missing "${packages[@]}"
+    prefix=${2:-$([ "$(id -u)" -eq 0 ] && echo /usr/local || echo "$HOME/.local")}
+    install_below "$(realpath -m "$prefix")"
     ;;
 *)
     usage >&2

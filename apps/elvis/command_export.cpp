@@ -1,10 +1,10 @@
 #include "commands.hpp"
 #include "long_task.hpp"
-#include "volume_argument.hpp"
 #include <apps/elvis/render/output_endings.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/export/vtu_export.hpp>
+#include <core/session/open_volume.hpp>
 
 #include <cstdio>
 #include <memory>

@@ -1,5 +1,4 @@
 #include "commands.hpp"
-#include "volume_argument.hpp"
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -7,6 +6,7 @@
 #include <core/expression/expression.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/probe.hpp>
+#include <core/session/open_volume.hpp>
 
 #include <nlohmann/json.hpp>
 

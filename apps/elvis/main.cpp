@@ -1,10 +1,10 @@
 #include "commands.hpp"
 #include "crash_report.hpp"
 #include "hang_report.hpp"
+#include "program_log.hpp"
 #include "unknown_word.hpp"
 
 #include <core/base/error.hpp>
-#include <core/base/log.hpp>
 
 #include <algorithm>
 #include <cstdio>

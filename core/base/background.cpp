@@ -12,6 +12,7 @@ void Background::Work::begin() {
     }
     std::exception_ptr thrown;
     try {
+        const HostScope scope(m_host);
         m_what();
     } catch (...) {
         thrown = std::current_exception();

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/base/host.hpp>
+
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -22,7 +24,7 @@ public:
     /** A piece of work. It is done once, by a thread of the background or by the first who waits for it. */
     class Work {
     public:
-        explicit Work(std::function<void()> what) : m_what(std::move(what)) {}
+        explicit Work(std::function<void()> what) : m_what(std::move(what)), m_host(host()) {}
 
         /** Returns when the work is done: does it here if nobody has begun. Throws what the work has thrown, each time. */
         void wait();
@@ -35,6 +37,8 @@ public:
         enum class State { waiting, running, done };
 
         std::function<void()> m_what;
+        /** Of the thread that handed it over. */
+        const Host& m_host;
         std::mutex m_mutex;
         std::condition_variable m_is_done;
         State m_state = State::waiting;

@@ -1,4 +1,5 @@
 #include <core/base/cache.hpp>
+#include <core/base/host.hpp>
 
 #include <unistd.h>
 
@@ -7,7 +8,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -52,14 +52,17 @@ std::string_view as_text(std::span<const std::byte> content) {
 } // namespace
 
 std::filesystem::path cache_folder() {
-    if (const char* own = std::getenv("ELVIS_CACHE_PATH"); own != nullptr && *own != '\0') {
-        return own;
+    if (const auto& decided = host().cache_folder) {
+        return *decided;
     }
-    if (const char* user = std::getenv("XDG_CACHE_HOME"); user != nullptr && *user != '\0') {
-        return std::filesystem::path(user) / "elvis";
+    if (const auto own = environment_variable("ELVIS_CACHE_PATH")) {
+        return *own;
     }
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-        return std::filesystem::path(home) / ".cache" / "elvis";
+    if (const auto user = environment_variable("XDG_CACHE_HOME")) {
+        return std::filesystem::path(*user) / "elvis";
+    }
+    if (const auto home = environment_variable("HOME")) {
+        return std::filesystem::path(*home) / ".cache" / "elvis";
     }
     return {};
 }

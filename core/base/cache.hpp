@@ -15,7 +15,8 @@
 
 namespace elvis {
 
-/** $ELVIS_CACHE_PATH, else $XDG_CACHE_HOME/elvis, else $HOME/.cache/elvis; empty if none of them is set. */
+/** What the host has decided (host.hpp), else $ELVIS_CACHE_PATH, else $XDG_CACHE_HOME/elvis, else $HOME/.cache/elvis; empty if
+ * none of them is set. */
 std::filesystem::path cache_folder();
 
 /** 128 bits of hash as 32 hexadecimal digits, for names of cache entries. Not for protection against forgery. */

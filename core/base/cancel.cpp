@@ -3,8 +3,12 @@
 
 namespace elvis {
 
+bool TaskControl::is_cancelled() const {
+    return cancelled.load(std::memory_order_relaxed) || (wants_to_stop && wants_to_stop());
+}
+
 void TaskControl::check() const {
-    if (cancelled.load(std::memory_order_relaxed)) {
+    if (is_cancelled()) {
         throw Cancelled();
     }
 }

@@ -1,15 +1,29 @@
 /**
  * @file log.hpp
- * Where log lines go: stderr, so that standard output stays free for answers.
+ * Log lines, which go to the host (host.hpp). Texts and their arguments as in {fmt}.
  */
 #pragma once
 
+#include <core/base/host.hpp>
+
+#include <fmt/format.h>
+
+#include <utility>
+
 namespace elvis {
 
-enum class Verbosity { quiet, normal, verbose };
+template <class... Arguments> void log_line(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    if (host().log) {
+        host().log(level, fmt::format(text, std::forward<Arguments>(arguments)...));
+    }
+}
 
-/** Sets up the process's logger. `normal` shows warnings, `verbose` everything, `quiet` errors; $ELVIS_LOG=verbose|quiet wins.
- */
-void set_up_log(Verbosity verbosity);
+template <class... Arguments> void log_debug(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    log_line(LogLevel::debug, text, std::forward<Arguments>(arguments)...);
+}
+
+template <class... Arguments> void log_warning(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    log_line(LogLevel::warning, text, std::forward<Arguments>(arguments)...);
+}
 
 } // namespace elvis

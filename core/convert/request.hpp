@@ -34,6 +34,8 @@ struct ConvertProcess {
     int output = 2;
     /** It is ended when it takes more main memory; 0: nearly all that the machine has left. */
     std::uint64_t most_bytes = 0;
+    /** Of its command line, before the command: how much it says. */
+    std::vector<std::string> first_arguments;
     /** From the wish that it stop to its end by force: a plugin may not return. */
     std::chrono::milliseconds patience{3000};
     /** Asked after the wish that it stop: whether it is to end at once. May be empty. */

@@ -2,14 +2,13 @@
 
 #include <core/base/child_process.hpp>
 #include <core/base/error.hpp>
+#include <core/base/log.hpp>
 #include <core/base/memory.hpp>
 #include <core/base/temporary_folder.hpp>
 
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <csignal>
@@ -48,12 +47,9 @@ TemporaryFolder folder_beside(const std::string& output) {
     }
 }
 
-std::vector<std::string> arguments_of(const ConvertRequest& request, const std::string& output) {
+std::vector<std::string> arguments_of(const ConvertRequest& request, const std::string& output, const ConvertProcess& process) {
     std::vector<std::string> arguments{"elvis"};
-    const auto level = spdlog::get_level();
-    if (level != spdlog::level::warn) {
-        arguments.emplace_back(level < spdlog::level::warn ? "--verbose" : "--quiet");
-    }
+    arguments.insert(arguments.end(), process.first_arguments.begin(), process.first_arguments.end());
     arguments.insert(arguments.end(), {"convert", "--answer", std::to_string(ChildProcess::answer), "-o", output});
     if (!request.plugin.empty()) {
         arguments.insert(arguments.end(), {"--plugin", request.plugin});
@@ -160,13 +156,13 @@ Answer listen(ChildProcess& process, const ConvertRequest& request, const TaskCo
             continue;
         }
         next_look = now + look;
-        if (control.cancelled && !stop_since) {
+        if (control.is_cancelled() && !stop_since) {
             stop_since = now;
             process.signal(SIGTERM);
         }
         if (stop_since && (now - *stop_since >= options.patience || (options.is_urgent && options.is_urgent()))) {
             process.kill();
-            spdlog::warn("{} did not stop: its process was ended", answer.place());
+            log_warning("{} did not stop: its process was ended", answer.place());
             throw Cancelled();
         }
         if (const std::uint64_t bytes = process.resident_bytes(); bytes > most_bytes) {
@@ -184,7 +180,7 @@ ConvertReport convert_separately(const ConvertRequest& request, const TaskContro
     control.check();
     const TemporaryFolder folder = folder_beside(request.output);
     const std::string output = folder.path("volume.h5");
-    ChildProcess process({arguments_of(request, output), environment_without({}), options.output, true, true},
+    ChildProcess process({arguments_of(request, output, options), environment_without({}), options.output, true, true},
                          request.inputs.front());
     const Answer answer = listen(process, request, control, options);
     // What plugins do when the process ends must not take for ever, either.
@@ -196,13 +192,13 @@ ConvertReport convert_separately(const ConvertRequest& request, const TaskContro
         throw Error(*answer.error);
     }
     if (!answer.report) {
-        if (control.cancelled) {
+        if (control.is_cancelled()) {
             throw Cancelled();
         }
         throw crash(request, answer, status, options.output);
     }
     if (status != 0) {
-        spdlog::warn("{}: the process {} after the conversion was done", answer.place(), ending_text(status));
+        log_warning("{}: the process {} after the conversion was done", answer.place(), ending_text(status));
     }
     control.check();
     std::error_code error;

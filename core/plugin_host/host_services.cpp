@@ -1,8 +1,7 @@
 #include <core/base/error.hpp>
+#include <core/base/log.hpp>
 #include <core/plugin_host/current_call.hpp>
 #include <core/plugin_host/host_services.hpp>
-
-#include <spdlog/spdlog.h>
 
 #include <utility>
 
@@ -20,16 +19,16 @@ thread_local PluginError last_error;
 
 const HostServices& services(const elvis_host* host) { return *static_cast<const HostServices*>(host->context); }
 
-spdlog::level::level_enum log_level(elvis_log_level level) {
+LogLevel log_level(elvis_log_level level) {
     switch (level) {
     case ELVIS_LOG_DEBUG:
-        return spdlog::level::debug;
+        return LogLevel::debug;
     case ELVIS_LOG_INFO:
-        return spdlog::level::info;
+        return LogLevel::info;
     case ELVIS_LOG_WARNING:
-        return spdlog::level::warn;
+        return LogLevel::warning;
     default:
-        return spdlog::level::err;
+        return LogLevel::error;
     }
 }
 
@@ -53,13 +52,16 @@ const char* result_name(elvis_result result) {
 } // namespace
 
 HostServices::HostServices(std::string plugin_id, const TaskControl* control)
-    : m_plugin_id(std::move(plugin_id)), m_control(control) {
+    : m_plugin_id(std::move(plugin_id)), m_control(control), m_host(host()) {
     m_table.struct_size = sizeof m_table;
     m_table.abi_version = ELVIS_ABI_VERSION;
     m_table.context = this;
     m_table.log = [](const elvis_host* host, elvis_log_level level, const char* message) {
         current_call::give_sign();
-        spdlog::log(log_level(level), "{}: {}", services(host).m_plugin_id, message ? message : "");
+        // A plugin's own threads know of no host.
+        const HostServices& own = services(host);
+        const HostScope scope(own.m_host);
+        log_line(log_level(level), "{}: {}", own.m_plugin_id, message ? message : "");
     };
     m_table.report_progress = [](const elvis_host* host, double fraction, const char* activity) {
         current_call::give_sign();
@@ -69,7 +71,7 @@ HostServices::HostServices(std::string plugin_id, const TaskControl* control)
     };
     m_table.is_cancelled = [](const elvis_host* host) -> std::int32_t {
         const TaskControl* task = services(host).m_control;
-        return task && task->cancelled.load(std::memory_order_relaxed) ? 1 : 0;
+        return task && task->is_cancelled() ? 1 : 0;
     };
     m_table.set_error = [](const elvis_host*, const char* file, const char* message) {
         last_error = {file ? file : "", message ? message : ""};

@@ -6,6 +6,7 @@
 
 #include <core/base/cancel.hpp>
 #include <core/base/error.hpp>
+#include <core/base/host.hpp>
 #include <elvis/host.h>
 
 #include <string>
@@ -50,6 +51,8 @@ private:
     elvis_host m_table{};
     std::string m_plugin_id;
     const TaskControl* m_control;
+    /** Whom log lines are for. */
+    const Host& m_host;
 };
 
 } // namespace elvis

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace elvis {
 
@@ -41,12 +42,9 @@ bool is_reverse_domain(const std::string& id) {
     return characters && id.find('.') != std::string::npos && id.front() != '.' && id.back() != '.';
 }
 
-/** The functions that every runtime plugin gives. */
-const char* missing_function(const elvis_runtime& table) {
-    return !table.probe             ? "probe"
-           : !table.open            ? "open"
-           : !table.close           ? "close"
-           : !table.get_info        ? "get_info"
+/** The functions that every volume has. */
+const char* missing_volume_function(const elvis_runtime& table) {
+    return !table.get_info          ? "get_info"
            : !table.get_class       ? "get_class"
            : !table.get_field       ? "get_field"
            : !table.get_class_field ? "get_class_field"
@@ -56,6 +54,11 @@ const char* missing_function(const elvis_runtime& table) {
            : !table.get_bounds      ? "get_bounds"
            : !table.fill_buffer     ? "fill_buffer"
                                     : nullptr;
+}
+
+/** The functions that every runtime plugin gives. */
+const char* missing_function(const elvis_runtime& table) {
+    return !table.probe ? "probe" : !table.open ? "open" : !table.close ? "close" : missing_volume_function(table);
 }
 
 const char* missing_function(const elvis_converter& table) {
@@ -142,6 +145,19 @@ std::shared_ptr<const Plugin> Plugin::load(const std::filesystem::path& library)
     impl.apex_bounds = read_interface<elvis_apex_bounds>(library, descriptor, ELVIS_APEX_BOUNDS_INTERFACE);
     if (!impl.runtime && !impl.converter) {
         refuse(library, "offers neither " ELVIS_RUNTIME_INTERFACE " nor " ELVIS_CONVERTER_INTERFACE);
+    }
+    return plugin;
+}
+
+std::shared_ptr<const Plugin> Plugin::of_program(const elvis_runtime& runtime, std::string id) {
+    std::shared_ptr<Plugin> plugin(new Plugin);
+    Impl& impl = *plugin->m_impl;
+    impl.abi_version = ELVIS_ABI_VERSION;
+    impl.name = id;
+    impl.id = std::move(id);
+    impl.runtime = copy_known_part(runtime);
+    if (const char* missing = missing_volume_function(*impl.runtime)) {
+        throw Error(impl.id, std::string("the table ") + ELVIS_RUNTIME_INTERFACE + " lacks the required function " + missing);
     }
     return plugin;
 }

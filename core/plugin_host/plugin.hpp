@@ -22,6 +22,11 @@ class Plugin {
 public:
     /** Loads and checks. Throws Error with the reason for refusal. */
     static std::shared_ptr<const Plugin> load(const std::filesystem::path& library);
+    /**
+     * What a program gives to show its own data: a table without probe, open and close, which must stay as long as this. `id`
+     * is for messages. Throws Error for a table that lacks functions.
+     */
+    static std::shared_ptr<const Plugin> of_program(const elvis_runtime& runtime, std::string id);
     ~Plugin();
     Plugin(const Plugin&) = delete;
     Plugin& operator=(const Plugin&) = delete;
@@ -59,9 +64,10 @@ struct RefusedPlugin {
 };
 
 /**
- * Finds plugins on the search path: the folders of $ELVIS_PLUGIN_PATH (separated by ':'), the user's folder
+ * Finds plugins in the folders that the host has decided on (core/base/host.hpp), else: the folders of $ELVIS_PLUGIN_PATH
+ * (separated by ':'), the user's folder
  * ($XDG_DATA_HOME or ~/.local/share)/elvis/plugins, then lib/elvis/plugins of the installation (or build) that the program
- * runs from. The first plugin with an id wins; later ones are refused as duplicates.
+ * or the shared library runs from. The first plugin with an id wins; later ones are refused as duplicates.
  */
 class PluginRegistry {
 public:

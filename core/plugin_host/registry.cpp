@@ -1,11 +1,11 @@
 #include <core/base/error.hpp>
+#include <core/base/log.hpp>
 #include <core/plugin_host/host_services.hpp>
 #include <core/plugin_host/plugin.hpp>
 
-#include <spdlog/spdlog.h>
+#include <dlfcn.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <system_error>
 
 namespace elvis {
@@ -77,23 +77,38 @@ std::shared_ptr<const Plugin> most_confident(const std::vector<std::shared_ptr<c
     return best;
 }
 
+/** Where an installation, or a build, has plugins: seen from the shared library that this code is in, or from the program. */
+std::vector<fs::path> folders_of_installation() {
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    static const char in_this_image = 0;
+    Dl_info here{};
+    if (dladdr(&in_this_image, &here) != 0 && here.dli_fname != nullptr) {
+        const fs::path image = fs::canonical(here.dli_fname, ignored);
+        if (!ignored && image != program && image.string().find(".so") != std::string::npos) {
+            return {image.parent_path() / "elvis/plugins"};
+        }
+    }
+    const fs::path prefix = program.parent_path().parent_path();
+    return {prefix / "lib/elvis/plugins", prefix / ELVIS_LIBRARY_FOLDER / "elvis/plugins"};
+}
+
 } // namespace
 
 std::vector<fs::path> PluginRegistry::search_path() {
+    if (const auto& decided = host().plugin_folders) {
+        return *decided;
+    }
     std::vector<fs::path> folders;
-    if (const char* list = std::getenv("ELVIS_PLUGIN_PATH")) {
-        folders = split_path_list(list);
+    if (const auto list = environment_variable("ELVIS_PLUGIN_PATH")) {
+        folders = split_path_list(*list);
     }
-    if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data) {
-        folders.push_back(fs::path(data) / "elvis/plugins");
-    } else if (const char* home = std::getenv("HOME"); home && *home) {
-        folders.push_back(fs::path(home) / ".local/share/elvis/plugins");
+    if (const auto data = environment_variable("XDG_DATA_HOME")) {
+        folders.push_back(fs::path(*data) / "elvis/plugins");
+    } else if (const auto home = environment_variable("HOME")) {
+        folders.push_back(fs::path(*home) / ".local/share/elvis/plugins");
     }
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    const fs::path prefix = program.parent_path().parent_path();
-    for (const char* library_folder : {"lib", ELVIS_LIBRARY_FOLDER}) {
-        const fs::path folder = prefix / library_folder / "elvis/plugins";
+    for (const fs::path& folder : folders_of_installation()) {
         if (std::find(folders.begin(), folders.end(), folder) == folders.end()) {
             folders.push_back(folder);
         }
@@ -115,7 +130,7 @@ PluginRegistry::PluginRegistry() {
                     m_plugins.push_back(std::move(plugin));
                 }
             } catch (const Error& error) {
-                spdlog::warn("plugin refused: {}", error.what());
+                log_warning("plugin refused: {}", error.what());
                 m_refused.push_back({library, error.cause()});
             }
         }

@@ -7,6 +7,13 @@
 
 namespace elvis {
 
+void RuntimeVolume::Impl::read() {
+    read_info();
+    read_classes();
+    read_fields();
+    read_texts();
+}
+
 void RuntimeVolume::Impl::read_info() {
     info = sized<elvis_volume_info>();
     call("get_info", table->get_info, &info);
@@ -126,10 +133,19 @@ RuntimeVolume::RuntimeVolume(std::shared_ptr<const Plugin> plugin, const std::st
         m_impl->refuse("open", "success and no volume");
     }
     m_impl->volume = volume;
-    m_impl->read_info();
-    m_impl->read_classes();
-    m_impl->read_fields();
-    m_impl->read_texts();
+    m_impl->read();
+}
+
+RuntimeVolume::RuntimeVolume(std::shared_ptr<const Plugin> plugin, elvis_volume* volume, const std::string& name)
+    : m_impl(std::make_unique<Impl>()) {
+    assert(plugin && plugin->runtime());
+    m_impl->table = plugin->runtime();
+    m_impl->services = std::make_unique<HostServices>(plugin->id(), nullptr);
+    m_impl->plugin = std::move(plugin);
+    m_impl->path = name;
+    m_impl->volume = volume;
+    m_impl->is_closed_here = false;
+    m_impl->read();
 }
 
 RuntimeVolume::~RuntimeVolume() = default;

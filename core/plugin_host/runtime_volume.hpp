@@ -109,6 +109,9 @@ public:
     /** Opens with a given plugin. `options`: JSON text, or empty. */
     RuntimeVolume(std::shared_ptr<const Plugin> plugin, const std::string& path, const std::string& options = {},
                   const TaskControl* control = nullptr);
+    /** One that is open already, and that its owner closes, with a plugin's table that serves it. `name` stands for the path.
+     */
+    RuntimeVolume(std::shared_ptr<const Plugin> plugin, elvis_volume* volume, const std::string& name);
     ~RuntimeVolume();
     RuntimeVolume(RuntimeVolume&&) noexcept;
     RuntimeVolume& operator=(RuntimeVolume&&) noexcept;

@@ -18,6 +18,7 @@ struct RuntimeVolume::Impl {
     std::unique_ptr<HostServices> services;
     std::string path;
     elvis_volume* volume = nullptr;
+    bool is_closed_here = true;
     elvis_volume_info info{};
     std::vector<ClassInfo> classes;
     std::vector<FieldInfo> fields;
@@ -26,7 +27,7 @@ struct RuntimeVolume::Impl {
     std::vector<std::pair<std::string, std::string>> notes;
 
     ~Impl() {
-        if (volume) {
+        if (volume && is_closed_here) {
             services->begin("close");
             table->close(volume);
             services->check(ELVIS_OK, "close", {});
@@ -58,6 +59,8 @@ struct RuntimeVolume::Impl {
                                       std::uint32_t field, std::uint32_t time_step, std::uint64_t first, std::uint64_t count,
                                       std::span<DerivativeBounds> out) const;
 
+    /** All that is fixed from open to close. */
+    void read();
     void read_info();
     void read_classes();
     void read_fields();

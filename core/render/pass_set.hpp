@@ -29,6 +29,9 @@ public:
     /** Drops what the frame does not need. */
     void keep(const FrameRequest& request);
 
+    /** Values of fields have changed: what rests on them goes. */
+    void forget_fields() { m_passes.clear(); }
+
     /** Those that show the field at the time step of the frame, which keep() was told of. */
     FieldPasses& of(const FieldChoice& field);
     /** Of the shape that the elements have at the time step of the field that is on the device. */

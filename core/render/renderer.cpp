@@ -196,6 +196,12 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
     return frame;
 }
 
+void Renderer::forget_fields() {
+    m_impl->passes.forget_fields();
+    m_impl->ranges.forget_fields();
+    m_impl->data.forget_fields();
+}
+
 const RendererTimes& Renderer::times() const { return m_impl->times; }
 
 RendererMemory Renderer::memory() const {

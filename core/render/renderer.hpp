@@ -49,6 +49,9 @@ public:
      */
     Frame render(const FrameRequest& request, const TaskControl* control = nullptr);
 
+    /** Values of fields have changed, at any time step: the next frame asks the plugin for all that rests on them. */
+    void forget_fields();
+
     const RendererTimes& times() const;
     RendererMemory memory() const;
 

@@ -88,9 +88,10 @@ bool is_scene(const std::string& path) {
     return is_json && (head.find("\"version\"") != std::string::npos || head.find("\"volume\"") != std::string::npos);
 }
 
-Scene read_scene(const std::string& path) {
+Scene read_scene(const std::string& path) { return scene_of(parse_json_file(path), path); }
+
+Scene scene_of(const nlohmann::json& document, const std::string& path) {
     static const nlohmann::json schema = nlohmann::json::parse(scene_schema_text());
-    const nlohmann::json document = parse_json_file(path);
     const JsonObject root(document, schema, path, "");
     root.integer("version");
     Scene scene;

@@ -10,6 +10,8 @@
 #include <core/scene/scene_annotation.hpp>
 #include <core/vulkan/precision.hpp>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -163,6 +165,9 @@ struct Scene {
 
 /** Reads a scene file; paths in it become relative to the working directory. Throws Error naming file, key and cause. */
 Scene read_scene(const std::string& path);
+
+/** The same of what the file at `path` would hold; it need not be there. */
+Scene scene_of(const nlohmann::json& document, const std::string& path);
 
 /** The JSON Schema of the file, as text. */
 std::string_view scene_schema_text();

@@ -147,6 +147,15 @@ void DeviceVolume::keep(std::span<const FieldSelection> selections) {
     m_selected.clear();
 }
 
+void DeviceVolume::forget_fields() {
+    for (const std::unique_ptr<Slot>& slot : m_slots) {
+        for (PluginBuffer& buffer : slot->buffers) {
+            buffer.is_filled = false;
+        }
+        slot->derivative_bounds.clear();
+    }
+}
+
 void DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const std::vector<double>& offset) {
     const FieldSelection selection{{{field, offset}}, time_step, nullptr, false};
     keep(std::span(&selection, 1));

@@ -64,6 +64,8 @@ public:
      * and so do kernels composed with it.
      */
     void select(const FieldSelection& selection);
+    /** Values of fields have changed: the next selection fills their buffers anew. */
+    void forget_fields();
     /** Drops what none of these needs. */
     void keep(std::span<const FieldSelection> selections);
     /**

@@ -1,32 +1,27 @@
 #include <core/base/error.hpp>
+#include <core/base/host.hpp>
+#include <core/base/log.hpp>
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
-#include <string_view>
 
 namespace elvis {
 
 namespace {
 
-std::string_view variable(const char* name) {
-    const char* value = std::getenv(name);
-    return value != nullptr ? value : "";
-}
+std::string variable(const char* name) { return environment_variable(name).value_or(""); }
 
 bool flag_variable(const char* name) {
-    const std::string_view value = variable(name);
+    const std::string value = variable(name);
     if (value.empty() || value == "0") {
         return false;
     }
     if (value == "1") {
         return true;
     }
-    throw Error("$" + std::string(name), "'" + std::string(value) + "' is neither 0 nor 1");
+    throw Error("$" + std::string(name), "'" + value + "' is neither 0 nor 1");
 }
 
 } // namespace
@@ -37,19 +32,19 @@ DeviceOptions DeviceOptions::from_environment(std::string wanted) {
     options.validation = flag_variable("ELVIS_VALIDATION");
     options.always_stage = flag_variable("ELVIS_STAGING");
 
-    const std::string_view buffers = variable("ELVIS_DATA_BUFFERS");
+    const std::string buffers = variable("ELVIS_DATA_BUFFERS");
     if (buffers == "texel") {
         options.data_buffers = DataBuffers::texel;
     } else if (buffers == "storage") {
         options.data_buffers = DataBuffers::storage;
     } else if (!buffers.empty()) {
-        throw Error("$ELVIS_DATA_BUFFERS", "'" + std::string(buffers) + "' is neither 'texel' nor 'storage'");
+        throw Error("$ELVIS_DATA_BUFFERS", "'" + buffers + "' is neither 'texel' nor 'storage'");
     }
 
-    const std::string_view bytes = variable("ELVIS_MAX_BINDING_BYTES");
+    const std::string bytes = variable("ELVIS_MAX_BINDING_BYTES");
     const auto [end, failure] = std::from_chars(bytes.data(), bytes.data() + bytes.size(), options.max_binding_bytes);
     if (!bytes.empty() && (failure != std::errc() || end != bytes.data() + bytes.size())) {
-        throw Error("$ELVIS_MAX_BINDING_BYTES", "'" + std::string(bytes) + "' is not a number of bytes");
+        throw Error("$ELVIS_MAX_BINDING_BYTES", "'" + bytes + "' is not a number of bytes");
     }
     return options;
 }
@@ -82,8 +77,8 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
     }
     cache_key = summary.name + "|" + summary.driver + "|" + std::to_string(properties.properties.vendorID) + "|" +
                 std::to_string(properties.properties.deviceID) + "|" + std::to_string(properties.properties.driverVersion);
-    spdlog::debug("device {}: {} ({}, {}), data in {} buffers", summary.index, summary.name, summary.type, summary.driver,
-                  texel_buffers ? "texel" : "storage");
+    log_debug("device {}: {} ({}, {}), data in {} buffers", summary.index, summary.name, summary.type, summary.driver,
+              texel_buffers ? "texel" : "storage");
     try {
         create_device();
     } catch (...) {

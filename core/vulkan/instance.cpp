@@ -1,9 +1,9 @@
 #include <core/vulkan/instance.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/host.hpp>
+#include <core/base/log.hpp>
 #include <core/vulkan/check.hpp>
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ bool has_validation_layer() {
 
 VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                             const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    spdlog::warn("Vulkan validation: {}", data->pMessage);
+    log_warning("Vulkan validation: {}", data->pMessage);
     auto* log = static_cast<ValidationLog*>(user);
     const std::lock_guard lock(log->mutex);
     log->messages.emplace_back(data->pMessage);
@@ -229,8 +229,7 @@ DeviceSummary choose_among(const std::vector<DeviceSummary>& devices, const std:
     std::string name = wanted;
     std::string place = "device '" + wanted + "'";
     if (name.empty()) {
-        const char* variable = std::getenv("ELVIS_DEVICE");
-        name = variable != nullptr ? variable : "";
+        name = environment_variable("ELVIS_DEVICE").value_or("");
         place = "$ELVIS_DEVICE '" + name + "'";
     }
     if (name.empty()) {

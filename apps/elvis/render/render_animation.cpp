@@ -1,8 +1,7 @@
 #include "render_animation.hpp"
 #include "film.hpp"
-#include "missed_surfaces.hpp"
 #include "output_endings.hpp"
-#include "render_stats.hpp"
+#include "say_remarks.hpp"
 #include <apps/elvis/long_task.hpp>
 
 #include <core/base/counted.hpp>
@@ -10,6 +9,8 @@
 #include <core/scene/frame_request.hpp>
 #include <core/scene/output/output_file.hpp>
 #include <core/scene/output/png_file.hpp>
+#include <core/session/missed_surfaces.hpp>
+#include <core/session/picture_stats.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -126,7 +127,7 @@ void render_animation(const RenderArguments& arguments, const Scene& scene, cons
         }
         write_png(frame, path.string(), arguments.bits);
         missed.add(request, frame);
-        warn_about(frame.counts);
+        say(remarks_on(frame.counts));
         list.push_back({{"frame", number},
                         {"file", path.filename().string()},
                         {"time_step", request.time_step},

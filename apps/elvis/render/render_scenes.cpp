@@ -1,18 +1,18 @@
 #include "render_scenes.hpp"
-#include "field_samples.hpp"
-#include "missed_surfaces.hpp"
 #include "output_endings.hpp"
 #include "render_animation.hpp"
 #include "render_session.hpp"
-#include "render_stats.hpp"
+#include "say_remarks.hpp"
 
 #include <core/annotation/font.hpp>
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
-#include <core/scene/frame_request.hpp>
 #include <core/scene/output/buffers_file.hpp>
 #include <core/scene/output/output_file.hpp>
 #include <core/scene/output/png_file.hpp>
+#include <core/session/field_samples.hpp>
+#include <core/session/picture_stats.hpp>
+#include <core/session/still_picture.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -132,48 +132,26 @@ void choose_range(const RenderArguments& arguments, Scene& scene, RenderSession&
 }
 
 void render_picture(const RenderArguments& arguments, const Scene& scene, RenderSession& session, Clock::time_point start) {
-    const RuntimeVolume& volume = session.volume();
     Renderer& renderer = session.renderer();
     const Precision precision = scene.precision.value_or(Precision::float32);
-    FrameRequest request = make_frame_request(scene, volume, renderer.ranges());
-    for (const std::string& remark : request.remarks) {
-        spdlog::warn("{}", remark);
-    }
-    if (request.volume && scene.volume_rendering->has_default_density()) {
-        const auto& density = request.volume->transfer.density;
-        spdlog::info("volume: density rises from {:.6g} at {:.6g} to {:.6g} at {:.6g}", density.front().density,
-                     density.front().value, density.back().density, density.back().value);
-    }
-    request.with_buffers = !arguments.buffers.empty();
-    request.sharing = sharing_of(arguments);
-    Frame frame = renderer.render(request);
+    const bool with_buffers = !arguments.buffers.empty();
+    const StillPicture still = draw_still(scene, session.volume(), renderer, {with_buffers, sharing_of(arguments)});
+    say(still.remarks);
     std::vector<double> repeated;
     for (int repetition = 0; repetition < arguments.repeat; ++repetition) {
         const Clock::time_point frame_start = Clock::now();
-        renderer.render(request);
+        renderer.render(still.request);
         repeated.push_back(milliseconds_since(frame_start));
     }
-    if (scene.annotation) {
-        const AnnotationRequest annotation = make_annotation_request(*scene.annotation, request, frame, volume);
-        for (const std::string& name : annotate(frame, annotation)) {
-            spdlog::warn("annotation: there is no room for the {}", name);
-        }
-    }
-    write_png(frame, arguments.output, arguments.bits);
-    if (!arguments.buffers.empty()) {
-        write_buffers(frame, request, volume, arguments.buffers, precision);
+    write_png(still.frame, arguments.output, arguments.bits);
+    if (with_buffers) {
+        write_buffers(still.frame, still.request, session.volume(), arguments.buffers, precision);
     }
     if (!arguments.stats.empty()) {
-        const auto stats = stats_json(session.device(), precision, frame, renderer, session.load_milliseconds(),
+        const auto stats = stats_json(session.device(), precision, still.frame, renderer, session.load_milliseconds(),
                                       milliseconds_since(start), repeated);
         write_text_file(arguments.stats, stats.dump(2) + "\n");
     }
-    MissedSurfaces missed;
-    missed.add(request, frame);
-    for (const std::string& remark : missed.remarks(scene, request, renderer.ranges())) {
-        spdlog::warn("{}", remark);
-    }
-    warn_about(frame.counts);
 }
 
 void render_task(Task& task, RenderSession& session, Clock::time_point start) {

@@ -1,7 +1,7 @@
 #include "render_session.hpp"
-#include <apps/elvis/volume_argument.hpp>
 
 #include <core/base/milliseconds.hpp>
+#include <core/session/open_volume.hpp>
 
 #include <spdlog/spdlog.h>
 

@@ -16,6 +16,13 @@ constexpr double float32_value_error = 1e-6;
 
 } // namespace
 
+void VolumeRanges::forget_fields() {
+    m_of_components.clear();
+    m_extrema.clear();
+    m_of_expressions.clear();
+    m_errors.clear();
+}
+
 const std::vector<Vector3>& VolumeRanges::outline() {
     if (m_outline.empty()) {
         m_outline = outline_points(m_volume);

@@ -23,6 +23,9 @@ public:
     VolumeRanges(const Device& device, const RuntimeVolume& volume, DeviceVolume& data)
         : m_device(device), m_volume(volume), m_data(data) {}
 
+    /** Values of fields have changed: what is known of them goes. */
+    void forget_fields();
+
     /** Bounds of the whole volume: min x y z, max x y z. */
     const std::array<double, 6>& bounds() const { return m_data.bounds(); }
     /** How far the volume reaches in every direction (core/volume/outline.hpp). */

@@ -1,6 +1,6 @@
 #include "histogram.hpp"
 
-#include <apps/elvis/render/field_samples.hpp>
+#include <core/session/field_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,6 @@ void Histogram::add(std::span<const double> values) {
     }
 }
 
-double Histogram::quantile(double part) const { return m_sorted.empty() ? m_lower : commands::quantile(m_sorted, part); }
+double Histogram::quantile(double part) const { return m_sorted.empty() ? m_lower : elvis::quantile(m_sorted, part); }
 
 } // namespace elvis::view

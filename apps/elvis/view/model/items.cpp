@@ -1,11 +1,10 @@
 #include "items.hpp"
 
-#include <apps/elvis/render/surface_names.hpp>
-
 #include <core/base/bounds.hpp>
 #include <core/base/vector3.hpp>
 #include <core/scene/color/color_map.hpp>
 #include <core/scene/resolve.hpp>
+#include <core/session/surface_names.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -147,7 +146,7 @@ bool exists(const Scene& scene, const ItemId& item) {
 std::string item_kind_name(const Scene& scene, const ItemId& item) {
     switch (item.kind) {
     case ItemKind::surface:
-        return commands::kind_name(scene.surfaces[item.index].geometry);
+        return elvis::kind_name(scene.surfaces[item.index].geometry);
     case ItemKind::volume:
         return "volume";
     default: {

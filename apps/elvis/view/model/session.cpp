@@ -11,10 +11,9 @@
 #include <core/scene/resolve.hpp>
 #include <core/scene/scene_annotation.hpp>
 #include <core/scene/surface_distance.hpp>
-
-#include <apps/elvis/render/field_samples.hpp>
-#include <apps/elvis/render/missed_surfaces.hpp>
-#include <apps/elvis/volume_argument.hpp>
+#include <core/session/field_samples.hpp>
+#include <core/session/missed_surfaces.hpp>
+#include <core/session/open_volume.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -44,8 +43,8 @@ VolumeFacts Session::open(const Scene& scene) {
         if (scene.volume.empty()) {
             throw Error("the scene names no volume");
         }
-        auto volume = std::make_unique<RuntimeVolume>(
-            commands::open_volume(m_registry, scene.volume, scene.plugin, scene.plugin_options));
+        auto volume =
+            std::make_unique<RuntimeVolume>(open_volume(m_registry, scene.volume, scene.plugin, scene.plugin_options));
         auto renderer = std::make_unique<Renderer>(*m_device, *volume, precision);
         m_prober.reset();
         m_renderer = std::move(renderer);
@@ -77,7 +76,7 @@ Picture Session::draw(const Scene& scene, const FrameSchedule::Step& step) {
     picture.camera = request.camera;
     picture.remarks.insert(picture.remarks.end(), request.remarks.begin(), request.remarks.end());
     if (step.divisor == 1) {
-        commands::MissedSurfaces missed;
+        MissedSurfaces missed;
         missed.add(request, frame);
         const std::vector<std::string> remarks = missed.remarks(scene, request, m_renderer->ranges());
         picture.remarks.insert(picture.remarks.end(), remarks.begin(), remarks.end());
@@ -202,11 +201,11 @@ bool Session::probe(const Ray& ray, std::uint32_t time_step, Picked& picked) {
 
 std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece) {
     need_precision(scene);
-    commands::need_samples(*m_volume);
+    need_samples(*m_volume);
     if (!m_prober) {
         m_prober = std::make_unique<Prober>(*m_volume);
     }
-    return commands::field_samples(*m_prober, *m_volume, m_renderer->ranges().bounds(), scene, field, piece);
+    return field_samples(*m_prober, *m_volume, m_renderer->ranges().bounds(), scene, field, piece);
 }
 
 } // namespace elvis::view

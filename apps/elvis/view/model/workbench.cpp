@@ -1,12 +1,12 @@
 #include "workbench.hpp"
 
-#include <apps/elvis/render/field_samples.hpp>
-#include <apps/elvis/render/frame_remarks.hpp>
 #include <apps/elvis/render/output_endings.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/scene/write/write_scene.hpp>
+#include <core/session/field_samples.hpp>
+#include <core/session/frame_remarks.hpp>
 
 #include <filesystem>
 #include <numeric>
@@ -226,7 +226,7 @@ void Workbench::sample(const std::optional<std::string>& field, const std::strin
                     return;
                 }
                 found->second->add(values);
-                if (piece + 1 < commands::n_pieces) {
+                if (piece + 1 < n_pieces) {
                     sample(field, key, piece + 1);
                 }
             };
@@ -369,7 +369,7 @@ std::vector<Message> Workbench::picture_messages() const {
     if (m_stage != FrameStage::exact) {
         return messages;
     }
-    for (const commands::FrameRemark& remark : commands::remarks_on(m_picture.counts)) {
+    for (const FrameRemark& remark : remarks_on(m_picture.counts)) {
         messages.push_back({remark.is_warning ? Message::Kind::warning : Message::Kind::info, remark.text});
     }
     for (const std::string& remark : m_picture.remarks) {

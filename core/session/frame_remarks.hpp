@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace elvis::commands {
+namespace elvis {
 
 struct FrameRemark {
     /** Something may be wrong with the picture or the data; else it is only good to know. */
@@ -19,4 +19,4 @@ struct FrameRemark {
 
 std::vector<FrameRemark> remarks_on(const FrameCounts& counts);
 
-} // namespace elvis::commands
+} // namespace elvis

@@ -1,5 +1,5 @@
 /**
- * @file render_stats.hpp
+ * @file picture_stats.hpp
  * What `elvis render` says of the pictures that it has drawn.
  */
 #pragma once
@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace elvis::commands {
+namespace elvis {
 
 nlohmann::ordered_json counts_json(const FrameCounts& counts);
 
@@ -19,7 +19,4 @@ nlohmann::ordered_json counts_json(const FrameCounts& counts);
 nlohmann::ordered_json stats_json(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer,
                                   double load, double total, const std::vector<double>& repeated);
 
-/** Says what is not as it should be. */
-void warn_about(const FrameCounts& counts);
-
-} // namespace elvis::commands
+} // namespace elvis

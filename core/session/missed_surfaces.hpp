@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace elvis::commands {
+namespace elvis {
 
 /**
  * Pictures of one scene, whose camera and time step may differ. A surface that others hide is met, and one of which a pixel
@@ -41,4 +41,4 @@ private:
     bool m_volume_is_missed = false;
 };
 
-} // namespace elvis::commands
+} // namespace elvis

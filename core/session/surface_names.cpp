@@ -1,11 +1,11 @@
-#include "surface_names.hpp"
+#include <core/session/surface_names.hpp>
 
 #include <core/base/overloaded.hpp>
 
 #include <cstdio>
 #include <variant>
 
-namespace elvis::commands {
+namespace elvis {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::string surface_name(const SceneSurface& surface) {
            (surface.name.empty() ? std::string() : quoted(surface.name));
 }
 
-} // namespace elvis::commands
+} // namespace elvis

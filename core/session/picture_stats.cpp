@@ -1,13 +1,9 @@
-#include "render_stats.hpp"
-
-#include "frame_remarks.hpp"
-
-#include <spdlog/spdlog.h>
+#include <core/session/picture_stats.hpp>
 
 #include <algorithm>
 #include <functional>
 
-namespace elvis::commands {
+namespace elvis {
 
 nlohmann::ordered_json counts_json(const FrameCounts& counts) {
     return {{"pixels", counts.pixels},
@@ -86,10 +82,4 @@ nlohmann::ordered_json stats_json(const Device& device, Precision precision, con
     return root;
 }
 
-void warn_about(const FrameCounts& counts) {
-    for (const FrameRemark& remark : remarks_on(counts)) {
-        spdlog::log(remark.is_warning ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
-    }
-}
-
-} // namespace elvis::commands
+} // namespace elvis

@@ -1,6 +1,6 @@
 /**
- * @file volume_argument.hpp
- * Opening the volume that a command is given.
+ * @file open_volume.hpp
+ * Opening a volume by its path.
  */
 #pragma once
 
@@ -10,13 +10,16 @@
 
 #include <string>
 
-namespace elvis::commands {
+namespace elvis {
 
-/** Opens with the plugin of that id, or the one surest of the file. A foreign file gets the advice to convert it. */
+/**
+ * Opens with the plugin of that id, or the one surest of the file. A foreign file gets the advice to convert it. `control`, if
+ * there is one, must outlive the volume.
+ */
 inline RuntimeVolume open_volume(const PluginRegistry& registry, const std::string& path, const std::string& plugin,
-                                 const std::string& options) {
+                                 const std::string& options, const TaskControl* control = nullptr) {
     if (!plugin.empty()) {
-        return RuntimeVolume(registry.find(plugin), path, options);
+        return RuntimeVolume(registry.find(plugin), path, options, control);
     }
     std::shared_ptr<const Plugin> found;
     try {
@@ -33,7 +36,7 @@ inline RuntimeVolume open_volume(const PluginRegistry& registry, const std::stri
         }
         throw Error(path, "is a foreign file; convert it first: elvis convert " + path + " -o volume.h5");
     }
-    return RuntimeVolume(found, path, options);
+    return RuntimeVolume(found, path, options, control);
 }
 
-} // namespace elvis::commands
+} // namespace elvis

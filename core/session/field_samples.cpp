@@ -1,4 +1,4 @@
-#include "field_samples.hpp"
+#include <core/session/field_samples.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace elvis::commands {
+namespace elvis {
 
 void need_samples(const RuntimeVolume& volume) {
     if (volume.dimension() == 2) {
@@ -84,4 +84,4 @@ std::array<double, 2> percentile_range(const Scene& scene, const RuntimeVolume& 
     return range;
 }
 
-} // namespace elvis::commands
+} // namespace elvis

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace elvis::commands {
+namespace elvis {
 
 /** "cut plane", "boundary", "isosurface", "sphere". */
 std::string kind_name(const SurfaceGeometry& geometry);
@@ -19,4 +19,4 @@ std::string kind_name(const SurfaceGeometry& geometry);
  */
 std::string surface_name(const SceneSurface& surface);
 
-} // namespace elvis::commands
+} // namespace elvis

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace elvis::commands {
+namespace elvis {
 
 /** Points are taken in pieces of so many; all of them together are what percentiles rest on. */
 inline constexpr std::size_t n_points_a_piece = 500;
@@ -41,4 +41,4 @@ double quantile(std::span<const double> sorted, double part);
 std::array<double, 2> percentile_range(const Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
                                        const std::array<double, 2>& parts);
 
-} // namespace elvis::commands
+} // namespace elvis

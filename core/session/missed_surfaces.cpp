@@ -1,12 +1,12 @@
-#include "missed_surfaces.hpp"
+#include <core/session/missed_surfaces.hpp>
 
-#include "surface_names.hpp"
+#include <core/session/surface_names.hpp>
 
 #include <algorithm>
 #include <cstdio>
 #include <utility>
 
-namespace elvis::commands {
+namespace elvis {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::vector<std::string> MissedSurfaces::remarks(const Scene& scene, const Frame
     return remarks;
 }
 
-} // namespace elvis::commands
+} // namespace elvis

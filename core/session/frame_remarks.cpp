@@ -1,8 +1,8 @@
-#include "frame_remarks.hpp"
+#include <core/session/frame_remarks.hpp>
 
 #include <core/base/counted.hpp>
 
-namespace elvis::commands {
+namespace elvis {
 
 std::vector<FrameRemark> remarks_on(const FrameCounts& counts) {
     std::vector<FrameRemark> remarks;
@@ -37,4 +37,4 @@ std::vector<FrameRemark> remarks_on(const FrameCounts& counts) {
     return remarks;
 }
 
-} // namespace elvis::commands
+} // namespace elvis

@@ -1,0 +1,67 @@
+"""Scenes: what is to be seen, with the keys of scene files."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import TYPE_CHECKING, Any
+
+from ._library import context
+from ._picture import Picture
+from .scene_objects import SceneKeys
+
+if TYPE_CHECKING:
+    from ._volume import Volume
+
+
+class Scene(SceneKeys):
+    """A scene: its attributes are the keys of a scene file.
+
+    A scene that a volume made (Volume.scene) or that was read from a file knows what it shows; another one is drawn by
+    Volume.render.
+    """
+
+    def __init__(self, **keys: Any) -> None:
+        object.__setattr__(self, "_shown", None)
+        object.__setattr__(self, "_folder", "")
+        super().__init__(**keys)
+
+    @classmethod
+    def read(cls, path: str | os.PathLike) -> Scene:
+        """Reads a scene file. Paths in it are seen from its folder."""
+        scene = cls.from_dict(json.loads(context().read_scene(os.fspath(path))))
+        object.__setattr__(scene, "_folder", os.path.dirname(os.fspath(path)))
+        return scene
+
+    def write(self, path: str | os.PathLike) -> None:
+        """Writes a scene file, which appears whole or not at all. `elvis render` draws it to the same bytes."""
+        whole = self.to_json()
+        if self._shown is not None and "volume" not in self.to_dict():
+            whole = json.dumps({**json.loads(whole), "volume": {"path": os.path.abspath(self._shown.path)}})
+        context().write_scene(whole, self._folder, os.fspath(path))
+
+    def check(self) -> None:
+        """Raises Error, which names the key, if a scene file could not say this."""
+        context().check_scene(self.to_json(), self._folder)
+
+    def to_json(self) -> str:
+        """The scene as its file has it."""
+        return json.dumps({"version": 1, **self.to_dict()})
+
+    def render(self, width: int = 0, height: int = 0, *, progress: Any = True) -> Picture:
+        """Draws the picture; width and height 0 are those of image.size. See Volume.render."""
+        return self._volume().render(self, width, height, progress=progress)
+
+    def _volume(self) -> Volume:
+        if self._shown is None:
+            from ._volume import open as open_volume
+
+            path = context().scene_volume(self.to_json(), self._folder)
+            if not path:
+                raise ValueError("the scene names no volume: set scene.volume.path, or draw it by Volume.render")
+            file = self.volume
+            object.__setattr__(self, "_shown", open_volume(path, plugin=file.plugin or "", options=file.options))
+        return self._shown
+
+    def _repr_png_(self) -> bytes:
+        return self.render()._repr_png_()

@@ -1,0 +1,162 @@
+"""Volumes that are open."""
+
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _elvis
+from ._library import context
+from ._picture import Picture
+from ._probe import Samples
+from ._progress import progress_for
+from ._scene import Scene
+from .scene_objects import Surface
+
+Progress = Callable[[float, str], None] | bool
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field of a volume."""
+
+    name: str
+    components: int
+    unit: str
+    continuity: str
+    """continuous, discontinuous or unknown."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """Smallest and largest value of a field or expression over a volume."""
+
+    minimum: float
+    maximum: float
+    lower_bound: float
+    """No value lies below, if `certified`."""
+    upper_bound: float
+    certified: bool
+    """Proven, not from samples."""
+    minimum_element: int
+    maximum_element: int
+
+
+class Volume:
+    """A volume that is open: see elvis.open."""
+
+    def __init__(self, handle: _elvis.Volume, path: str) -> None:
+        self._handle = handle
+        self.path = path
+        """Its file."""
+        self._facts = json.loads(handle.describe(0, True))
+
+    @property
+    def fields(self) -> dict[str, Field]:
+        """The fields by their names."""
+        return {field["name"]: Field(field["name"], field["components"], field["unit"], field["continuity"])
+                for field in self._facts["fields"]}
+
+    @property
+    def n_elements(self) -> int:
+        """Number of elements."""
+        return self._facts["n_elements"]
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """Lower and upper corner of the bounds, (2, 3), in world units."""
+        return np.array(self._facts["bounds"])
+
+    @property
+    def time_steps(self) -> np.ndarray:
+        """Times of the steps."""
+        return np.array(self._facts["times"], dtype=float)
+
+    @property
+    def boundary_groups(self) -> list[str]:
+        """Names of the groups of boundary faces."""
+        return list(self._facts["boundary_groups"])
+
+    def info(self, time_step: int = 0) -> dict[str, Any]:
+        """What `elvis info --json` prints: classes, orders, ranges, Jacobians. Takes a while for large volumes."""
+        return json.loads(self._handle.describe(time_step, False))
+
+    def range(self, field: str, time_step: int = 0) -> Range:
+        """Extrema of a field's component or of an expression; of a vector, of its magnitude."""
+        return Range(**self._handle.range(field, time_step))
+
+    def probe(self, points: ArrayLike, fields: str | Sequence[str] | None = None, *, time_step: int = 0,
+              progress: Progress = True) -> Samples:
+        """Values at points, in double precision, straight from the basis.
+
+        points: (n, 3), world units; or one point, (3,). fields: names or expressions; None is all fields. A field's name gives
+        all its components.
+        """
+        places = np.atleast_2d(np.asarray(points, dtype=float))
+        names = list(self.fields) if fields is None else [fields] if isinstance(fields, str) else list(fields)
+        n_values = [self._handle.count_values(name) for name in names]
+        with progress_for(progress) as report:
+            probed = self._handle.probe(places, names, time_step, report)
+        return Samples(places, names, n_values, probed)
+
+    def scene(self, *, field: str | None = None, cut_planes: Sequence[Sequence[float]] = (), boundary: bool | Sequence[str] = False,
+              isosurfaces: Sequence[float] | Mapping[str, Sequence[float]] = (), volume: str | None = None,
+              time_step: int = 0, **keys: Any) -> Scene:
+        """A scene of this volume. Without any surface it shows what `elvis render FILE` does.
+
+        field: what surfaces show; the first of the volume if None. cut_planes: a, b, c, d of planes ax+by+cz+d=0.
+        boundary: True, or names of groups. isosurfaces: values of `field`, or a dict of values by field.
+        volume: "default" draws the volume itself. keys: other keys of the scene file, such as camera or color_map.
+        """
+        scene = Scene(**keys)
+        object.__setattr__(scene, "_shown", self)
+        if field is not None:
+            scene.field = field
+        if time_step:
+            scene.volume.path = os.path.abspath(self.path)
+            scene.volume.time_step = time_step
+        for plane in cut_planes:
+            scene.surfaces.append(Surface(type="plane", plane=plane))
+        if boundary:
+            scene.surfaces.append(Surface(type="boundary"))
+            if boundary is not True:
+                scene.surfaces[-1].groups = list(boundary)
+        of_fields = isosurfaces if isinstance(isosurfaces, Mapping) else {None: isosurfaces} if len(isosurfaces) else {}
+        for name, values in of_fields.items():
+            scene.surfaces.append(Surface(type="isosurface", values=values, field=name))
+        if volume == "default":
+            scene.volume_rendering.visible = True
+        elif volume is not None:
+            raise ValueError(f"volume: '{volume}' is not known; 'default' is, and scene.volume_rendering has all else")
+        return scene
+
+    def render(self, scene: Scene | None = None, width: int = 0, height: int = 0, *, color_only: bool = False,
+               progress: Progress = True) -> Picture:
+        """Draws a picture of a scene; None shows what `elvis render FILE` does.
+
+        width, height: 0 are those of scene.image.size. color_only: without values, depths and flags, which is faster.
+        Kernels and buffers are kept: the next picture of the kind costs the device's work alone.
+        """
+        scene = Scene() if scene is None else scene
+        with progress_for(progress) as report:
+            drawn = self._handle.render(scene.to_json(), scene._folder, int(width), int(height), color_only, report)
+        return Picture(drawn)
+
+    def __repr__(self) -> str:
+        return f"<Volume {self.path}: {self.n_elements} elements, fields {', '.join(self.fields)}>"
+
+
+def open(path: str | os.PathLike, *, plugin: str = "", options: dict[str, Any] | None = None,
+         progress: Progress = True) -> Volume:
+    """Opens a volume.
+
+    plugin: id of the runtime plugin; "" is the one surest of the file. options: of the plugin. A foreign file is to be converted
+    first (elvis.convert).
+    """
+    with progress_for(progress) as report:
+        handle = context().open(os.fspath(path), plugin, json.dumps(options) if options else "", report)
+    return Volume(handle, os.fspath(path))

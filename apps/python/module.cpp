@@ -1,0 +1,299 @@
+/**
+ * @file module.cpp
+ * elvis._elvis: the library for Python, as it is. The package around it makes it pleasant (elvis/__init__.py).
+ */
+#include "running.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+
+namespace py = pybind11;
+
+namespace elvis::python {
+
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/** What one channel is in an array: numbers a pixel, and their kind. */
+struct ChannelKind {
+    const char* name;
+    elvis_channel channel;
+    elvis_number number;
+    const char* type;
+    py::ssize_t n_numbers;
+};
+constexpr ChannelKind channel_kinds[] = {{"color", ELVIS_CHANNEL_COLOR, ELVIS_NUMBER_UINT8, "uint8", 4},
+                                         {"color16", ELVIS_CHANNEL_COLOR, ELVIS_NUMBER_UINT16, "uint16", 4},
+                                         {"color_float", ELVIS_CHANNEL_COLOR, ELVIS_NUMBER_DOUBLE, "float64", 4},
+                                         {"value", ELVIS_CHANNEL_VALUE, ELVIS_NUMBER_DOUBLE, "float64", 1},
+                                         {"depth", ELVIS_CHANNEL_DEPTH, ELVIS_NUMBER_DOUBLE, "float64", 1},
+                                         {"normal", ELVIS_CHANNEL_NORMAL, ELVIS_NUMBER_DOUBLE, "float64", 3},
+                                         {"element", ELVIS_CHANNEL_ELEMENT, ELVIS_NUMBER_INT64, "int64", 1},
+                                         {"flags", ELVIS_CHANNEL_FLAGS, ELVIS_NUMBER_UINT32, "uint32", 1}};
+
+class Picture {
+public:
+    Picture(context with, picture drawn) : m_context(std::move(with)), m_picture(std::move(drawn)), m_info(m_picture.info()) {}
+
+    py::array read(const std::string& name) const {
+        for (const ChannelKind& kind : channel_kinds) {
+            if (name == kind.name) {
+                std::vector<py::ssize_t> shape{m_info.height, m_info.width};
+                if (kind.n_numbers > 1) {
+                    shape.push_back(kind.n_numbers);
+                }
+                py::array array(py::dtype(kind.type), shape);
+                void* const to = array.mutable_data();
+                const py::gil_scoped_release unlocked;
+                const elvis_result result = elvis_picture_read(m_picture.get(), kind.channel, kind.number, to, 0, 0);
+                if (result != ELVIS_OK) {
+                    throw error(result, elvis_context_error(m_context.get()));
+                }
+                return array;
+            }
+        }
+        throw error(ELVIS_ERROR_INVALID_ARGUMENT, "there is no channel '" + name + "'");
+    }
+    std::vector<std::pair<std::string, bool>> remarks() const {
+        std::vector<std::pair<std::string, bool>> all;
+        for (const picture::remark& remark : m_picture.remarks()) {
+            all.emplace_back(remark.text, remark.is_warning);
+        }
+        return all;
+    }
+    const picture& get() const { return m_picture; }
+    const elvis_picture_info& info() const { return m_info; }
+
+private:
+    context m_context;
+    picture m_picture;
+    elvis_picture_info m_info;
+};
+
+class Volume {
+public:
+    Volume(context with, data opened) : m_context(std::move(with)), m_data(std::move(opened)) {}
+
+    std::string describe(std::uint32_t time_step, bool brief) const {
+        const py::gil_scoped_release unlocked;
+        return m_data.describe(time_step, brief ? ELVIS_DESCRIBE_BRIEF : 0);
+    }
+    py::dict range(const std::string& field, std::uint32_t time_step) const {
+        elvis_range found{};
+        {
+            const py::gil_scoped_release unlocked;
+            found = m_data.range(field, time_step);
+        }
+        py::dict result;
+        result["minimum"] = found.minimum;
+        result["maximum"] = found.maximum;
+        result["lower_bound"] = found.lower_bound;
+        result["upper_bound"] = found.upper_bound;
+        result["certified"] = found.certainty == ELVIS_CERTIFIED;
+        result["minimum_element"] = found.minimum_element;
+        result["maximum_element"] = found.maximum_element;
+        return result;
+    }
+    /** Elements, xi, values, gradients, whether estimated: what elvis_data_probe writes. */
+    py::tuple probe(const Doubles& points, const std::vector<std::string>& fields, std::uint32_t time_step,
+                    const py::object& progress) const {
+        if (points.ndim() != 2 || points.shape(1) != 3) {
+            throw error(ELVIS_ERROR_INVALID_ARGUMENT, "points: an array of the shape (n, 3) is wanted");
+        }
+        std::vector<elvis_string> names;
+        for (const std::string& field : fields) {
+            names.push_back(field.c_str());
+        }
+        std::uint32_t n_values = 0;
+        check(elvis_data_count_values(m_data.get(), names.data(), static_cast<std::uint32_t>(names.size()), &n_values));
+        const py::ssize_t n_points = points.shape(0);
+        py::array_t<std::int64_t> elements(n_points);
+        py::array_t<double> xi({n_points, py::ssize_t{3}});
+        py::array_t<double> values({n_points, py::ssize_t{n_values}});
+        py::array_t<double> gradients({n_points, py::ssize_t{n_values}, py::ssize_t{3}});
+        py::array_t<std::uint8_t> estimated({n_points, py::ssize_t{n_values}});
+        auto request = detail::sized<elvis_probe>();
+        request.time_step = time_step;
+        request.n_points = static_cast<std::uint64_t>(n_points);
+        request.positions = points.data();
+        request.n_fields = static_cast<std::uint32_t>(names.size());
+        request.fields = names.data();
+        request.elements = elements.mutable_data();
+        request.xi = xi.mutable_data();
+        request.values = values.mutable_data();
+        request.gradients = gradients.mutable_data();
+        request.estimated = estimated.mutable_data();
+        run(progress, [&](const task& watch) {
+            const elvis_task c_watch = detail::c_task(watch);
+            check(elvis_data_probe(m_data.get(), &request, &c_watch));
+        });
+        return py::make_tuple(elements, xi, values, gradients, estimated);
+    }
+    std::uint32_t count_values(const std::string& field) const {
+        const elvis_string name = field.c_str();
+        std::uint32_t n_values = 0;
+        check(elvis_data_count_values(m_data.get(), &name, 1, &n_values));
+        return n_values;
+    }
+    std::unique_ptr<Picture> render(const std::string& scene_text, const std::string& folder, std::uint32_t width,
+                                    std::uint32_t height, bool color_only, const py::object& progress) const {
+        std::optional<picture> drawn;
+        run(progress, [&](const task& watch) {
+            const scene shown = m_context.parse_scene(scene_text, folder);
+            auto options = detail::sized<elvis_render_options>();
+            options.width = width;
+            options.height = height;
+            options.flags = color_only ? ELVIS_RENDER_COLOR_ONLY : 0;
+            drawn.emplace(m_data.render(shown, options, watch));
+        });
+        return std::make_unique<Picture>(m_context, std::move(*drawn));
+    }
+
+private:
+    void check(elvis_result result) const { detail::check(result, m_context.get()); }
+
+    context m_context;
+    data m_data;
+};
+
+class Context {
+public:
+    Context(const std::string& device, const std::optional<std::string>& plugin_path,
+            const std::optional<std::string>& cache_folder)
+        : m_context(options(device, plugin_path, cache_folder)) {}
+
+    std::unique_ptr<Volume> open(const std::string& path, const std::string& plugin, const std::string& plugin_options,
+                                 const py::object& progress) const {
+        std::optional<data> opened;
+        run(progress, [&](const task& watch) { opened.emplace(m_context.open(path, plugin, plugin_options, watch)); });
+        return std::make_unique<Volume>(m_context, std::move(*opened));
+    }
+    /** The scene as the library understands it: JSON. Throws for what the schema does not allow. */
+    std::string check_scene(const std::string& text, const std::string& folder) const {
+        return m_context.parse_scene(text, folder).json();
+    }
+    std::string read_scene(const std::string& path) const { return m_context.read_scene(path).json(); }
+    void write_scene(const std::string& text, const std::string& folder, const std::string& path) const {
+        m_context.parse_scene(text, folder).write(path);
+    }
+    std::string scene_volume(const std::string& text, const std::string& folder) const {
+        return m_context.parse_scene(text, folder).volume();
+    }
+    std::string convert(const std::vector<std::string>& inputs, const std::string& output, const std::string& plugin,
+                        const std::string& plugin_options, const std::vector<std::string>& fields, int order,
+                        elvis_continuity continuity, const py::object& progress) const {
+        const auto pointers = [](const std::vector<std::string>& texts) {
+            std::vector<elvis_string> all;
+            for (const std::string& text : texts) {
+                all.push_back(text.c_str());
+            }
+            return all;
+        };
+        const std::vector<elvis_string> input_names = pointers(inputs), field_names = pointers(fields);
+        auto conversion = detail::sized<elvis_conversion>();
+        conversion.n_inputs = static_cast<std::uint32_t>(input_names.size());
+        conversion.inputs = input_names.data();
+        conversion.output = output.c_str();
+        conversion.plugin = detail::or_null(plugin);
+        conversion.options = detail::or_null(plugin_options);
+        conversion.n_fields = static_cast<std::uint32_t>(field_names.size());
+        conversion.fields = field_names.data();
+        conversion.order = order;
+        conversion.continuity = continuity;
+        std::string report;
+        run(progress, [&](const task& watch) { report = m_context.convert(conversion, watch); });
+        return report;
+    }
+    std::string devices() const { return m_context.list_devices(); }
+    std::string plugins() const { return m_context.list_plugins(); }
+
+private:
+    static elvis_context_options options(const std::string& device, const std::optional<std::string>& plugin_path,
+                                         const std::optional<std::string>& cache_folder) {
+        auto result = detail::sized<elvis_context_options>();
+        result.device = detail::or_null(device);
+        result.plugin_path = plugin_path ? plugin_path->c_str() : nullptr;
+        result.cache_folder = cache_folder ? cache_folder->c_str() : nullptr;
+        result.log = [](void*, elvis_log_level level, elvis_string line) {
+            if (level < ELVIS_LOG_WARNING) {
+                return;
+            }
+            // The logging module decides who hears of it. Lines may come while the interpreter ends.
+            if (Py_IsInitialized() == 0) {
+                return;
+            }
+            const py::gil_scoped_acquire locked;
+            try {
+                py::module_::import("logging").attr("getLogger")("elvis").attr("warning")("%s", line);
+            } catch (py::error_already_set& failure) {
+                failure.discard_as_unraisable("a log line of elvis");
+            }
+        };
+        return result;
+    }
+
+    context m_context;
+};
+
+} // namespace
+
+} // namespace elvis::python
+
+PYBIND11_MODULE(_elvis, module) {
+    using namespace elvis::python;
+    module.doc() = "The library libelvis. Use the package elvis.";
+
+    static py::exception<elvis::error> error_type(module, "Error", PyExc_RuntimeError);
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) {
+                std::rethrow_exception(thrown);
+            }
+        } catch (const elvis::cancelled&) {
+            PyErr_SetNone(PyExc_KeyboardInterrupt);
+        } catch (const elvis::error& failure) {
+            error_type(failure.what());
+        }
+    });
+
+    py::class_<Picture>(module, "Picture")
+        .def("read", &Picture::read, py::arg("channel"))
+        .def("remarks", &Picture::remarks)
+        .def("stats", [](const Picture& picture) { return picture.get().stats(); })
+        .def("color_bars", [](const Picture& picture) { return picture.get().color_bars(); })
+        .def(
+            "write_png",
+            [](const Picture& picture, const std::string& path, std::uint32_t bits) { picture.get().write_png(path, bits); },
+            py::arg("path"), py::arg("bits"))
+        .def(
+            "write_buffers", [](const Picture& picture, const std::string& path) { picture.get().write_buffers(path); },
+            py::arg("path"))
+        .def_property_readonly("width", [](const Picture& picture) { return picture.info().width; })
+        .def_property_readonly("height", [](const Picture& picture) { return picture.info().height; });
+
+    py::class_<Volume>(module, "Volume")
+        .def("describe", &Volume::describe, py::arg("time_step"), py::arg("brief"))
+        .def("range", &Volume::range, py::arg("field"), py::arg("time_step"))
+        .def("count_values", &Volume::count_values, py::arg("field"))
+        .def("probe", &Volume::probe, py::arg("points"), py::arg("fields"), py::arg("time_step"), py::arg("progress"))
+        .def("render", &Volume::render, py::arg("scene"), py::arg("folder"), py::arg("width"), py::arg("height"),
+             py::arg("color_only"), py::arg("progress"));
+
+    py::class_<Context>(module, "Context")
+        .def(py::init<const std::string&, const std::optional<std::string>&, const std::optional<std::string>&>(),
+             py::arg("device"), py::arg("plugin_path"), py::arg("cache_folder"))
+        .def("open", &Context::open, py::arg("path"), py::arg("plugin"), py::arg("options"), py::arg("progress"))
+        .def("check_scene", &Context::check_scene, py::arg("text"), py::arg("folder"))
+        .def("read_scene", &Context::read_scene, py::arg("path"))
+        .def("write_scene", &Context::write_scene, py::arg("text"), py::arg("folder"), py::arg("path"))
+        .def("scene_volume", &Context::scene_volume, py::arg("text"), py::arg("folder"))
+        .def("convert", &Context::convert, py::arg("inputs"), py::arg("output"), py::arg("plugin"), py::arg("options"),
+             py::arg("fields"), py::arg("order"), py::arg("continuity"), py::arg("progress"))
+        .def("devices", &Context::devices)
+        .def("plugins", &Context::plugins);
+
+    module.def("scene_schema", [] { return std::string(elvis_scene_schema()); });
+}

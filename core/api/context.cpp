@@ -1,0 +1,131 @@
+#include "call.hpp"
+
+#include <core/base/log.hpp>
+
+#include <sstream>
+#include <vector>
+
+namespace elvis::library {
+
+namespace {
+
+std::vector<std::filesystem::path> split_folders(const std::string& list) {
+    std::vector<std::filesystem::path> folders;
+    std::istringstream text(list);
+    for (std::string folder; std::getline(text, folder, ':');) {
+        if (!folder.empty()) {
+            folders.emplace_back(folder);
+        }
+    }
+    return folders;
+}
+
+nlohmann::ordered_json plugin_json(const Plugin& plugin) {
+    nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
+    if (plugin.runtime() != nullptr) {
+        kinds.push_back("runtime");
+    }
+    if (plugin.converter() != nullptr) {
+        kinds.push_back("converter");
+    }
+    return {{"id", plugin.id()},
+            {"name", plugin.name()},
+            {"version", plugin.version()},
+            {"library", plugin.library().string()},
+            {"kinds", kinds}};
+}
+
+} // namespace
+
+Context::Context(const elvis_context_options& options)
+    : wanted_device(text_or_empty(options.device)), is_validated((options.flags & ELVIS_CONTEXT_VALIDATION) != 0) {
+    host.reads_environment = (options.flags & ELVIS_CONTEXT_NO_ENVIRONMENT) == 0;
+    if (options.log != nullptr) {
+        host.log = [log = options.log, user = options.user](LogLevel level, std::string_view line) {
+            log(user, static_cast<elvis_log_level>(level), std::string(line).c_str());
+        };
+    }
+    if (options.cache_folder != nullptr) {
+        host.cache_folder = options.cache_folder;
+    }
+    if (options.plugin_path != nullptr) {
+        host.plugin_folders = split_folders(options.plugin_path);
+    }
+    const HostScope scope(host);
+    plugins.emplace();
+}
+
+Context::~Context() {
+    // The device writes its cache when it goes.
+    const HostScope scope(host);
+    m_device.reset();
+    plugins.reset();
+}
+
+const Device& Context::device() {
+    const std::lock_guard lock(m_mutex);
+    if (!m_device) {
+        m_device.emplace(wanted_device, is_validated);
+    }
+    return *m_device;
+}
+
+} // namespace elvis::library
+
+using namespace elvis;
+using namespace elvis::library;
+
+uint32_t elvis_library_version(void) { return ELVIS_LIBRARY_VERSION; }
+
+elvis_result elvis_context_create(const elvis_context_options* options, elvis_context** context) {
+    try {
+        need(context, "context");
+        *context = nullptr;
+        elvis_context_options known{};
+        if (options != nullptr) {
+            known = known_part(options, "options");
+        }
+        *context = new elvis_context{std::make_shared<Context>(known)};
+        return ELVIS_OK;
+    } catch (...) {
+        return result_of_exception(nullptr);
+    }
+}
+
+void elvis_context_release(elvis_context* context) { delete context; }
+
+elvis_string elvis_context_error(const elvis_context* context) {
+    return error_of(context != nullptr ? context->state.get() : nullptr);
+}
+
+elvis_result elvis_context_list_devices(elvis_context* context, char** text) {
+    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+        need(text, "text");
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        for (const DeviceSummary& device : list_devices()) {
+            list.push_back({{"index", device.index},
+                            {"name", device.name},
+                            {"type", device.type},
+                            {"driver", device.driver},
+                            {"memory_bytes", device.memory_bytes},
+                            {"float64", device.has_float64},
+                            {"unusable_because", device.unusable_because}});
+        }
+        *text = text_for_caller(list.dump(2));
+    });
+}
+
+elvis_result elvis_context_list_plugins(elvis_context* context, char** text) {
+    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+        need(text, "text");
+        nlohmann::ordered_json root = {{"plugins", nlohmann::ordered_json::array()},
+                                       {"refused", nlohmann::ordered_json::array()}};
+        for (const auto& plugin : context->state->plugins->plugins()) {
+            root["plugins"].push_back(plugin_json(*plugin));
+        }
+        for (const RefusedPlugin& refused : context->state->plugins->refused()) {
+            root["refused"].push_back({{"library", refused.library.string()}, {"reason", refused.reason}});
+        }
+        *text = text_for_caller(root.dump(2));
+    });
+}

@@ -1,0 +1,66 @@
+#include "call.hpp"
+
+#include <core/convert/request.hpp>
+
+namespace elvis::library {
+
+namespace {
+
+std::vector<std::string> texts(const elvis_string* list, std::uint32_t n, const char* name) {
+    std::vector<std::string> all;
+    if (n > 0) {
+        need(list, name);
+    }
+    for (std::uint32_t index = 0; index < n; ++index) {
+        need(list[index], name);
+        all.emplace_back(list[index]);
+    }
+    return all;
+}
+
+ConvertRequest request_of(const elvis_conversion& conversion) {
+    need(conversion.output, "output");
+    ConvertRequest request{texts(conversion.inputs, conversion.n_inputs, "inputs"),
+                           conversion.output,
+                           text_or_empty(conversion.plugin),
+                           text_or_empty(conversion.options),
+                           {}};
+    if (request.inputs.empty()) {
+        throw InvalidArgument("inputs", "there are none");
+    }
+    constexpr std::int32_t highest = 30; // See elvis_source_space.
+    if (conversion.order > highest) {
+        throw InvalidArgument("order", "is above 30");
+    }
+    if (conversion.continuity > ELVIS_CONTINUITY_DISCONTINUOUS) {
+        throw InvalidArgument("continuity", "is not known");
+    }
+    ConvertOptions& options = request.options;
+    options.fields = texts(conversion.fields, conversion.n_fields, "fields");
+    options.program_version = ELVIS_VERSION;
+    if (conversion.order >= 0) {
+        options.order = static_cast<std::uint32_t>(conversion.order);
+    }
+    if (conversion.continuity != ELVIS_CONTINUITY_UNKNOWN) {
+        options.continuity = conversion.continuity;
+    }
+    return request;
+}
+
+} // namespace
+
+} // namespace elvis::library
+
+using namespace elvis;
+using namespace elvis::library;
+
+elvis_result elvis_convert(elvis_context* context, const elvis_conversion* conversion, const elvis_task* task, char** report) {
+    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+        need(report, "report");
+        *report = nullptr;
+        const ConvertRequest request = request_of(known_part(conversion, "conversion"));
+        TaskControl control;
+        follow(control, task);
+        *report = text_for_caller(to_json(convert(request, control)));
+    });
+}

@@ -1,0 +1,199 @@
+#include "call.hpp"
+
+#include <core/base/counted.hpp>
+#include <core/scene/frame_request.hpp>
+#include <core/session/describe_volume.hpp>
+#include <core/session/open_volume.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace elvis::library {
+
+Data::Data(std::shared_ptr<Context> with, std::unique_ptr<TaskControl> watch, RuntimeVolume of)
+    : context(std::move(with)), control(std::move(watch)), volume(std::move(of)),
+      extrema(volume, [this]() -> const Device& { return context->device(); }) {}
+
+Data::~Data() {
+    const HostScope scope(context->host);
+    m_renderer.reset();
+    m_prober.reset();
+    extrema.forget_fields();
+}
+
+Renderer& Data::renderer(Precision precision) {
+    if (!m_renderer || m_precision != precision) {
+        m_renderer.reset();
+        m_renderer.emplace(context->device(), volume, precision, control.get());
+        m_precision = precision;
+    }
+    return *m_renderer;
+}
+
+Prober& Data::prober() {
+    if (!m_prober) {
+        m_prober.emplace(volume, ProbeOptions{ProbeOptions::Evaluation::automatic, context->wanted_device});
+    }
+    return *m_prober;
+}
+
+void Data::forget_fields() {
+    extrema.forget_fields();
+    if (m_renderer) {
+        m_renderer->forget_fields();
+    }
+}
+
+namespace {
+
+std::array<double, 6> bounds_of(const RuntimeVolume& volume) {
+    std::vector<double> boxes(6 * volume.n_elements());
+    volume.bounds(0, volume.n_elements(), boxes);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<double, 6> bounds{infinity, infinity, infinity, -infinity, -infinity, -infinity};
+    for (std::size_t at = 0; at < boxes.size(); at += 6) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            bounds[axis] = std::min(bounds[axis], boxes[at + axis]);
+            bounds[axis + 3] = std::max(bounds[axis + 3], boxes[at + axis + 3]);
+        }
+    }
+    return bounds;
+}
+
+void check_step(const RuntimeVolume& volume, std::uint32_t time_step) {
+    if (time_step >= volume.times().size()) {
+        throw InvalidArgument(volume.path(), "has " + counted(volume.times().size(), "time step") + ", counted from 0");
+    }
+}
+
+std::int64_t number_of(const RuntimeVolume& volume, std::uint64_t element) {
+    std::int64_t number = 0;
+    volume.element_numbers(element, 1, std::span(&number, 1));
+    return number;
+}
+
+elvis_range range_of(const RuntimeVolume& volume, const FieldExtrema& found) {
+    elvis_range range{};
+    range.certainty = found.certainty;
+    range.minimum = found.minimum.value;
+    range.maximum = found.maximum.value;
+    range.lower_bound = found.minimum.bound;
+    range.upper_bound = found.maximum.bound;
+    range.minimum_element = number_of(volume, found.minimum.element);
+    range.maximum_element = number_of(volume, found.maximum.element);
+    std::ranges::copy(found.minimum.xi, range.minimum_xi);
+    std::ranges::copy(found.maximum.xi, range.maximum_xi);
+    return range;
+}
+
+Context* context_of(elvis_data* data) { return data != nullptr ? data->state->context.get() : nullptr; }
+
+} // namespace
+
+} // namespace elvis::library
+
+using namespace elvis;
+using namespace elvis::library;
+
+elvis_result elvis_data_open(elvis_context* context, elvis_string path, elvis_string plugin, elvis_string options,
+                             const elvis_task* task, elvis_data** data) {
+    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+        need(data, "data");
+        *data = nullptr;
+        need(path, "path");
+        auto control = std::make_unique<TaskControl>();
+        follow(*control, task);
+        control->check();
+        RuntimeVolume volume =
+            open_volume(*context->state->plugins, path, text_or_empty(plugin), text_or_empty(options), control.get());
+        follow(*control, nullptr);
+        *data = new elvis_data{std::make_shared<Data>(context->state, std::move(control), std::move(volume))};
+    });
+}
+
+elvis_result elvis_data_from_runtime(elvis_context* context, const elvis_runtime* runtime, elvis_volume* volume,
+                                     elvis_string name, elvis_data** data) {
+    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+        need(data, "data");
+        *data = nullptr;
+        const elvis_runtime table = known_part(runtime, "runtime");
+        const std::string called = name != nullptr ? name : "volume";
+        RuntimeVolume opened(Plugin::of_program(table, called), volume, called);
+        *data = new elvis_data{std::make_shared<Data>(context->state, std::make_unique<TaskControl>(), std::move(opened))};
+    });
+}
+
+elvis_result elvis_data_fields_changed(elvis_data* data) {
+    return call(context_of(data), [&] {
+        const DataTask task(*data->state, nullptr);
+        data->state->forget_fields();
+    });
+}
+
+void elvis_data_release(elvis_data* data) { delete data; }
+
+elvis_result elvis_data_get_info(elvis_data* data, elvis_data_info* info) {
+    return call(context_of(data), [&] {
+        const DataTask task(*data->state, nullptr);
+        const RuntimeVolume& volume = data->state->volume;
+        elvis_data_info ours{};
+        ours.dimension = volume.dimension();
+        ours.n_elements = volume.n_elements();
+        ours.n_classes = static_cast<std::uint32_t>(volume.classes().size());
+        ours.n_fields = static_cast<std::uint32_t>(volume.fields().size());
+        ours.n_time_steps = static_cast<std::uint32_t>(volume.times().size());
+        ours.n_boundary_groups = static_cast<std::uint32_t>(volume.boundary_groups().size());
+        std::ranges::copy(bounds_of(volume), ours.bounds);
+        give(ours, info, "info");
+    });
+}
+
+elvis_result elvis_data_get_field(elvis_data* data, uint32_t field, elvis_field* out) {
+    return call(context_of(data), [&] {
+        const auto& fields = data->state->volume.fields();
+        if (field >= fields.size()) {
+            throw InvalidArgument("field", "the volume has " + counted(fields.size(), "field"));
+        }
+        const FieldInfo& info = fields[field];
+        elvis_field ours{};
+        ours.n_components = info.n_components;
+        ours.name = info.name.c_str();
+        ours.unit = info.unit.c_str();
+        ours.continuity = info.continuity;
+        ours.transform = info.transform;
+        ours.max_jump = info.max_jump;
+        give(ours, out, "out");
+    });
+}
+
+elvis_result elvis_data_get_time(elvis_data* data, uint32_t time_step, double* time) {
+    return call(context_of(data), [&] {
+        need(time, "time");
+        check_step(data->state->volume, time_step);
+        *time = data->state->volume.times()[time_step];
+    });
+}
+
+elvis_result elvis_data_describe(elvis_data* data, uint32_t time_step, elvis_describe_flags flags, char** text) {
+    return call(context_of(data), [&] {
+        need(text, "text");
+        const DataTask task(*data->state, nullptr);
+        check_step(data->state->volume, time_step);
+        DescribeOptions options;
+        options.time_step = time_step;
+        options.is_brief = (flags & ELVIS_DESCRIBE_BRIEF) != 0;
+        options.lists_all = (flags & ELVIS_DESCRIBE_ALL) != 0;
+        *text = text_for_caller(describe_volume(data->state->volume, options, data->state->extrema).dump(2));
+    });
+}
+
+elvis_result elvis_data_get_range(elvis_data* data, elvis_string field, uint32_t time_step, elvis_range* range) {
+    return call(context_of(data), [&] {
+        need(field, "field");
+        const DataTask task(*data->state, nullptr);
+        const RuntimeVolume& volume = data->state->volume;
+        check_step(volume, time_step);
+        give(range_of(volume, data->state->extrema.of(choose_field(volume, std::string(field)), time_step)), range, "range");
+    });
+}

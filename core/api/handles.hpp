@@ -1,0 +1,107 @@
+/**
+ * @file handles.hpp
+ * What is behind the handles of elvis.h.
+ */
+#pragma once
+
+#include <core/base/cancel.hpp>
+#include <core/base/host.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/probe/probe.hpp>
+#include <core/render/renderer.hpp>
+#include <core/scene/scene.hpp>
+#include <core/session/extrema_finder.hpp>
+#include <core/session/still_picture.hpp>
+#include <core/vulkan/device.hpp>
+
+#include <elvis/elvis.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace elvis::library {
+
+/** A context: kept by all that was made with it. */
+struct Context {
+    explicit Context(const elvis_context_options& options);
+    ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    /** Opened when first asked for. */
+    const Device& device();
+
+    /** First: all that follows works for it. */
+    Host host;
+    std::optional<PluginRegistry> plugins;
+    /** By name, or empty. */
+    std::string wanted_device;
+    bool is_validated = false;
+
+private:
+    std::mutex m_mutex;
+    std::optional<Device> m_device;
+};
+
+/** Data: kept by its pictures. What is below `mutex` is for one thread at a time. */
+struct Data {
+    /** `watch` is what the volume was opened with. */
+    Data(std::shared_ptr<Context> with, std::unique_ptr<TaskControl> watch, RuntimeVolume of);
+    ~Data();
+    Data(const Data&) = delete;
+    Data& operator=(const Data&) = delete;
+
+    /** Of that precision; the other precision's is given up: a volume is on the device once. */
+    Renderer& renderer(Precision precision);
+    Prober& prober();
+    /** Values of fields have changed. */
+    void forget_fields();
+
+    const std::shared_ptr<Context> context;
+    /** Follows the call that has the mutex: what volume and renderer were made with lives longer than a call. */
+    const std::unique_ptr<TaskControl> control;
+    const RuntimeVolume volume;
+
+    std::mutex mutex;
+    ExtremaFinder extrema;
+
+private:
+    std::optional<Prober> m_prober;
+    std::optional<Renderer> m_renderer;
+    Precision m_precision = Precision::float32;
+};
+
+/** A scene: the document, what it says, and the file beside which it is. */
+struct SceneState {
+    std::shared_ptr<Context> context;
+    nlohmann::json document;
+    std::string file;
+    Scene scene;
+};
+
+struct Picture {
+    std::shared_ptr<Data> data;
+    Precision precision = Precision::float32;
+    StillPicture still;
+    /** JSON. */
+    std::string stats;
+};
+
+} // namespace elvis::library
+
+struct elvis_context {
+    std::shared_ptr<elvis::library::Context> state;
+};
+struct elvis_data {
+    std::shared_ptr<elvis::library::Data> state;
+};
+struct elvis_scene {
+    elvis::library::SceneState state;
+};
+struct elvis_picture {
+    elvis::library::Picture state;
+};

@@ -1,0 +1,377 @@
+/**
+ * @file elvis.h
+ * The library libelvis: pictures and values of high-order volumes inside other programs.
+ *
+ * Four things. A *context* has a device, plugins and a cache. *Data* is a volume, from a file, from a program's own table of
+ * functions (runtime.h), or from arrays. A *scene* says what is to be seen; it is what a scene file holds. A *picture* is what
+ * came of rendering a scene of data: colours, values, depths, normals, elements and flags of its pixels.
+ *
+ *     elvis_context* context;
+ *     elvis_context_create(NULL, &context);
+ *     elvis_data_open(context, "ball.h5", NULL, NULL, NULL, &data);
+ *     elvis_scene_create(context, &scene);
+ *     elvis_scene_set(scene, "/image/size", "[800, 600]");
+ *     elvis_render(data, scene, NULL, NULL, &picture);
+ *     elvis_picture_write_png(picture, "ball.png", 8);
+ *
+ * Rules beyond those of abi.h (C99, struct_size first in every struct, members added at the end, texts in UTF-8):
+ *  - Every function that can fail returns an elvis_result. On anything but ELVIS_OK the outputs are NULL or untouched, and
+ *    elvis_context_error has the text. No exception, signal or message comes out of the library otherwise.
+ *  - A handle, an array or a text that the caller passes has to be valid; NULL is refused with ELVIS_ERROR_INVALID_ARGUMENT
+ *    unless it is said to mean something.
+ *  - Handles are released by the function that is named with what makes them; NULL is released without effect. Data, scenes and
+ *    pictures keep what they need of their context and data: they may be released in any order.
+ *  - A text that a function gives through `char** text` is the caller's, who gives it to elvis_text_release.
+ *  - A struct that may be NULL and is NULL has the values that are said for each member.
+ *
+ * Threads. Different contexts share nothing: their functions may be called at the same time. Functions of one context, or of
+ * data, scenes and pictures made with it, may be called from several threads at the same time, too. Those that need data
+ * (probing, rendering, describing) take turns for each data; the device of a context is one for all its data. A scene or a
+ * picture must not be changed or released while another thread uses it. Callbacks must not call functions that take what the
+ * running call has (the same data); they may call elvis_context_log from anywhere.
+ *
+ * Since 0.2. Until version 1 of the library functions may change; soname and elvis_library_version tell.
+ */
+#ifndef ELVIS_ELVIS_H
+#define ELVIS_ELVIS_H
+
+#include <elvis/abi.h>
+#include <elvis/host.h>
+#include <elvis/runtime.h>
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Of this header. Programs and library fit if the major numbers and, before 1.0, the minor numbers are equal. */
+#define ELVIS_LIBRARY_VERSION_MAJOR 0u
+#define ELVIS_LIBRARY_VERSION_MINOR 2u
+#define ELVIS_LIBRARY_VERSION ((ELVIS_LIBRARY_VERSION_MAJOR << 16) | ELVIS_LIBRARY_VERSION_MINOR)
+
+/** ELVIS_LIBRARY_VERSION of the library that is loaded. */
+ELVIS_EXPORT uint32_t elvis_library_version(void);
+
+/** Releases a text that a function gave. */
+ELVIS_EXPORT void elvis_text_release(char* text);
+
+/* ---- Tasks: what takes long -------------------------------------------------------------------------------------------- */
+
+/** How a long call is watched and stopped. NULL in its place: it is neither. */
+typedef struct elvis_task {
+    uint32_t struct_size;
+    uint32_t reserved;
+    void* user;
+    /**
+     * May be NULL. Told how far the call has come: `fraction` in [0, 1], negative if unknown; `activity` is a short phrase, not
+     * NULL. From any thread, from one at a time.
+     */
+    void (*progress)(void* user, double fraction, elvis_string activity);
+    /**
+     * May be NULL. Non-zero once the call is to stop: it then returns ELVIS_ERROR_CANCELLED within about 0.1 s, except while a
+     * driver compiles a kernel. Asked often, from any thread, also from several at once.
+     */
+    int32_t (*is_cancelled)(void* user);
+} elvis_task;
+
+/* ---- Context ----------------------------------------------------------------------------------------------------------- */
+
+/** A device with plugins and a cache. Nothing of it is shared with another context of the process. */
+typedef struct elvis_context elvis_context;
+
+typedef uint32_t elvis_context_flags;
+/** Variables of the environment ($ELVIS_..., $XDG_..., $HOME) are not read. */
+#define ELVIS_CONTEXT_NO_ENVIRONMENT 1u
+/** Runs with Vulkan's validation layer, whose messages go to the log. Slow. */
+#define ELVIS_CONTEXT_VALIDATION 2u
+
+typedef struct elvis_context_options {
+    uint32_t struct_size;
+    elvis_context_flags flags;
+    /** Index, or part of the name, of a Vulkan device. NULL: $ELVIS_DEVICE, else the best. */
+    elvis_string device;
+    /**
+     * Folders of plugins, separated by ':'. NULL: $ELVIS_PLUGIN_PATH, the user's folder (~/.local/share/elvis/plugins) and
+     * elvis/plugins beside the library. "": none.
+     */
+    elvis_string plugin_path;
+    /** Where compiled kernels are kept. NULL: $ELVIS_CACHE_PATH, else ~/.cache/elvis. "": nowhere. */
+    elvis_string cache_folder;
+    /** May be NULL: then no one is told. Called with each line of the log, from any thread, also from several at once. */
+    void (*log)(void* user, elvis_log_level level, elvis_string line);
+    void* user;
+} elvis_context_options;
+
+/**
+ * Loads plugins. The device is opened when it is first needed, so that values of files can be had on machines without one.
+ * On failure *context is NULL, and elvis_context_error(NULL) has the text. `options` may be NULL. Released by
+ * elvis_context_release.
+ */
+ELVIS_EXPORT elvis_result elvis_context_create(const elvis_context_options* options, elvis_context** context);
+ELVIS_EXPORT void elvis_context_release(elvis_context* context);
+
+/**
+ * Why the last call of this thread that failed did so, of those with this context (or what was made with it); "" if none did.
+ * Names file, place and cause. Valid until this thread's next call with the context. NULL: of elvis_context_create.
+ */
+ELVIS_EXPORT elvis_string elvis_context_error(const elvis_context* context);
+
+/** JSON list of this machine's devices: index, name, type, driver, memory, and why one cannot be used. */
+ELVIS_EXPORT elvis_result elvis_context_list_devices(elvis_context* context, char** text);
+
+/** JSON object with `plugins` (id, name, version, library, kinds) and `refused` (library, reason). */
+ELVIS_EXPORT elvis_result elvis_context_list_plugins(elvis_context* context, char** text);
+
+/* ---- Data -------------------------------------------------------------------------------------------------------------- */
+
+/** A volume that is open. */
+typedef struct elvis_data elvis_data;
+
+/**
+ * Opens a volume file with the runtime plugin of id `plugin`, or with the one surest of the file if NULL. `options` is a JSON
+ * object for the plugin, or NULL. Released by elvis_data_release.
+ */
+ELVIS_EXPORT elvis_result elvis_data_open(elvis_context* context, elvis_string path, elvis_string plugin, elvis_string options,
+                                          const elvis_task* task, elvis_data** data);
+
+/**
+ * A volume that the program itself serves: nothing is copied but what fill_buffer gives. `runtime` is a table as a plugin has
+ * it, whose probe, open and close are not called and may be NULL; `volume` is what its functions get. Both must stay valid
+ * until the data is released, and functions are called as runtime.h says, from threads of the library, too. `name` stands for
+ * the file in messages; NULL: "volume".
+ */
+ELVIS_EXPORT elvis_result elvis_data_from_runtime(elvis_context* context, const elvis_runtime* runtime, elvis_volume* volume,
+                                                  elvis_string name, elvis_data** data);
+
+/**
+ * Values of fields have changed, at any time step: what rests on them is asked again, what rests on the mesh is kept. Number,
+ * names and orders of fields stay. For data of elvis_data_from_runtime, whose functions give the new values from now on.
+ */
+ELVIS_EXPORT elvis_result elvis_data_fields_changed(elvis_data* data);
+
+ELVIS_EXPORT void elvis_data_release(elvis_data* data);
+
+typedef struct elvis_data_info {
+    uint32_t struct_size;
+    /** 3, or 2 for surfaces. */
+    uint32_t dimension;
+    uint64_t n_elements;
+    uint32_t n_classes;
+    uint32_t n_fields;
+    uint32_t n_time_steps;
+    uint32_t n_boundary_groups;
+    /** min x y z, max x y z. */
+    double bounds[6];
+} elvis_data_info;
+
+/** `info->struct_size` is set by the caller. */
+ELVIS_EXPORT elvis_result elvis_data_get_info(elvis_data* data, elvis_data_info* info);
+/** `field->struct_size` is set by the caller; its texts live as long as the data. */
+ELVIS_EXPORT elvis_result elvis_data_get_field(elvis_data* data, uint32_t field, elvis_field* out);
+ELVIS_EXPORT elvis_result elvis_data_get_time(elvis_data* data, uint32_t time_step, double* time);
+
+typedef uint32_t elvis_describe_flags;
+/** Without what takes long: ranges of fields, Jacobians, overlaps. */
+#define ELVIS_DESCRIBE_BRIEF 1u
+/** All elements of the lists, not the first twenty. */
+#define ELVIS_DESCRIBE_ALL 2u
+
+/** What `elvis info --json` prints, as JSON: classes, bounds, fields with ranges and orders, times, groups, Jacobians. */
+ELVIS_EXPORT elvis_result elvis_data_describe(elvis_data* data, uint32_t time_step, elvis_describe_flags flags, char** text);
+
+/** A field's or expression's smallest and largest value over the volume. */
+typedef struct elvis_range {
+    uint32_t struct_size;
+    /** ELVIS_CERTIFIED: no value lies outside of lower and upper bound. ELVIS_ESTIMATED: from samples. */
+    elvis_certainty certainty;
+    double minimum, maximum;
+    double lower_bound, upper_bound;
+    /** Elements, as people know them, and places in them. */
+    int64_t minimum_element, maximum_element;
+    double minimum_xi[3], maximum_xi[3];
+} elvis_range;
+
+/** `field`: as the key "field" of scenes: a name, a component, or an expression. May need the device. */
+ELVIS_EXPORT elvis_result elvis_data_get_range(elvis_data* data, elvis_string field, uint32_t time_step, elvis_range* range);
+
+/**
+ * Values at points, in double precision. Arrays are the caller's, and each but `positions` may be NULL if it is not wanted.
+ * A point that lies in no element has element -1 and NaN everywhere else.
+ */
+typedef struct elvis_probe {
+    uint32_t struct_size;
+    uint32_t time_step;
+    uint64_t n_points;
+    /** 3 a point. */
+    const double* positions;
+    uint32_t n_fields;
+    uint32_t reserved;
+    /**
+     * Names of fields, or expressions. A field's name gives all its components; anything else one number
+     * (elvis_data_count_values).
+     */
+    const elvis_string* fields;
+    /** Element as people know it; -1: none; -2: not known, since the inverse mapping failed. 1 a point. */
+    int64_t* elements;
+    /** Reference coordinates, 3 a point. */
+    double* xi;
+    /** Of each point the values of the first field, then of the second, and so on. */
+    double* values;
+    /** World gradients of each of these: 3 a value. */
+    double* gradients;
+    /** Of each point and value, not 0 where the value or its gradient rests on differences (plugins that give no derivatives).
+     */
+    uint8_t* estimated;
+} elvis_probe;
+
+/** Numbers a point that elvis_data_probe writes for these fields. */
+ELVIS_EXPORT elvis_result elvis_data_count_values(elvis_data* data, const elvis_string* fields, uint32_t n_fields,
+                                                  uint32_t* n_values);
+ELVIS_EXPORT elvis_result elvis_data_probe(elvis_data* data, const elvis_probe* probe, const elvis_task* task);
+
+/* ---- Scene ------------------------------------------------------------------------------------------------------------- */
+
+/** What is to be seen: the same keys as a scene file's (scenes.md, scene.schema.json). A value: no data is needed for it. */
+typedef struct elvis_scene elvis_scene;
+
+/** A scene that says nothing: data is shown as `elvis render FILE` does. Released by elvis_scene_release. */
+ELVIS_EXPORT elvis_result elvis_scene_create(elvis_context* context, elvis_scene** scene);
+/** Reads a scene file. Its volume is not opened: see elvis_scene_get_volume. */
+ELVIS_EXPORT elvis_result elvis_scene_read(elvis_context* context, elvis_string path, elvis_scene** scene);
+/** The same of a text; files that it names are seen from `folder`, NULL: from the working directory. */
+ELVIS_EXPORT elvis_result elvis_scene_parse(elvis_context* context, elvis_string text, elvis_string folder,
+                                            elvis_scene** scene);
+ELVIS_EXPORT elvis_result elvis_scene_copy(const elvis_scene* scene, elvis_scene** copy);
+ELVIS_EXPORT void elvis_scene_release(elvis_scene* scene);
+
+/**
+ * Sets one key. `pointer` is a JSON Pointer (RFC 6901): "/camera/eye", "/surfaces/0/field", or "/surfaces/-", which appends;
+ * objects and lists on the way are made. `value` is JSON; NULL removes the key. What the schema does not allow is refused, and
+ * the scene is as before.
+ */
+ELVIS_EXPORT elvis_result elvis_scene_set(elvis_scene* scene, elvis_string pointer, elvis_string value);
+/** JSON of the value there; "" is the whole scene. ELVIS_ERROR_INVALID_ARGUMENT if there is none. */
+ELVIS_EXPORT elvis_result elvis_scene_get(const elvis_scene* scene, elvis_string pointer, char** text);
+/** A scene file, which appears whole or not at all. Paths in it become relative to its folder. */
+ELVIS_EXPORT elvis_result elvis_scene_write(const elvis_scene* scene, elvis_string path);
+/** Path of the scene's volume as seen from the working directory; "" if it names none. */
+ELVIS_EXPORT elvis_result elvis_scene_get_volume(const elvis_scene* scene, char** path);
+/** The JSON Schema of scenes. */
+ELVIS_EXPORT elvis_string elvis_scene_schema(void);
+
+/* ---- Picture ----------------------------------------------------------------------------------------------------------- */
+
+/** A picture in memory. Rows go from the top. */
+typedef struct elvis_picture elvis_picture;
+
+typedef uint32_t elvis_render_flags;
+/** Colours alone: value, depth, normal, element and flags are not read from the device, which saves time. */
+#define ELVIS_RENDER_COLOR_ONLY 1u
+
+typedef struct elvis_render_options {
+    uint32_t struct_size;
+    elvis_render_flags flags;
+    /** 0: the scene's ("image" "size"). */
+    uint32_t width, height;
+} elvis_render_options;
+
+/**
+ * Draws the scene's still picture of the data; its "animation" and "volume" are not looked at. Kernels and buffers stay with
+ * the data: the next picture of the kind costs the device's work alone. `options` may be NULL. Released by
+ * elvis_picture_release.
+ */
+ELVIS_EXPORT elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvis_render_options* options,
+                                       const elvis_task* task, elvis_picture** picture);
+ELVIS_EXPORT void elvis_picture_release(elvis_picture* picture);
+
+typedef struct elvis_picture_info {
+    uint32_t struct_size;
+    uint32_t width, height;
+    /** Sentences about the picture: see elvis_picture_get_remark. */
+    uint32_t n_remarks;
+    /** Pixels that show something; of them undecided ones, and such as any flag of doubt is set of. */
+    uint64_t n_hit_pixels, n_undecided_pixels;
+    /** Time of this frame, without upload and compilation; and what the device would need with nothing else to do. */
+    double render_milliseconds, device_milliseconds;
+} elvis_picture_info;
+
+ELVIS_EXPORT elvis_result elvis_picture_get_info(const elvis_picture* picture, elvis_picture_info* info);
+/** Not 0 in *is_warning: something may be wrong with the picture or the data. The text lives as long as the picture. */
+ELVIS_EXPORT elvis_result elvis_picture_get_remark(const elvis_picture* picture, uint32_t remark, elvis_string* text,
+                                                   int32_t* is_warning);
+/** Counts of the frame, times and kernels, as JSON: what `elvis render --stats` writes. */
+ELVIS_EXPORT elvis_result elvis_picture_get_stats(const elvis_picture* picture, char** text);
+
+/**
+ * What its colours mean, as a JSON list, one object for each field that is coloured by its own map: name, unit, points (value,
+ * red, green, blue, ascending; two equal values make a step), below, above, nan (red, green, blue), logarithmic.
+ */
+ELVIS_EXPORT elvis_result elvis_picture_get_color_bars(const elvis_picture* picture, char** text);
+
+typedef uint32_t elvis_channel;
+/** Red, green, blue, alpha: 4 numbers. In integers 0 to 255 or 65535, rounded as in PNG files; in reals 0 to 1. */
+#define ELVIS_CHANNEL_COLOR 0u
+/** Field value; NaN where nothing was met. */
+#define ELVIS_CHANNEL_VALUE 1u
+/** Distance from the ray's origin; NaN where nothing was met. */
+#define ELVIS_CHANNEL_DEPTH 2u
+/** Unit vector towards the viewer, 3 numbers; NaN where nothing was met. */
+#define ELVIS_CHANNEL_NORMAL 3u
+/** Element as people know it; -1 where nothing was met. Integers only. */
+#define ELVIS_CHANNEL_ELEMENT 4u
+/** Bits of buffers.md. Integers only. */
+#define ELVIS_CHANNEL_FLAGS 5u
+
+typedef uint32_t elvis_number;
+#define ELVIS_NUMBER_UINT8 0u
+#define ELVIS_NUMBER_UINT16 1u
+#define ELVIS_NUMBER_UINT32 2u
+#define ELVIS_NUMBER_INT64 3u
+#define ELVIS_NUMBER_FLOAT 4u
+#define ELVIS_NUMBER_DOUBLE 5u
+
+/**
+ * Writes a channel into the caller's array: pixel (row, column) begins at row * row_stride + column * pixel_stride bytes, its
+ * numbers follow each other. Strides may be negative (rows from below); 0: the array has no gaps. Numbers: colours in UINT8,
+ * UINT16, FLOAT, DOUBLE; value, depth, normal in FLOAT, DOUBLE; elements in INT64; flags in UINT32. Others are refused, as is
+ * what the picture was not asked for.
+ */
+ELVIS_EXPORT elvis_result elvis_picture_read(const elvis_picture* picture, elvis_channel channel, elvis_number number,
+                                             void* destination, ptrdiff_t row_stride, ptrdiff_t pixel_stride);
+/** The bytes of `elvis render`: `bits` is 8 or 16. The file appears whole or not at all. */
+ELVIS_EXPORT elvis_result elvis_picture_write_png(const elvis_picture* picture, elvis_string path, uint32_t bits);
+/** The file of `elvis render --buffers` (HDF5). */
+ELVIS_EXPORT elvis_result elvis_picture_write_buffers(const elvis_picture* picture, elvis_string path);
+
+/* ---- Conversion -------------------------------------------------------------------------------------------------------- */
+
+typedef struct elvis_conversion {
+    uint32_t struct_size;
+    uint32_t n_inputs;
+    /** Geometry first, then field files. */
+    const elvis_string* inputs;
+    /** The native volume to write; it appears whole or not at all. */
+    elvis_string output;
+    /** Id of the conversion plugin; NULL: the one surest of the first input. */
+    elvis_string plugin;
+    /** JSON object for the plugin, or NULL. */
+    elvis_string options;
+    /** Names of the fields to convert, in this order; none: all. */
+    const elvis_string* fields;
+    uint32_t n_fields;
+    /** ELVIS_CONTINUITY_UNKNOWN: what the source says. */
+    elvis_continuity continuity;
+    /** Order of every field; negative: what contains the source. */
+    int32_t order;
+} elvis_conversion;
+
+/** Converts in this process. *report is what `elvis convert --json` prints: how exact each field is, and times. */
+ELVIS_EXPORT elvis_result elvis_convert(elvis_context* context, const elvis_conversion* conversion, const elvis_task* task,
+                                        char** report);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

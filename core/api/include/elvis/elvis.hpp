@@ -1,0 +1,354 @@
+/**
+ * @file elvis.hpp
+ * The library libelvis for C++17 and later: handles that release themselves, and exceptions. Header only; what each function
+ * does stands in elvis.h.
+ *
+ *     elvis::context context;
+ *     elvis::data ball = context.open("ball.h5");
+ *     elvis::scene scene = context.make_scene();
+ *     scene.set("/image/size", "[800, 600]");
+ *     ball.render(scene).write_png("ball.png");
+ */
+#ifndef ELVIS_ELVIS_HPP
+#define ELVIS_ELVIS_HPP
+
+#include "elvis.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elvis {
+
+/** What elvis_context_error says. */
+class error : public std::runtime_error {
+public:
+    error(elvis_result result, const std::string& text) : std::runtime_error(text), m_result(result) {}
+    elvis_result result() const { return m_result; }
+
+private:
+    elvis_result m_result;
+};
+
+/** The task was asked to stop. */
+class cancelled : public error {
+public:
+    using error::error;
+};
+
+/** Callbacks for what takes long; both may be empty. They must not throw. See elvis_task. */
+struct task {
+    std::function<void(double fraction, const char* activity)> progress;
+    std::function<bool()> is_cancelled;
+};
+
+namespace detail {
+
+template <class Struct> Struct sized() {
+    Struct value{};
+    value.struct_size = sizeof value;
+    return value;
+}
+
+/** A task as the C interface has it; must not outlive `own`. */
+inline elvis_task c_task(const task& own) {
+    auto result = sized<elvis_task>();
+    result.user = const_cast<task*>(&own);
+    if (own.progress) {
+        result.progress = [](void* user, double fraction, elvis_string activity) {
+            static_cast<task*>(user)->progress(fraction, activity);
+        };
+    }
+    if (own.is_cancelled) {
+        result.is_cancelled = [](void* user) -> std::int32_t { return static_cast<task*>(user)->is_cancelled() ? 1 : 0; };
+    }
+    return result;
+}
+
+struct release {
+    void operator()(elvis_context* handle) const { elvis_context_release(handle); }
+    void operator()(elvis_data* handle) const { elvis_data_release(handle); }
+    void operator()(elvis_scene* handle) const { elvis_scene_release(handle); }
+    void operator()(elvis_picture* handle) const { elvis_picture_release(handle); }
+    void operator()(char* text) const { elvis_text_release(text); }
+};
+
+inline void check(elvis_result result, const elvis_context* context) {
+    if (result == ELVIS_ERROR_CANCELLED) {
+        throw cancelled(result, elvis_context_error(context));
+    }
+    if (result != ELVIS_OK) {
+        throw error(result, elvis_context_error(context));
+    }
+}
+
+inline std::string taken(char* text) {
+    const std::unique_ptr<char, release> own(text);
+    return own.get();
+}
+
+inline const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
+
+using shared_context = std::shared_ptr<elvis_context>;
+
+} // namespace detail
+
+/** What is to be seen. */
+class scene {
+public:
+    scene(detail::shared_context context, elvis_scene* handle) : m_context(std::move(context)), m_handle(handle) {}
+    scene(scene&&) = default;
+    scene& operator=(scene&&) = default;
+
+    scene copy() const {
+        elvis_scene* other = nullptr;
+        check(elvis_scene_copy(get(), &other));
+        return {m_context, other};
+    }
+    void set(const std::string& pointer, const std::string& json) {
+        check(elvis_scene_set(get(), pointer.c_str(), json.c_str()));
+    }
+    void remove(const std::string& pointer) { check(elvis_scene_set(get(), pointer.c_str(), nullptr)); }
+    std::string json(const std::string& pointer = {}) const {
+        char* text = nullptr;
+        check(elvis_scene_get(get(), pointer.c_str(), &text));
+        return detail::taken(text);
+    }
+    std::string volume() const {
+        char* path = nullptr;
+        check(elvis_scene_get_volume(get(), &path));
+        return detail::taken(path);
+    }
+    void write(const std::string& path) const { check(elvis_scene_write(get(), path.c_str())); }
+    elvis_scene* get() const { return m_handle.get(); }
+
+private:
+    void check(elvis_result result) const { detail::check(result, m_context.get()); }
+
+    detail::shared_context m_context;
+    std::unique_ptr<elvis_scene, detail::release> m_handle;
+};
+
+/** A picture in memory. */
+class picture {
+public:
+    struct remark {
+        std::string text;
+        bool is_warning;
+    };
+
+    picture(detail::shared_context context, elvis_picture* handle) : m_context(std::move(context)), m_handle(handle) {}
+    picture(picture&&) = default;
+    picture& operator=(picture&&) = default;
+
+    elvis_picture_info info() const {
+        auto result = detail::sized<elvis_picture_info>();
+        check(elvis_picture_get_info(get(), &result));
+        return result;
+    }
+    std::vector<remark> remarks() const {
+        std::vector<remark> all;
+        const std::uint32_t n = info().n_remarks;
+        for (std::uint32_t index = 0; index < n; ++index) {
+            elvis_string text = nullptr;
+            std::int32_t is_warning = 0;
+            check(elvis_picture_get_remark(get(), index, &text, &is_warning));
+            all.push_back({text, is_warning != 0});
+        }
+        return all;
+    }
+    std::string stats() const {
+        char* text = nullptr;
+        check(elvis_picture_get_stats(get(), &text));
+        return detail::taken(text);
+    }
+    std::string color_bars() const {
+        char* text = nullptr;
+        check(elvis_picture_get_color_bars(get(), &text));
+        return detail::taken(text);
+    }
+    /** The whole channel without gaps; Number is one of those that elvis_picture_read names for it. */
+    template <class Number> std::vector<Number> read(elvis_channel channel) const {
+        const elvis_picture_info size = info();
+        const std::size_t n_numbers = channel == ELVIS_CHANNEL_COLOR ? 4 : channel == ELVIS_CHANNEL_NORMAL ? 3 : 1;
+        std::vector<Number> numbers(std::size_t{size.width} * size.height * n_numbers);
+        check(elvis_picture_read(get(), channel, kind_of(Number{}), numbers.data(), 0, 0));
+        return numbers;
+    }
+    void write_png(const std::string& path, std::uint32_t bits = 8) const {
+        check(elvis_picture_write_png(get(), path.c_str(), bits));
+    }
+    void write_buffers(const std::string& path) const { check(elvis_picture_write_buffers(get(), path.c_str())); }
+    elvis_picture* get() const { return m_handle.get(); }
+
+private:
+    static elvis_number kind_of(std::uint8_t) { return ELVIS_NUMBER_UINT8; }
+    static elvis_number kind_of(std::uint16_t) { return ELVIS_NUMBER_UINT16; }
+    static elvis_number kind_of(std::uint32_t) { return ELVIS_NUMBER_UINT32; }
+    static elvis_number kind_of(std::int64_t) { return ELVIS_NUMBER_INT64; }
+    static elvis_number kind_of(float) { return ELVIS_NUMBER_FLOAT; }
+    static elvis_number kind_of(double) { return ELVIS_NUMBER_DOUBLE; }
+    void check(elvis_result result) const { detail::check(result, m_context.get()); }
+
+    detail::shared_context m_context;
+    std::unique_ptr<elvis_picture, detail::release> m_handle;
+};
+
+/** Values at points: see elvis_probe. */
+struct probed {
+    /** A point's values. */
+    std::uint32_t n_values = 0;
+    std::vector<std::int64_t> elements;
+    std::vector<double> xi, values, gradients;
+    std::vector<std::uint8_t> estimated;
+};
+
+/** A volume that is open. */
+class data {
+public:
+    data(detail::shared_context context, elvis_data* handle) : m_context(std::move(context)), m_handle(handle) {}
+    data(data&&) = default;
+    data& operator=(data&&) = default;
+
+    elvis_data_info info() const {
+        auto result = detail::sized<elvis_data_info>();
+        check(elvis_data_get_info(get(), &result));
+        return result;
+    }
+    elvis_field field(std::uint32_t index) const {
+        auto result = detail::sized<elvis_field>();
+        check(elvis_data_get_field(get(), index, &result));
+        return result;
+    }
+    double time(std::uint32_t time_step) const {
+        double result = 0;
+        check(elvis_data_get_time(get(), time_step, &result));
+        return result;
+    }
+    std::string describe(std::uint32_t time_step = 0, elvis_describe_flags flags = 0) const {
+        char* text = nullptr;
+        check(elvis_data_describe(get(), time_step, flags, &text));
+        return detail::taken(text);
+    }
+    elvis_range range(const std::string& field, std::uint32_t time_step = 0) const {
+        auto result = detail::sized<elvis_range>();
+        check(elvis_data_get_range(get(), field.c_str(), time_step, &result));
+        return result;
+    }
+    /** `positions`: three numbers a point. */
+    probed probe(const std::vector<double>& positions, const std::vector<std::string>& fields, std::uint32_t time_step = 0,
+                 const task& watch = {}) const {
+        std::vector<elvis_string> names;
+        for (const std::string& name : fields) {
+            names.push_back(name.c_str());
+        }
+        auto request = detail::sized<elvis_probe>();
+        request.time_step = time_step;
+        request.n_points = positions.size() / 3;
+        request.positions = positions.data();
+        request.n_fields = static_cast<std::uint32_t>(names.size());
+        request.fields = names.data();
+        probed result;
+        check(elvis_data_count_values(get(), request.fields, request.n_fields, &result.n_values));
+        const std::size_t n_numbers = request.n_points * result.n_values;
+        result.elements.resize(request.n_points);
+        result.xi.resize(3 * request.n_points);
+        result.values.resize(n_numbers);
+        result.gradients.resize(3 * n_numbers);
+        result.estimated.resize(n_numbers);
+        request.elements = result.elements.data();
+        request.xi = result.xi.data();
+        request.values = result.values.data();
+        request.gradients = result.gradients.data();
+        request.estimated = result.estimated.data();
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_probe(get(), &request, &c_watch));
+        return result;
+    }
+    picture render(const scene& shown, const elvis_render_options& options = detail::sized<elvis_render_options>(),
+                   const task& watch = {}) const {
+        elvis_picture* drawn = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_render(get(), shown.get(), &options, &c_watch, &drawn));
+        return {m_context, drawn};
+    }
+    void fields_changed() { check(elvis_data_fields_changed(get())); }
+    elvis_data* get() const { return m_handle.get(); }
+
+private:
+    void check(elvis_result result) const { detail::check(result, m_context.get()); }
+
+    detail::shared_context m_context;
+    std::unique_ptr<elvis_data, detail::release> m_handle;
+};
+
+/** A device with plugins and a cache. Copies are the same context. */
+class context {
+public:
+    explicit context(const elvis_context_options& options = detail::sized<elvis_context_options>()) {
+        elvis_context* handle = nullptr;
+        detail::check(elvis_context_create(&options, &handle), nullptr);
+        m_handle = {handle, detail::release()};
+    }
+
+    data open(const std::string& path, const std::string& plugin = {}, const std::string& options = {},
+              const task& watch = {}) const {
+        elvis_data* opened = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_open(get(), path.c_str(), detail::or_null(plugin), detail::or_null(options), &c_watch, &opened));
+        return {m_handle, opened};
+    }
+    data from_runtime(const elvis_runtime& runtime, elvis_volume* volume, const std::string& name = "volume") const {
+        elvis_data* opened = nullptr;
+        check(elvis_data_from_runtime(get(), &runtime, volume, name.c_str(), &opened));
+        return {m_handle, opened};
+    }
+    scene make_scene() const {
+        elvis_scene* made = nullptr;
+        check(elvis_scene_create(get(), &made));
+        return {m_handle, made};
+    }
+    scene read_scene(const std::string& path) const {
+        elvis_scene* read = nullptr;
+        check(elvis_scene_read(get(), path.c_str(), &read));
+        return {m_handle, read};
+    }
+    /** Files that the text names are seen from `folder`, empty: from the working directory. */
+    scene parse_scene(const std::string& text, const std::string& folder = {}) const {
+        elvis_scene* parsed = nullptr;
+        check(elvis_scene_parse(get(), text.c_str(), detail::or_null(folder), &parsed));
+        return {m_handle, parsed};
+    }
+    /** Returns the report, JSON. */
+    std::string convert(const elvis_conversion& conversion, const task& watch = {}) const {
+        char* report = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_convert(get(), &conversion, &c_watch, &report));
+        return detail::taken(report);
+    }
+    std::string list_devices() const {
+        char* text = nullptr;
+        check(elvis_context_list_devices(get(), &text));
+        return detail::taken(text);
+    }
+    std::string list_plugins() const {
+        char* text = nullptr;
+        check(elvis_context_list_plugins(get(), &text));
+        return detail::taken(text);
+    }
+    elvis_context* get() const { return m_handle.get(); }
+
+private:
+    void check(elvis_result result) const { detail::check(result, m_handle.get()); }
+
+    detail::shared_context m_handle;
+};
+
+} // namespace elvis
+
+#endif

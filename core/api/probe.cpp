@@ -1,0 +1,153 @@
+#include "call.hpp"
+
+#include <core/base/counted.hpp>
+#include <core/expression/expression.hpp>
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace elvis::library {
+
+namespace {
+
+/** What a probe is asked for: a field of the volume as it is, or an expression. */
+struct Column {
+    std::uint32_t field = 0;
+    /** Of the list of expressions; not used for fields. */
+    std::size_t expression = 0;
+    bool is_field = false;
+    std::uint32_t n_values = 1;
+};
+
+struct Columns {
+    std::vector<Column> columns;
+    std::vector<std::shared_ptr<const Expression>> expressions;
+    std::uint32_t n_values = 0;
+};
+
+Columns columns_of(const RuntimeVolume& volume, const elvis_string* fields, std::uint32_t n_fields) {
+    Columns all;
+    if (n_fields > 0) {
+        need(fields, "fields");
+    }
+    for (std::uint32_t index = 0; index < n_fields; ++index) {
+        need(fields[index], "fields");
+        Column column;
+        for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
+            if (volume.fields()[field].name == fields[index]) {
+                column = {field, 0, true, volume.fields()[field].n_components};
+            }
+        }
+        if (!column.is_field) {
+            column.expression = all.expressions.size();
+            all.expressions.push_back(std::make_shared<const Expression>(fields[index], volume.fields(), volume.dimension()));
+        }
+        all.n_values += column.n_values;
+        all.columns.push_back(column);
+    }
+    return all;
+}
+
+/** Writes the answers of one point into the caller's arrays. */
+class Writer {
+public:
+    Writer(const elvis_probe& probe, const Columns& columns) : m_probe(probe), m_columns(columns) {}
+
+    void write(std::uint64_t at, const ProbedPoint& point) {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        if (m_probe.elements != nullptr) {
+            m_probe.elements[at] = point.element ? *point.element : point.n_failures > 0 ? -2 : -1;
+        }
+        for (std::size_t axis = 0; m_probe.xi != nullptr && axis < 3; ++axis) {
+            m_probe.xi[3 * at + axis] = point.element ? point.xi[axis] : nan;
+        }
+        m_at = at * m_columns.n_values;
+        for (const Column& column : m_columns.columns) {
+            for (std::uint32_t component = 0; component < column.n_values; ++component) {
+                if (!point.element) {
+                    put(nan, {nan, nan, nan}, false);
+                } else if (column.is_field) {
+                    const FieldSample& sample = point.fields[column.field];
+                    const std::size_t of = 3 * std::size_t{component};
+                    put(sample.values[component], {sample.gradients[of], sample.gradients[of + 1], sample.gradients[of + 2]},
+                        sample.gradient_is_estimated);
+                } else {
+                    const ExpressionSample& sample = point.expressions[column.expression];
+                    put(sample.value, sample.gradient, sample.value_is_estimated || sample.gradient_is_estimated);
+                }
+            }
+        }
+    }
+
+private:
+    void put(double value, const Vector3& gradient, bool is_estimated) {
+        if (m_probe.values != nullptr) {
+            m_probe.values[m_at] = value;
+        }
+        for (std::size_t axis = 0; m_probe.gradients != nullptr && axis < 3; ++axis) {
+            m_probe.gradients[3 * m_at + axis] = gradient[axis];
+        }
+        if (m_probe.estimated != nullptr) {
+            m_probe.estimated[m_at] = is_estimated ? 1 : 0;
+        }
+        ++m_at;
+    }
+
+    const elvis_probe& m_probe;
+    const Columns& m_columns;
+    std::uint64_t m_at = 0;
+};
+
+/** Points that are asked for at once: enough for every evaluator, and little memory. */
+constexpr std::uint64_t n_points_a_block = 4096;
+
+void probe_all(Data& data, const elvis_probe& probe) {
+    if (probe.time_step >= data.volume.times().size()) {
+        throw InvalidArgument("time_step", "the volume has " + counted(data.volume.times().size(), "time step"));
+    }
+    const Columns columns = columns_of(data.volume, probe.fields, probe.n_fields);
+    Writer writer(probe, columns);
+    std::vector<Vector3> positions;
+    for (std::uint64_t first = 0; first < probe.n_points; first += n_points_a_block) {
+        data.control->check();
+        data.control->progress(static_cast<double>(first) / static_cast<double>(probe.n_points), "probing");
+        const std::uint64_t n = std::min(n_points_a_block, probe.n_points - first);
+        positions.clear();
+        for (std::uint64_t point = first; point < first + n; ++point) {
+            positions.push_back({probe.positions[3 * point], probe.positions[3 * point + 1], probe.positions[3 * point + 2]});
+        }
+        const std::vector<ProbedPoint> points = data.prober().probe(positions, probe.time_step, columns.expressions);
+        for (std::uint64_t point = 0; point < n; ++point) {
+            writer.write(first + point, points[point]);
+        }
+    }
+}
+
+Context* context_of(elvis_data* data) { return data != nullptr ? data->state->context.get() : nullptr; }
+
+} // namespace
+
+} // namespace elvis::library
+
+using namespace elvis;
+using namespace elvis::library;
+
+elvis_result elvis_data_count_values(elvis_data* data, const elvis_string* fields, uint32_t n_fields, uint32_t* n_values) {
+    return call(context_of(data), [&] {
+        need(n_values, "n_values");
+        *n_values = columns_of(data->state->volume, fields, n_fields).n_values;
+    });
+}
+
+elvis_result elvis_data_probe(elvis_data* data, const elvis_probe* probe, const elvis_task* task) {
+    return call(context_of(data), [&] {
+        const elvis_probe known = known_part(probe, "probe");
+        if (known.n_points > 0) {
+            need(known.positions, "positions");
+        }
+        const DataTask running(*data->state, task);
+        probe_all(*data->state, known);
+    });
+}

@@ -1,0 +1,27 @@
+#include <core/session/extrema_finder.hpp>
+
+#include <core/volume/field/field_extrema.hpp>
+
+namespace elvis {
+
+FieldExtrema ExtremaFinder::of(const FieldChoice& field, std::uint32_t time_step) {
+    if (!field.expression) {
+        if (const auto found = find_extrema(m_volume, field.field, field.component, time_step)) {
+            return *found;
+        }
+    }
+    if (!m_ranges) {
+        const Device& device = m_device();
+        const Precision precision = device.summary().has_float64 ? Precision::float64 : Precision::float32;
+        m_data.emplace(device, m_volume, precision, nullptr);
+        m_ranges.emplace(device, m_volume, *m_data);
+    }
+    return m_ranges->extrema(field, time_step);
+}
+
+void ExtremaFinder::forget_fields() {
+    m_ranges.reset();
+    m_data.reset();
+}
+
+} // namespace elvis

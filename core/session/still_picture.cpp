@@ -1,0 +1,56 @@
+#include <core/session/still_picture.hpp>
+
+#include <core/scene/frame_request.hpp>
+#include <core/session/missed_surfaces.hpp>
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace elvis {
+
+namespace {
+
+/** Of the request: what its makers say, and the density that people did not choose. */
+std::vector<FrameRemark> remarks_on(const Scene& scene, const FrameRequest& request) {
+    std::vector<FrameRemark> remarks;
+    for (const std::string& text : request.remarks) {
+        remarks.push_back({true, text});
+    }
+    if (request.volume && scene.volume_rendering->has_default_density()) {
+        const auto& density = request.volume->transfer.density;
+        remarks.push_back(
+            {false, fmt::format("volume: density rises from {:.6g} at {:.6g} to {:.6g} at {:.6g}", density.front().density,
+                                density.front().value, density.back().density, density.back().value)});
+    }
+    return remarks;
+}
+
+} // namespace
+
+StillPicture draw_still(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options,
+                        const TaskControl* control) {
+    StillPicture still;
+    still.request = make_frame_request(scene, volume, renderer.ranges());
+    still.remarks = remarks_on(scene, still.request);
+    still.request.with_buffers = options.with_buffers;
+    still.request.sharing = options.sharing;
+    still.frame = renderer.render(still.request, control);
+    if (scene.annotation) {
+        const AnnotationRequest annotation = make_annotation_request(*scene.annotation, still.request, still.frame, volume);
+        for (const std::string& name : annotate(still.frame, annotation)) {
+            still.remarks.push_back({true, "annotation: there is no room for the " + name});
+        }
+    }
+    MissedSurfaces missed;
+    missed.add(still.request, still.frame);
+    for (const std::string& text : missed.remarks(scene, still.request, renderer.ranges())) {
+        still.remarks.push_back({true, text});
+    }
+    for (FrameRemark& remark : remarks_on(still.frame.counts)) {
+        still.remarks.push_back(std::move(remark));
+    }
+    return still;
+}
+
+} // namespace elvis

@@ -1,0 +1,34 @@
+/**
+ * @file still_picture.hpp
+ * One picture of a scene, annotated, with what people should know of it.
+ */
+#pragma once
+
+#include <core/base/cancel.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/render/renderer.hpp>
+#include <core/scene/scene.hpp>
+#include <core/session/frame_remarks.hpp>
+
+#include <vector>
+
+namespace elvis {
+
+struct StillOptions {
+    /** See FrameRequest. */
+    bool with_buffers = true;
+    Sharing sharing;
+};
+
+struct StillPicture {
+    FrameRequest request;
+    /** With what is written on the picture in its colours. */
+    Frame frame;
+    std::vector<FrameRemark> remarks;
+};
+
+/** The scene's picture; its animation is not looked at. Throws Error where the scene does not suit the volume, or Cancelled. */
+StillPicture draw_still(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options,
+                        const TaskControl* control = nullptr);
+
+} // namespace elvis
