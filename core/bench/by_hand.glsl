@@ -1,6 +1,6 @@
 // What the kernel of a cut plane calls, for a scalar field of order 2 on hexahedra and prisms with mappings of order 1 in the native
 // volume: as one would write it into the kernel by hand if there were no plugins. Orders and layout of the records
-// (plugins/native/device_space.hpp) stand here as numbers; no loop, no basis in general, no fetch function in between.
+// (elvis/native/device_space.hpp) stand here as numbers; no loop, no basis in general, no fetch function in between.
 //
 // The host defines BY_HAND_GEOMETRY, BY_HAND_FIELD and BY_HAND_ORIGINS, the buffers; rows of four numbers a record (_ROWS); and
 // BY_HAND_TEXELS.

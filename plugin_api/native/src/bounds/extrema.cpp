@@ -255,7 +255,7 @@ void ExtremaSearch::add(std::size_t element_class, std::uint64_t first, std::uin
 
 std::vector<Extrema> ExtremaSearch::finish(const Read& read) { return m_impl->finish(read); }
 
-std::vector<Extrema> find_extrema(const Reader& reader, std::size_t field, std::size_t time_step) {
+std::vector<Extrema> find_extrema(const VolumeSource& reader, std::size_t field, std::size_t time_step) {
     const Description& description = reader.description();
     const std::uint32_t n_components = description.fields[field].n_components;
     std::vector<Space> spaces;

@@ -54,6 +54,6 @@ private:
 };
 
 /** All of it for a field of a file. */
-std::vector<Extrema> find_extrema(const Reader& reader, std::size_t field, std::size_t time_step);
+std::vector<Extrema> find_extrema(const VolumeSource& reader, std::size_t field, std::size_t time_step);
 
 } // namespace elvis::native

@@ -56,6 +56,13 @@ public:
         return block;
     }
 
+    void clear() {
+        const std::lock_guard lock(m_mutex);
+        m_order.clear();
+        m_entries.clear();
+        m_numbers = 0;
+    }
+
 private:
     using Order = std::list<std::pair<BlockKey, Block>>;
     std::mutex m_mutex;

@@ -10,7 +10,7 @@
 #include <elvis/native/conversion.hpp>
 #include <elvis/native/derivative_bounds.hpp>
 #include <elvis/native/jacobian.hpp>
-#include <elvis/native/volume_file.hpp>
+#include <elvis/native/volume_source.hpp>
 #include <elvis/plugin.hpp>
 
 #include <map>
@@ -27,16 +27,20 @@ namespace elvis::native_plugin {
 using native::device::Conversion;
 using native::device::DeviceSpace;
 
+/** An error of a source as the plugin's: the host puts the file's name before the message itself. */
+api::Error without_name(const native::FileError& error);
+
 /**
  * Failures are api::Error that names the file. Functions may run at the same time as elvis/runtime.h allows; the file is read
  * by one thread at a time.
  */
 class Volume {
 public:
-    Volume(const api::Host& host, const std::string& path);
+    /** `path` stands for the source in messages. */
+    Volume(const api::Host& host, std::string path, std::shared_ptr<const native::VolumeSource> source);
 
     const std::string& path() const { return m_path; }
-    const native::Description& description() const { return m_reader.description(); }
+    const native::Description& description() const { return m_source->description(); }
     std::uint64_t n_elements() const { return m_first_elements.back(); }
     std::uint64_t first_element(std::size_t element_class) const { return m_first_elements[element_class]; }
     const native::Space& geometry_space(std::size_t element_class) const {
@@ -45,6 +49,9 @@ public:
     const native::Space& field_space(std::size_t element_class, std::size_t field) const {
         return description().classes[element_class].fields[field];
     }
+
+    /** Values of fields have changed: what was read of them is read again. */
+    void forget_fields();
 
     /** Constants of a class and field for the snippet; valid as long as the volume. */
     std::span<const elvis_constant> constants(std::size_t element_class, std::size_t field) const;
@@ -125,8 +132,8 @@ private:
 
     api::Host m_host;
     std::string m_path;
-    native::Reader m_reader;
-    mutable std::mutex m_reader_mutex;
+    std::shared_ptr<const native::VolumeSource> m_source;
+    mutable std::mutex m_source_mutex;
     /** By field and time step, once they were asked for; under the same mutex. */
     mutable std::map<std::pair<std::size_t, std::size_t>, std::vector<native::Extrema>> m_extrema;
     /** First element of each class, and the number of all elements. */

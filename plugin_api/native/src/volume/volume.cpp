@@ -3,7 +3,6 @@
 #include <elvis/native/extrema.hpp>
 
 #include <algorithm>
-#include <fstream>
 
 namespace elvis::native_plugin {
 namespace {
@@ -18,25 +17,6 @@ constexpr std::uint64_t elements_per_block = 64;
 /** 256 MB of doubles. */
 constexpr std::size_t cache_numbers = std::size_t{1} << 25;
 
-/** The host puts the file's name before the message itself. */
-api::Error without_name(const native::FileError& error) {
-    std::string what = error.what();
-    if (what.starts_with(error.file() + ": "))
-        what.erase(0, error.file().size() + 2);
-    return {ELVIS_ERROR_FORMAT, error.file(), what};
-}
-
-native::Reader open_file(const std::string& path) {
-    // A missing file deserves a plainer word than HDF5's.
-    if (!std::ifstream(path, std::ios::binary))
-        throw api::Error(ELVIS_ERROR_FILE, path, "the file does not exist or cannot be read");
-    try {
-        return native::Reader(path);
-    } catch (const native::FileError& error) {
-        throw without_name(error);
-    }
-}
-
 /** Highest order that the snippets are compiled for: beyond, unrolled loops take a compiler seconds. */
 constexpr std::uint32_t max_device_order = 16;
 
@@ -50,8 +30,15 @@ void check_space(const std::string& path, const Space& space, const std::string&
 
 } // namespace
 
-Volume::Volume(const api::Host& host, const std::string& path)
-    : m_host(host), m_path(path), m_reader(open_file(path)), m_cache(cache_numbers) {
+api::Error without_name(const native::FileError& error) {
+    std::string what = error.what();
+    if (what.starts_with(error.file() + ": "))
+        what.erase(0, error.file().size() + 2);
+    return {ELVIS_ERROR_FORMAT, error.file(), what};
+}
+
+Volume::Volume(const api::Host& host, std::string path, std::shared_ptr<const native::VolumeSource> source)
+    : m_host(host), m_path(std::move(path)), m_source(std::move(source)), m_cache(cache_numbers) {
     for (const native::Field& field : description().fields)
         if (description().dimension == 2 && field.transform != Transform::none)
             throw error(ELVIS_ERROR_FORMAT,
@@ -60,11 +47,11 @@ Volume::Volume(const api::Host& host, const std::string& path)
     for (std::size_t i = 0; i < description().classes.size(); ++i) {
         const native::ElementClass& element_class = description().classes[i];
         const std::string in_class = " of element class " + std::to_string(i);
-        check_space(path, element_class.geometry, "the geometry" + in_class);
+        check_space(m_path, element_class.geometry, "the geometry" + in_class);
         if (element_class.geometry.order[0] == 0)
             throw error(ELVIS_ERROR_FORMAT, "the geometry" + in_class + " has order 0, which maps the element to a point");
         for (std::size_t field = 0; field < element_class.fields.size(); ++field)
-            check_space(path, element_class.fields[field], "field '" + description().fields[field].name + "'" + in_class);
+            check_space(m_path, element_class.fields[field], "field '" + description().fields[field].name + "'" + in_class);
         m_first_elements.push_back(m_first_elements.back() + element_class.n_elements);
     }
     make_constants();
@@ -72,7 +59,7 @@ Volume::Volume(const api::Host& host, const std::string& path)
 
 template <class Read> void Volume::read_file(Read read) const {
     try {
-        const std::lock_guard lock(m_reader_mutex);
+        const std::lock_guard lock(m_source_mutex);
         read();
     } catch (const native::FileError& failure) {
         throw without_name(failure);
@@ -125,7 +112,7 @@ std::span<const elvis_constant> Volume::constants(std::size_t element_class, std
 void Volume::element_numbers(std::uint64_t first, std::span<std::int64_t> numbers) const {
     for_each_run(first, numbers.size(),
                  [&](std::size_t element_class, std::uint64_t local, std::uint64_t count, std::uint64_t offset) {
-                     read_file([&] { m_reader.read_numbers(element_class, local, count, numbers.subspan(offset, count)); });
+                     read_file([&] { m_source->read_numbers(element_class, local, count, numbers.subspan(offset, count)); });
                  });
 }
 
@@ -148,7 +135,7 @@ void Volume::faces(std::uint64_t first, std::span<elvis_face> faces) const {
     }
     std::vector<native::Face> read(faces.size());
     {
-        read_file([&] { m_reader.read_faces(first, read.size(), read); });
+        read_file([&] { m_source->read_faces(first, read.size(), read); });
     }
     for (std::size_t i = 0; i < read.size(); ++i)
         faces[i] = {sizeof(elvis_face),          read[i].group,      position(read[i].element),
@@ -161,17 +148,23 @@ std::vector<native::Extrema> Volume::extrema(std::size_t field, std::size_t time
         read_file([&] {
             std::vector<native::Extrema>& kept = m_extrema[{field, time_step}];
             if (kept.empty())
-                kept = m_reader.read_extrema(field, time_step);
+                kept = m_source->read_extrema(field, time_step);
             if (kept.empty())
-                kept = native::find_extrema(m_reader, field, time_step);
+                kept = native::find_extrema(*m_source, field, time_step);
             result = kept;
         });
     return result;
 }
 
+void Volume::forget_fields() {
+    const std::lock_guard lock(m_source_mutex);
+    m_cache.clear();
+    m_extrema.clear();
+}
+
 std::vector<double> Volume::read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count) const {
     std::vector<double> coefficients(count * 3 * native::n_modes(geometry_space(element_class)));
-    read_file([&] { m_reader.read_geometry(element_class, first, count, coefficients); });
+    read_file([&] { m_source->read_geometry(element_class, first, count, coefficients); });
     return coefficients;
 }
 
@@ -179,7 +172,7 @@ std::vector<double> Volume::read_field(std::size_t field, std::size_t time_step,
                                        std::uint64_t count) const {
     const std::size_t n_modes = native::n_modes(field_space(element_class, field));
     std::vector<double> coefficients(count * description().fields[field].n_components * n_modes);
-    read_file([&] { m_reader.read_field(field, time_step, element_class, first, count, coefficients); });
+    read_file([&] { m_source->read_field(field, time_step, element_class, first, count, coefficients); });
     return coefficients;
 }
 
