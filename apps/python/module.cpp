@@ -2,11 +2,14 @@
  * @file module.cpp
  * elvis._elvis: the library for Python, as it is. The package around it makes it pleasant (elvis/__init__.py).
  */
+#include "arrays.hpp"
 #include "running.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 namespace py = pybind11;
@@ -14,8 +17,6 @@ namespace py = pybind11;
 namespace elvis::python {
 
 namespace {
-
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /** What one channel is in an array: numbers a pixel, and their kind. */
 struct ChannelKind {
@@ -152,6 +153,12 @@ public:
         return std::make_unique<Picture>(m_context, std::move(*drawn));
     }
 
+    void update_field(std::uint32_t field, std::uint32_t time_step, std::uint32_t element_class, const Doubles& values) {
+        const double* const numbers = values.data();
+        const py::gil_scoped_release unlocked;
+        m_data.update_field(field, time_step, element_class, numbers);
+    }
+
 private:
     void check(elvis_result result) const { detail::check(result, m_context.get()); }
 
@@ -170,6 +177,22 @@ public:
         std::optional<data> opened;
         run(progress, [&](const task& watch) { opened.emplace(m_context.open(path, plugin, plugin_options, watch)); });
         return std::make_unique<Volume>(m_context, std::move(*opened));
+    }
+    std::unique_ptr<Volume> from_arrays(const std::string& name, std::uint32_t dimension, const py::list& classes,
+                                        const py::list& fields, const std::vector<double>& times,
+                                        const std::vector<std::string>& groups, const py::object& progress) const {
+        const ArrayVolume volume(dimension, classes, fields, times, groups);
+        std::optional<data> made;
+        run(progress, [&](const task& watch) { made.emplace(m_context.from_arrays(volume.arrays(), name, watch)); });
+        return std::make_unique<Volume>(m_context, std::move(*made));
+    }
+    std::uint64_t count_modes(elvis_shape shape, elvis_basis basis, const std::array<std::uint32_t, 3>& order) const {
+        auto space = detail::sized<elvis_space>();
+        space.basis = basis;
+        std::copy(order.begin(), order.end(), space.order);
+        std::uint64_t n_modes = 0;
+        detail::check(elvis_space_count_modes(m_context.get(), shape, &space, &n_modes), m_context.get());
+        return n_modes;
     }
     /** The scene as the library understands it: JSON. Throws for what the schema does not allow. */
     std::string check_scene(const std::string& text, const std::string& folder) const {
@@ -277,6 +300,8 @@ PYBIND11_MODULE(_elvis, module) {
     py::class_<Volume>(module, "Volume")
         .def("describe", &Volume::describe, py::arg("time_step"), py::arg("brief"))
         .def("range", &Volume::range, py::arg("field"), py::arg("time_step"))
+        .def("update_field", &Volume::update_field, py::arg("field"), py::arg("time_step"), py::arg("element_class"),
+             py::arg("values"))
         .def("count_values", &Volume::count_values, py::arg("field"))
         .def("probe", &Volume::probe, py::arg("points"), py::arg("fields"), py::arg("time_step"), py::arg("progress"))
         .def("render", &Volume::render, py::arg("scene"), py::arg("folder"), py::arg("width"), py::arg("height"),
@@ -286,6 +311,9 @@ PYBIND11_MODULE(_elvis, module) {
         .def(py::init<const std::string&, const std::optional<std::string>&, const std::optional<std::string>&>(),
              py::arg("device"), py::arg("plugin_path"), py::arg("cache_folder"))
         .def("open", &Context::open, py::arg("path"), py::arg("plugin"), py::arg("options"), py::arg("progress"))
+        .def("from_arrays", &Context::from_arrays, py::arg("name"), py::arg("dimension"), py::arg("classes"), py::arg("fields"),
+             py::arg("times"), py::arg("groups"), py::arg("progress"))
+        .def("count_modes", &Context::count_modes, py::arg("shape"), py::arg("basis"), py::arg("order"))
         .def("check_scene", &Context::check_scene, py::arg("text"), py::arg("folder"))
         .def("read_scene", &Context::read_scene, py::arg("path"))
         .def("write_scene", &Context::write_scene, py::arg("text"), py::arg("folder"), py::arg("path"))

@@ -124,6 +124,44 @@ elvis_result elvis_data_from_runtime(elvis_context* context, const elvis_runtime
     });
 }
 
+elvis_result elvis_space_count_modes(elvis_context* context, elvis_shape shape, const elvis_space* space, uint64_t* n_modes) {
+    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+        need(n_modes, "n_modes");
+        elvis_space known = known_part(space, "space");
+        known.nodes = nullptr;
+        *n_modes = ToModes(known, shape, "space").n_modes();
+    });
+}
+
+elvis_result elvis_data_from_arrays(elvis_context* context, const elvis_arrays* arrays, elvis_string name,
+                                    const elvis_task* task, elvis_data** data) {
+    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+        need(data, "data");
+        *data = nullptr;
+        const std::string called = name != nullptr ? name : "volume";
+        auto control = std::make_unique<TaskControl>();
+        follow(*control, task);
+        auto own = std::make_unique<Arrays>(known_part(arrays, "arrays"), called, *control);
+        RuntimeVolume opened = own->open(called, control.get());
+        follow(*control, nullptr);
+        auto state = std::make_shared<Data>(context->state, std::move(control), std::move(opened));
+        state->arrays = std::move(own);
+        *data = new elvis_data{std::move(state)};
+    });
+}
+
+elvis_result elvis_data_update_field(elvis_data* data, uint32_t field, uint32_t time_step, uint32_t element_class,
+                                     const double* values) {
+    return call(context_of(data), [&] {
+        const DataTask task(*data->state, nullptr);
+        if (!data->state->arrays) {
+            throw InvalidArgument("data", "is not from arrays");
+        }
+        data->state->arrays->update(field, time_step, element_class, values);
+        data->state->forget_fields();
+    });
+}
+
 elvis_result elvis_data_fields_changed(elvis_data* data) {
     return call(context_of(data), [&] {
         const DataTask task(*data->state, nullptr);

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include "arrays.hpp"
+
 #include <core/base/cancel.hpp>
 #include <core/base/host.hpp>
 #include <core/plugin_host/plugin.hpp>
@@ -67,6 +69,8 @@ struct Data {
     const RuntimeVolume volume;
 
     std::mutex mutex;
+    /** Of data from arrays. */
+    std::unique_ptr<Arrays> arrays;
     ExtremaFinder extrema;
 
 private:

@@ -5,6 +5,7 @@
 #include <core/convert/projection/block_projection.hpp>
 #include <core/convert/projection/class_kernel.hpp>
 #include <core/convert/projection/field_plan.hpp>
+#include <core/convert/topology/face_list.hpp>
 #include <core/convert/topology/jumps.hpp>
 #include <core/convert/topology/topology.hpp>
 #include <core/plugin_host/plugin.hpp>
@@ -24,7 +25,6 @@ namespace {
 
 /** Numbers of a block in memory, all fields together (8 MiB); each processor has one block in work. */
 constexpr std::uint64_t block_numbers = 1u << 20;
-constexpr std::uint64_t faces_at_once = 1u << 18;
 
 /**
  * Residual of an exact conversion, relative to the largest value: rounding in sums over modes, amplified by the projection's
@@ -180,45 +180,11 @@ native::Description Conversion::describe() const {
 }
 
 void Conversion::write_faces(native::Writer& writer) const {
-    std::vector<native::Face> faces;
-    std::vector<elvis_source_element> elements;
     std::uint64_t n_written = 0;
-    const auto flush = [&] {
+    list_faces(m_source, m_topology, m_control, [&](std::span<const native::Face> faces) {
         writer.write_faces(n_written, faces.size(), faces);
         n_written += faces.size();
-        faces.clear();
-    };
-    const std::uint64_t n_elements = m_topology.shapes.size();
-    for (std::uint64_t element = 0; element < n_elements; ++element) {
-        constexpr std::uint64_t elements_at_once = 16384;
-        if (element % elements_at_once == 0) {
-            m_control.check();
-            elements.resize(std::min(elements_at_once, n_elements - element));
-            m_source.elements(element, elements.size(), elements);
-        }
-        for (int local = 0; local < native::n_faces(static_cast<native::Shape>(m_topology.shapes[element])); ++local) {
-            native::Face face;
-            face.element = static_cast<std::int64_t>(element);
-            face.local_face = local;
-            face.group = elements[element % elements_at_once].face_groups[local];
-            const auto at = static_cast<std::size_t>(local);
-            if (m_topology.is_shared(element, local)) {
-                if (m_topology.other_side(element, local) < face_side(element, local)) {
-                    continue;
-                }
-                face.neighbour = m_topology.neighbour[element][at];
-                face.neighbour_local_face = m_topology.neighbour_face[element][at];
-            } else {
-                const bool is_boundary = m_topology.neighbour[element][at] == Topology::no_neighbour;
-                face.neighbour = is_boundary ? ELVIS_NEIGHBOUR_NONE : ELVIS_NEIGHBOUR_UNKNOWN;
-            }
-            faces.push_back(face);
-        }
-        if (faces.size() >= faces_at_once) {
-            flush();
-        }
-    }
-    flush();
+    });
 }
 
 void Conversion::convert_step(native::Writer& writer, std::uint32_t step) {

@@ -2,6 +2,8 @@
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/table_copy.hpp>
 
+#include <elvis/native/serve.hpp>
+
 #include <boost/dll/shared_library.hpp>
 
 #include <algorithm>
@@ -159,6 +161,27 @@ std::shared_ptr<const Plugin> Plugin::of_program(const elvis_runtime& runtime, s
     if (const char* missing = missing_volume_function(*impl.runtime)) {
         throw Error(impl.id, std::string("the table ") + ELVIS_RUNTIME_INTERFACE + " lacks the required function " + missing);
     }
+    return plugin;
+}
+
+std::shared_ptr<const Plugin> Plugin::of_native(std::string id) {
+    std::shared_ptr<Plugin> plugin(new Plugin);
+    Impl& impl = *plugin->m_impl;
+    impl.abi_version = ELVIS_ABI_VERSION;
+    impl.name = id;
+    impl.id = std::move(id);
+    impl.runtime = *native::runtime_table();
+    impl.extrema = *native::extrema_table();
+    impl.apex_bounds = *native::apex_bounds_table();
+    return plugin;
+}
+
+std::shared_ptr<const Plugin> Plugin::of_mesh(const elvis_converter& converter, std::string id) {
+    std::shared_ptr<Plugin> plugin(new Plugin);
+    plugin->m_impl->abi_version = ELVIS_ABI_VERSION;
+    plugin->m_impl->name = id;
+    plugin->m_impl->id = std::move(id);
+    plugin->m_impl->converter = converter;
     return plugin;
 }
 

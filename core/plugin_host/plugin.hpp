@@ -27,6 +27,10 @@ public:
      * is for messages. Throws Error for a table that lacks functions.
      */
     static std::shared_ptr<const Plugin> of_program(const elvis_runtime& runtime, std::string id);
+    /** The native volume's, of the library that this program is linked to: it serves volumes in memory. */
+    static std::shared_ptr<const Plugin> of_native(std::string id);
+    /** A mesh in memory, as its converter gives it, without probe and open. */
+    static std::shared_ptr<const Plugin> of_mesh(const elvis_converter& converter, std::string id);
     ~Plugin();
     Plugin(const Plugin&) = delete;
     Plugin& operator=(const Plugin&) = delete;

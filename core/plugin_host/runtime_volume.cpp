@@ -148,6 +148,18 @@ RuntimeVolume::RuntimeVolume(std::shared_ptr<const Plugin> plugin, elvis_volume*
     m_impl->read();
 }
 
+RuntimeVolume::RuntimeVolume(std::shared_ptr<const Plugin> plugin, const std::string& name,
+                             const std::function<elvis_volume*(const elvis_host*)>& open, const TaskControl* control)
+    : m_impl(std::make_unique<Impl>()) {
+    assert(plugin && plugin->runtime());
+    m_impl->table = plugin->runtime();
+    m_impl->services = std::make_unique<HostServices>(plugin->id(), control);
+    m_impl->plugin = std::move(plugin);
+    m_impl->path = name;
+    m_impl->volume = open(m_impl->services->table());
+    m_impl->read();
+}
+
 RuntimeVolume::~RuntimeVolume() = default;
 RuntimeVolume::RuntimeVolume(RuntimeVolume&&) noexcept = default;
 RuntimeVolume& RuntimeVolume::operator=(RuntimeVolume&&) noexcept = default;

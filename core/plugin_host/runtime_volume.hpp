@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -112,6 +113,9 @@ public:
     /** One that is open already, and that its owner closes, with a plugin's table that serves it. `name` stands for the path.
      */
     RuntimeVolume(std::shared_ptr<const Plugin> plugin, elvis_volume* volume, const std::string& name);
+    /** One that `open` makes with the host's services; it is closed by the plugin's table. */
+    RuntimeVolume(std::shared_ptr<const Plugin> plugin, const std::string& name,
+                  const std::function<elvis_volume*(const elvis_host*)>& open, const TaskControl* control = nullptr);
     ~RuntimeVolume();
     RuntimeVolume(RuntimeVolume&&) noexcept;
     RuntimeVolume& operator=(RuntimeVolume&&) noexcept;

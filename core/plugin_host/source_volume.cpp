@@ -125,6 +125,18 @@ SourceVolume::SourceVolume(std::shared_ptr<const Plugin> plugin, const std::vect
     m_impl->read_description();
 }
 
+SourceVolume::SourceVolume(std::shared_ptr<const Plugin> plugin, const std::string& name,
+                           const std::function<elvis_source_volume*(const elvis_host*)>& open, const TaskControl* control)
+    : m_impl(std::make_unique<Impl>()) {
+    assert(plugin && plugin->converter());
+    m_impl->table = plugin->converter();
+    m_impl->services = std::make_unique<HostServices>(plugin->id(), control);
+    m_impl->plugin = std::move(plugin);
+    m_impl->paths = {name};
+    m_impl->source = open(m_impl->services->table());
+    m_impl->read_description();
+}
+
 SourceVolume::~SourceVolume() = default;
 SourceVolume::SourceVolume(SourceVolume&&) noexcept = default;
 SourceVolume& SourceVolume::operator=(SourceVolume&&) noexcept = default;

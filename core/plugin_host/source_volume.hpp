@@ -7,6 +7,7 @@
 #include <core/base/cancel.hpp>
 #include <elvis/converter.h>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,6 +29,9 @@ class SourceVolume {
 public:
     SourceVolume(std::shared_ptr<const Plugin> plugin, const std::vector<std::string>& paths, const std::string& options = {},
                  const TaskControl* control = nullptr);
+    /** One that `open` makes with the host's services; it is closed by the plugin's table. */
+    SourceVolume(std::shared_ptr<const Plugin> plugin, const std::string& name,
+                 const std::function<elvis_source_volume*(const elvis_host*)>& open, const TaskControl* control = nullptr);
     ~SourceVolume();
     SourceVolume(SourceVolume&&) noexcept;
     SourceVolume& operator=(SourceVolume&&) noexcept;

@@ -118,9 +118,8 @@ class Picture:
         import base64
 
         data = base64.b64encode(self.png()).decode()
-        words = "".join(f"<br><small>{escape(text)}</small>" for text in self.warnings)
+        words = "".join(f"<br><small>{escape(text)}</small>" for text in self.remarks)
         return {"text/html": f'<img src="data:image/png;base64,{data}" width="{self.width}">{words}', "text/plain": repr(self)}
 
     def __repr__(self) -> str:
-        warnings = self.warnings
-        return f"<Picture {self.width}x{self.height}{''.join(f'; {text}' for text in warnings)}>"
+        return f"<Picture {self.width}x{self.height}{''.join(f'; {text}' for text in self.remarks)}>"

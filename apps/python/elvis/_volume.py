@@ -49,8 +49,9 @@ class Range:
 class Volume:
     """A volume that is open: see elvis.open."""
 
-    def __init__(self, handle: _elvis.Volume, path: str) -> None:
+    def __init__(self, handle: _elvis.Volume, path: str, layouts: dict[str, list[tuple[int, ...]]] | None = None) -> None:
         self._handle = handle
+        self._layouts = layouts
         self.path = path
         """Its file."""
         self._facts = json.loads(handle.describe(0, True))
@@ -145,6 +146,25 @@ class Volume:
         with progress_for(progress) as report:
             drawn = self._handle.render(scene.to_json(), scene._folder, int(width), int(height), color_only, report)
         return Picture(drawn)
+
+    def update_field(self, field: str, values: ArrayLike, *, time_step: int = 0, kind: int = 0) -> None:
+        """Replaces a field's values, laid out as for elvis.from_arrays: (n, m), of a vector (n, m, components).
+
+        kind: which of the kinds of elements. The next picture shows them; the mesh and kernels are kept. Only of volumes from
+        arrays.
+        """
+        if self._layouts is None:
+            raise ValueError(f"{self.path} is a file: its values cannot be replaced")
+        if field not in self._layouts:
+            raise KeyError(f"there is no field '{field}'; there are {', '.join(self._layouts)}")
+        if not 0 <= kind < len(self._layouts[field]):
+            raise IndexError(f"there are {len(self._layouts[field])} kinds of elements")
+        layout = self._layouts[field][kind]
+        array = np.asarray(values, dtype=float)
+        array = array[..., np.newaxis] if array.ndim == 2 else array
+        if array.shape != tuple(layout):
+            raise ValueError(f"field '{field}': values of the shape {tuple(layout)} are wanted, not {np.shape(values)}")
+        self._handle.update_field(list(self._layouts).index(field), time_step, kind, np.ascontiguousarray(np.swapaxes(array, 1, 2)))
 
     def __repr__(self) -> str:
         return f"<Volume {self.path}: {self.n_elements} elements, fields {', '.join(self.fields)}>"

@@ -144,6 +144,97 @@ ELVIS_EXPORT elvis_result elvis_data_open(elvis_context* context, elvis_string p
 ELVIS_EXPORT elvis_result elvis_data_from_runtime(elvis_context* context, const elvis_runtime* runtime, elvis_volume* volume,
                                                   elvis_string name, elvis_data** data);
 
+typedef uint32_t elvis_basis;
+/** Vertex, edge, face and interior modes of Karniadakis and Sherwin: Modified_A, _B, _C of Nektar++. */
+#define ELVIS_BASIS_MODIFIED 0u
+/** Ortho_A, _B, _C of Nektar++. */
+#define ELVIS_BASIS_ORTHOGONAL 1u
+/** Lagrange polynomials on Gauss-Lobatto-Legendre points; hexahedra and quadrilaterals. */
+#define ELVIS_BASIS_GLL_LAGRANGE 2u
+/** Lagrange polynomials on Gauss-Legendre points; hexahedra and quadrilaterals. */
+#define ELVIS_BASIS_GAUSS_LAGRANGE 3u
+/** Products of Modified_A; pyramids. */
+#define ELVIS_BASIS_TENSOR 4u
+
+/** A space of functions on a reference shape; format.md of the native volume has bases, orders and the order of modes. */
+typedef struct elvis_space {
+    uint32_t struct_size;
+    elvis_basis basis;
+    /** In each direction, up to 16; order[2] is 0 in two dimensions; 0 0 0 is a constant. */
+    uint32_t order[3];
+    uint32_t reserved;
+    /**
+     * NULL: arrays hold coefficients of the modes. Else reference coordinates (element.h) of as many nodes as there are modes,
+     * 3 each: arrays hold values at these, in this order. They must determine the functions of the space.
+     */
+    const double* nodes;
+} elvis_space;
+
+/** Elements with the same shape and spaces. */
+typedef struct elvis_array_class {
+    uint32_t struct_size;
+    elvis_shape shape;
+    uint64_t n_elements;
+    elvis_space geometry_space;
+    /** Positions or coefficients: n_elements, 3, modes. */
+    const double* geometry;
+    /** Corner ids, as many an element as its shape has corners: equal ids are one corner. NULL: corners at one place are. All
+     * classes have them or none. */
+    const int64_t* corners;
+    /** Boundary group of each local face, or ELVIS_GROUP_NONE: n_elements, faces of the shape. May be NULL. */
+    const int32_t* face_groups;
+} elvis_array_class;
+
+typedef struct elvis_array_field {
+    uint32_t struct_size;
+    uint32_t n_components;
+    elvis_string name;
+    /** May be NULL. */
+    elvis_string unit;
+    elvis_continuity continuity;
+    uint32_t reserved;
+    /** One for each class. */
+    const elvis_space* spaces;
+    /** By time step, then class: an array of n_elements, n_components, modes. */
+    const double* const* values;
+} elvis_array_field;
+
+/** A volume in arrays. */
+typedef struct elvis_arrays {
+    uint32_t struct_size;
+    /** 3, or 2 for surfaces in space. */
+    uint32_t dimension;
+    uint32_t n_classes;
+    uint32_t n_fields;
+    /** 0 is 1. */
+    uint32_t n_time_steps;
+    uint32_t n_boundary_groups;
+    const elvis_array_class* classes;
+    const elvis_array_field* fields;
+    /** Of the steps; may be NULL if there is one. */
+    const double* times;
+    /** Their names. */
+    const elvis_string* boundary_groups;
+} elvis_arrays;
+
+/** Modes of a space: numbers an element and component. ELVIS_ERROR_INVALID_ARGUMENT if there is no such space. */
+ELVIS_EXPORT elvis_result elvis_space_count_modes(elvis_context* context, elvis_shape shape, const elvis_space* space,
+                                                  uint64_t* n_modes);
+
+/**
+ * A volume from arrays in the native spaces, which are copied. Elements are numbered class by class; which faces they share
+ * follows from corners and positions. `name` as for elvis_data_from_runtime. Structs of lists have the size of the first.
+ */
+ELVIS_EXPORT elvis_result elvis_data_from_arrays(elvis_context* context, const elvis_arrays* arrays, elvis_string name,
+                                                 const elvis_task* task, elvis_data** data);
+
+/**
+ * Replaces a field's values in one class at one time step: laid out as elvis_array_field.values. The next picture shows them;
+ * nothing but that field is sent to the device again. Only of data from arrays.
+ */
+ELVIS_EXPORT elvis_result elvis_data_update_field(elvis_data* data, uint32_t field, uint32_t time_step, uint32_t element_class,
+                                                  const double* values);
+
 /**
  * Values of fields have changed, at any time step: what rests on them is asked again, what rests on the mesh is kept. Number,
  * names and orders of fields stay. For data of elvis_data_from_runtime, whose functions give the new values from now on.

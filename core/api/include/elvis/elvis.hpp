@@ -277,6 +277,10 @@ public:
         check(elvis_render(get(), shown.get(), &options, &c_watch, &drawn));
         return {m_context, drawn};
     }
+    /** See elvis_data_update_field. */
+    void update_field(std::uint32_t field, std::uint32_t time_step, std::uint32_t element_class, const double* values) {
+        check(elvis_data_update_field(get(), field, time_step, element_class, values));
+    }
     void fields_changed() { check(elvis_data_fields_changed(get())); }
     elvis_data* get() const { return m_handle.get(); }
 
@@ -307,6 +311,12 @@ public:
         elvis_data* opened = nullptr;
         check(elvis_data_from_runtime(get(), &runtime, volume, name.c_str(), &opened));
         return {m_handle, opened};
+    }
+    data from_arrays(const elvis_arrays& arrays, const std::string& name = "volume", const task& watch = {}) const {
+        elvis_data* made = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_from_arrays(get(), &arrays, name.c_str(), &c_watch, &made));
+        return {m_handle, made};
     }
     scene make_scene() const {
         elvis_scene* made = nullptr;

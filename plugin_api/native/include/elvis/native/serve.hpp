@@ -20,8 +20,8 @@ const elvis_extrema* extrema_table();
 const elvis_apex_bounds* apex_bounds_table();
 
 /**
- * A volume for those tables, to be released by runtime_table()->close. `host` is valid until then; `name` stands for the file in
- * messages. Throws elvis::api::Error where the volume cannot be drawn (orders above 16).
+ * A volume for those tables, to be released by runtime_table()->close. `host` is valid until then; `name` stands for the file
+ * in messages. Throws elvis::api::Error where the volume cannot be drawn (orders above 16).
  */
 elvis_volume* serve(const elvis_host* host, const std::string& name, std::shared_ptr<const VolumeSource> source);
 

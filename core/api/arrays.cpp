@@ -1,0 +1,186 @@
+#include "arrays.hpp"
+
+#include "array_mesh.hpp"
+#include "call.hpp"
+
+#include <core/base/counted.hpp>
+
+#include <elvis/native/serve.hpp>
+#include <elvis/plugin.hpp>
+
+#include <cmath>
+
+namespace elvis::library {
+
+namespace {
+
+/** Of the largest value of a Lagrange function: nodes that determine functions badly blow rounding up. */
+constexpr double worst_condition = 1e10;
+
+Eigen::PartialPivLU<Eigen::MatrixXd> from_nodes(const native::Space& space, const double* nodes, const std::string& what) {
+    const auto n = static_cast<Eigen::Index>(native::n_modes(space));
+    Eigen::MatrixXd values(n, n);
+    std::vector<double> modes(static_cast<std::size_t>(n));
+    for (Eigen::Index node = 0; node < n; ++node) {
+        const native::Point xi{nodes[3 * node], nodes[3 * node + 1], nodes[3 * node + 2]};
+        constexpr double tolerance = 1e-6; // Of nodes that were rounded.
+        if (!(std::isfinite(xi[0]) && std::isfinite(xi[1]) && std::isfinite(xi[2])) ||
+            !native::is_inside(space.shape, xi, tolerance)) {
+            throw InvalidArgument(what, "node " + std::to_string(node) + " lies outside of the reference shape");
+        }
+        native::evaluate_modes(space, xi, modes);
+        values.row(node) = Eigen::Map<const Eigen::RowVectorXd>(modes.data(), n);
+    }
+    Eigen::PartialPivLU<Eigen::MatrixXd> solver(values);
+    if (!(solver.rcond() > 1 / worst_condition)) {
+        throw InvalidArgument(what, "its nodes do not determine the functions of the space");
+    }
+    return solver;
+}
+
+/** The step's field of a class, as the caller has it. */
+const double* values_of(const elvis_array_field& field, std::size_t place, const std::string& what) {
+    need(field.values, what.c_str());
+    need(field.values[place], what.c_str());
+    return field.values[place];
+}
+
+void check_counts(const elvis_arrays& arrays) {
+    if (arrays.dimension != 2 && arrays.dimension != 3) {
+        throw InvalidArgument("arrays", "the dimension is neither 2 nor 3");
+    }
+    if (arrays.n_classes == 0 || arrays.n_fields == 0) {
+        throw InvalidArgument("arrays", "there is no class, or no field");
+    }
+    need(arrays.classes, "classes");
+    need(arrays.fields, "fields");
+    if (arrays.n_time_steps > 1) {
+        need(arrays.times, "times");
+    }
+}
+
+} // namespace
+
+ToModes::ToModes(const elvis_space& space, elvis_shape shape, const std::string& what) {
+    if (shape > ELVIS_SHAPE_TRIANGLE || space.basis > ELVIS_BASIS_TENSOR) {
+        throw InvalidArgument(what, "its shape or basis is not known");
+    }
+    m_space = {static_cast<native::Shape>(shape),
+               static_cast<native::Basis>(space.basis),
+               {space.order[0], space.order[1], space.order[2]}};
+    try {
+        native::check(m_space);
+    } catch (const std::invalid_argument& reason) {
+        throw InvalidArgument(what, reason.what());
+    }
+    m_n_modes = native::n_modes(m_space);
+    if (space.nodes != nullptr) {
+        m_from_nodes = from_nodes(m_space, space.nodes, what);
+    }
+}
+
+void ToModes::apply(std::span<const double> numbers, std::span<double> coefficients) const {
+    if (!m_from_nodes) {
+        std::ranges::copy(numbers, coefficients.begin());
+        return;
+    }
+    const auto n = static_cast<Eigen::Index>(m_n_modes);
+    const auto n_rows = static_cast<Eigen::Index>(numbers.size()) / n;
+    Eigen::Map<Eigen::MatrixXd>(coefficients.data(), n, n_rows) =
+        m_from_nodes->solve(Eigen::Map<const Eigen::MatrixXd>(numbers.data(), n, n_rows));
+}
+
+Arrays::Arrays(const elvis_arrays& arrays, const std::string& name, const TaskControl& control) {
+    check_counts(arrays);
+    native::Description description;
+    description.dimension = static_cast<int>(arrays.dimension);
+    if (arrays.n_time_steps > 1 || arrays.times != nullptr) {
+        description.times.assign(arrays.times, arrays.times + std::max(1u, arrays.n_time_steps));
+    }
+    for (std::uint32_t group = 0; group < arrays.n_boundary_groups; ++group) {
+        need(arrays.boundary_groups, "boundary_groups");
+        description.boundary_groups.push_back(text_or_empty(arrays.boundary_groups[group]));
+    }
+    std::vector<elvis_array_class> classes;
+    std::vector<ToModes> geometries;
+    for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
+        classes.push_back(copy_entry(arrays.classes, index));
+        const std::string what = "class " + std::to_string(index);
+        need(classes.back().geometry, what.c_str());
+        if (classes.back().n_elements == 0) {
+            throw InvalidArgument(what, "has no elements");
+        }
+        geometries.emplace_back(classes.back().geometry_space, classes.back().shape, what);
+        description.classes.push_back({geometries.back().space(), {}, classes.back().n_elements});
+    }
+    std::vector<elvis_array_field> fields;
+    for (std::uint32_t index = 0; index < arrays.n_fields; ++index) {
+        const elvis_array_field field = fields.emplace_back(copy_entry(arrays.fields, index));
+        const std::string what = "field " + std::to_string(index);
+        need(field.name, what.c_str());
+        need(field.spaces, what.c_str());
+        if (field.continuity > ELVIS_CONTINUITY_DISCONTINUOUS || field.n_components == 0) {
+            throw InvalidArgument(what, "its continuity is not known, or it has no components");
+        }
+        native::Field& own = description.fields.emplace_back();
+        own.name = field.name;
+        own.unit = text_or_empty(field.unit);
+        own.n_components = field.n_components;
+        own.continuity = static_cast<native::Continuity>(field.continuity);
+        std::vector<ToModes>& spaces = m_fields.emplace_back();
+        for (std::uint32_t of = 0; of < arrays.n_classes; ++of) {
+            spaces.emplace_back(copy_entry(field.spaces, of), classes[of].shape, what + " in class " + std::to_string(of));
+            description.classes[of].fields.push_back(spaces.back().space());
+        }
+    }
+    std::vector<std::vector<double>> geometry;
+    for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
+        const std::size_t n_numbers = 3 * geometries[index].n_modes() * classes[index].n_elements;
+        geometry.emplace_back(n_numbers);
+        geometries[index].apply({classes[index].geometry, n_numbers}, geometry.back());
+    }
+    std::vector<native::Face> faces = faces_of_mesh(description, geometry, classes, name, control);
+    description.n_faces = faces.size();
+    m_volume = std::make_shared<native::ArrayVolume>(std::move(description), std::move(faces));
+    for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
+        std::ranges::copy(geometry[index], m_volume->geometry(index).begin());
+    }
+    for (std::uint32_t field = 0; field < arrays.n_fields; ++field) {
+        for (std::uint32_t step = 0; step < m_volume->description().times.size(); ++step) {
+            for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
+                control.check();
+                update(field, step, index, values_of(fields[field], step * std::size_t{arrays.n_classes} + index, "values"));
+            }
+        }
+    }
+}
+
+RuntimeVolume Arrays::open(const std::string& name, const TaskControl* control) {
+    const auto serve = [&](const elvis_host* host) {
+        try {
+            m_served = native::serve(host, name, m_volume);
+        } catch (const api::Error& failure) {
+            throw InvalidArgument(name, failure.what());
+        }
+        return m_served;
+    };
+    return {Plugin::of_native(name), name, serve, control};
+}
+
+void Arrays::update(std::uint32_t field, std::uint32_t time_step, std::uint32_t element_class, const double* values) {
+    const native::Description& description = m_volume->description();
+    if (field >= description.fields.size() || time_step >= description.times.size() ||
+        element_class >= description.classes.size()) {
+        throw InvalidArgument("field", "there are " + counted(description.fields.size(), "field") + ", " +
+                                           counted(description.times.size(), "time step") + " and " +
+                                           std::to_string(description.classes.size()) + " classes of elements");
+    }
+    need(values, "values");
+    const std::span<double> own = m_volume->field(field, time_step, element_class);
+    m_fields[field][element_class].apply({values, own.size()}, own);
+    if (m_served != nullptr) {
+        native::forget_fields(m_served);
+    }
+}
+
+} // namespace elvis::library

@@ -1,0 +1,102 @@
+"""Values, information, conversion, and arguments that are wrong."""
+
+import random
+import threading
+import unittest
+
+import numpy as np
+
+import elvis
+from volumes import WithVolume
+
+
+class Values(WithVolume):
+    def test_values_and_gradients_are_those_of_the_field(self):
+        points = np.random.default_rng(1).uniform(-0.8, 0.8, (200, 3))
+        samples = self.volume.probe(points, ["p", "velocity", "norm(grad(p))"])
+        x, y, z = points.T
+        self.assertTrue(samples.is_inside.all())
+        np.testing.assert_allclose(samples["p"], x * x * y + z, atol=1e-12)
+        np.testing.assert_allclose(samples.gradient("p"), np.column_stack([2 * x * y, x * x, np.ones_like(x)]), atol=1e-9)
+        np.testing.assert_allclose(samples["norm(grad(p))"], np.linalg.norm(samples.gradient("p"), axis=1), rtol=1e-10)
+        self.assertEqual(samples["velocity"].shape, (200, 3))
+        self.assertEqual(samples.gradient("velocity").shape, (200, 3, 3))
+        self.assertFalse(samples.is_estimated("p").any())
+        with self.assertRaises(KeyError):
+            samples["pressure"]
+
+    def test_points_outside_have_no_values(self):
+        samples = self.volume.probe([[0, 0, 0], [9, 9, 9]], "p")
+        self.assertEqual(samples.element[1], -1)
+        self.assertTrue(np.isnan(samples["p"][1]) and np.isnan(samples.xi[1]).all())
+        self.assertEqual(len(self.volume.probe(np.zeros((0, 3)))), 0)
+
+    def test_what_is_in_the_volume(self):
+        self.assertEqual(self.volume.n_elements, 27)
+        self.assertEqual(self.volume.fields["velocity"].components, 3)
+        self.assertEqual(self.volume.bounds.shape, (2, 3))
+        self.assertIn("x-", self.volume.boundary_groups)
+        found = self.volume.range("p")
+        self.assertTrue(found.certified)
+        self.assertLessEqual(found.lower_bound, found.minimum)
+        self.assertEqual(self.volume.info()["negative_jacobians"]["n_elements"], 0)
+        self.assertEqual({field["name"]: field["exact"] for field in self.report["fields"]}["p"], True)
+        self.assertGreater(len(elvis.devices()), 0)
+        self.assertIn("org.elvis.native", [plugin["id"] for plugin in elvis.plugins()["plugins"]])
+
+    def test_errors_are_those_of_the_launcher(self):
+        for wrong, text in [(lambda: elvis.open("nothing.h5"), "nothing.h5: there is no such file"),
+                            (lambda: elvis.open(self.path("input.json")), "elvis convert"),
+                            (lambda: self.volume.probe([[0, 0, 0]], "q"), "q"),
+                            (lambda: self.volume.range("p", 4), "time step"),
+                            (lambda: elvis.convert(self.path("nothing"), self.path("x.h5")), "nothing")]:
+            with self.assertRaises(elvis.Error) as raised:
+                wrong()
+            self.assertIn(text, str(raised.exception))
+
+    def test_conversion_tells_how_far_it_is_and_is_stopped_by_an_exception(self):
+        told = []
+        elvis.convert(self.path("input.json"), self.path("again.h5"), progress=lambda *news: told.append(news))
+
+        def stop(fraction, activity):
+            raise RuntimeError("enough")
+
+        points = np.zeros((400000, 3))
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            self.volume.probe(points, "p", progress=stop)
+
+    def test_other_threads_run_meanwhile(self):
+        n_turns = 0
+        is_done = threading.Event()
+
+        def turn():
+            nonlocal n_turns
+            while not is_done.wait(0.001):
+                n_turns += 1
+
+        thread = threading.Thread(target=turn)
+        thread.start()
+        self.volume.probe(np.random.default_rng(2).uniform(-0.8, 0.8, (40000, 3)), "p")
+        is_done.set()
+        thread.join()
+        self.assertGreater(n_turns, 5)
+
+    def test_random_arguments_give_errors_and_no_crash(self):
+        rng = random.Random(5)
+        things = [None, -1, 0, 10**12, 1.5, float("nan"), "", "p", "p+", "norm(", b"p", [], [[]], [["p"]], {}, object(), np.zeros(3),
+                  np.zeros((2, 2)), np.zeros((1, 3)), np.full((2, 3), np.inf), np.zeros((2, 3), dtype=complex)]
+        calls = [self.volume.probe, self.volume.range, self.volume.info, self.volume.scene, self.volume.render, elvis.open,
+                 elvis.convert, elvis.Scene.read, elvis.Surface, elvis.from_arrays, elvis.Space, self.volume.update_field]
+        n_errors = 0
+        for _ in range(200):
+            arguments = [rng.choice(things) for _ in range(rng.randint(0, 3))]
+            try:
+                with np.errstate(all="ignore"):
+                    rng.choice(calls)(*arguments)
+            except Exception:  # noqa: BLE001: any exception will do, a crash will not.
+                n_errors += 1
+        self.assertGreater(n_errors, 50)
+
+
+if __name__ == "__main__":
+    unittest.main()
