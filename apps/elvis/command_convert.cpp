@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "crash_report.hpp"
+#include "library_context.hpp"
 #include "long_task.hpp"
 #include <apps/elvis/render/output_endings.hpp>
 
@@ -70,11 +71,34 @@ ConvertRequest request_of(const Arguments& arguments) {
     return request;
 }
 
+/** In this process, by the library. */
 ConvertReport convert_here(const Arguments& arguments) {
+    const auto pointers = [](const std::vector<std::string>& texts) {
+        std::vector<elvis_string> all;
+        for (const std::string& text : texts) {
+            all.push_back(text.c_str());
+        }
+        return all;
+    };
+    const std::vector<elvis_string> inputs = pointers(arguments.inputs), fields = pointers(arguments.fields);
+    auto conversion = detail::sized<elvis_conversion>();
+    conversion.n_inputs = static_cast<std::uint32_t>(inputs.size());
+    conversion.inputs = inputs.data();
+    conversion.output = arguments.output.c_str();
+    conversion.plugin = detail::or_null(arguments.plugin);
+    conversion.options = detail::or_null(arguments.options);
+    conversion.n_fields = static_cast<std::uint32_t>(fields.size());
+    conversion.fields = fields.data();
+    conversion.order = arguments.order;
+    conversion.continuity = arguments.continuity.empty()   ? ELVIS_CONTINUITY_UNKNOWN
+                            : arguments.continuity == "cg" ? ELVIS_CONTINUITY_CONTINUOUS
+                                                           : ELVIS_CONTINUITY_DISCONTINUOUS;
     TaskControl control;
     const ProgressBar progress(control);
     const InterruptGuard guard(control);
-    return convert(request_of(arguments), control);
+    const task watch{[&](double fraction, const char* activity) { control.progress(fraction, activity); },
+                     [&] { return control.is_cancelled(); }};
+    return report_from_json(library_context().convert(conversion, watch));
 }
 
 ConvertReport convert_apart(const Arguments& arguments) {

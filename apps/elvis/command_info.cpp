@@ -1,13 +1,13 @@
 #include "commands.hpp"
+#include "library_context.hpp"
 
 #include <core/base/counted.hpp>
-#include <core/session/describe_volume.hpp>
-#include <core/session/open_volume.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace elvis::commands {
@@ -20,7 +20,7 @@ struct Arguments {
     std::string volume;
     std::string plugin;
     std::uint32_t time_step = 0;
-    double jacobian_tolerance = default_jacobian_tolerance;
+    double jacobian_tolerance = 1e-9;
     bool lists_all = false;
     bool json = false;
 };
@@ -146,11 +146,12 @@ void add_info(CLI::App& app) {
                       "List all elements with a negative or undecided Jacobian or that overlap, not the first 20");
     command->add_flag("--json", a->json, "Answer in JSON");
     command->callback([a] {
-        const PluginRegistry registry;
-        const RuntimeVolume volume = open_volume(registry, a->volume, a->plugin, {});
-        std::optional<Device> device;
-        ExtremaFinder extrema(volume, [&device]() -> const Device& { return device ? *device : device.emplace(); });
-        const ordered_json root = describe_volume(volume, {a->time_step, a->jacobian_tolerance, a->lists_all}, extrema);
+        const data volume = library_context().open(a->volume, a->plugin);
+        auto options = detail::sized<elvis_describe_options>();
+        options.flags = ELVIS_DESCRIBE_JACOBIAN_TOLERANCE | (a->lists_all ? ELVIS_DESCRIBE_ALL : 0u);
+        options.time_step = a->time_step;
+        options.jacobian_tolerance = a->jacobian_tolerance;
+        const ordered_json root = ordered_json::parse(volume.describe(options));
         a->json ? static_cast<void>(std::printf("%s\n", root.dump(2).c_str())) : print_table(root);
     });
 }

@@ -1,21 +1,23 @@
 #include "commands.hpp"
+#include "library_context.hpp"
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
-#include <core/expression/expression.hpp>
-#include <core/plugin_host/plugin.hpp>
-#include <core/probe/probe.hpp>
-#include <core/session/open_volume.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace elvis::commands {
 namespace {
@@ -59,7 +61,7 @@ std::optional<Vector3> parse_position(std::string_view text) {
     return at == end ? std::optional(position) : std::nullopt;
 }
 
-void read_points(const std::string& path, std::vector<Vector3>& positions) {
+void read_points(const std::string& path, std::vector<double>& positions) {
     std::ifstream file(path);
     if (!file)
         throw Error(path, "cannot be opened");
@@ -71,19 +73,20 @@ void read_points(const std::string& path, std::vector<Vector3>& positions) {
         const std::optional<Vector3> position = parse_position(line);
         if (!position)
             throw Error(path + ":" + std::to_string(number), "expected three numbers, found '" + line + "'");
-        positions.push_back(*position);
+        positions.insert(positions.end(), position->begin(), position->end());
     }
     if (file.bad())
         throw Error(path, "cannot be read");
 }
 
-std::vector<Vector3> positions_of(const Arguments& arguments) {
-    std::vector<Vector3> positions;
+/** Three numbers a point. */
+std::vector<double> positions_of(const Arguments& arguments) {
+    std::vector<double> positions;
     for (const std::string& text : arguments.points) {
         const std::optional<Vector3> position = parse_position(text);
         if (!position)
             throw UsageError("--point", "expected x,y,z, found '" + text + "'");
-        positions.push_back(*position);
+        positions.insert(positions.end(), position->begin(), position->end());
     }
     if (!arguments.points_file.empty())
         read_points(arguments.points_file, positions);
@@ -92,108 +95,188 @@ std::vector<Vector3> positions_of(const Arguments& arguments) {
     return positions;
 }
 
-ProbeOptions options_of(const Arguments& arguments) {
-    ProbeOptions options;
-    options.device = arguments.device;
-    if (arguments.evaluation == "cpu")
-        options.evaluation = ProbeOptions::Evaluation::cpu;
-    else if (arguments.evaluation == "device")
-        options.evaluation = ProbeOptions::Evaluation::device;
-    return options;
-}
-
-using Expressions = std::vector<std::shared_ptr<const Expression>>;
-
-void print_json(const RuntimeVolume& volume, const Expressions& expressions, const std::vector<ProbedPoint>& points) {
-    nlohmann::ordered_json answers = nlohmann::ordered_json::array();
-    for (const ProbedPoint& point : points) {
-        nlohmann::ordered_json answer;
-        nlohmann::ordered_json values = nlohmann::ordered_json::object();
-        nlohmann::ordered_json gradients = nlohmann::ordered_json::object();
-        for (std::size_t i = 0; i < point.fields.size(); ++i) {
-            const std::string& name = volume.fields()[i].name;
-            const FieldSample& sample = point.fields[i];
-            values[name] = sample.values;
-            gradients[name] = nlohmann::ordered_json::array();
-            for (std::size_t c = 0; c < sample.values.size(); ++c)
-                gradients[name].push_back({sample.gradients[3 * c], sample.gradients[3 * c + 1], sample.gradients[3 * c + 2]});
+/** Answers of the library, point by point. */
+class Answers {
+public:
+    /** What is asked for: all fields, then the expressions. */
+    Answers(const data& volume, const Arguments& arguments, const std::vector<double>& positions) : m_positions(positions) {
+        const std::uint32_t n_fields = volume.info().n_fields;
+        for (std::uint32_t index = 0; index < n_fields; ++index) {
+            const elvis_field field = volume.field(index);
+            m_columns.push_back({field.name, field.unit, field.n_components, m_n_values});
+            m_n_values += field.n_components;
         }
-        answer["x"] = point.position;
-        answer["element"] = point.element ? nlohmann::ordered_json(*point.element) : nlohmann::ordered_json();
-        answer["xi"] = point.element ? nlohmann::ordered_json(point.xi) : nlohmann::ordered_json();
-        answer["fields"] = std::move(values);
-        answer["gradients"] = std::move(gradients);
-        answer["also"] = point.also;
-        answer["gradients_estimated"] =
-            std::ranges::any_of(point.fields, [](const FieldSample& sample) { return sample.gradient_is_estimated; });
-        if (!expressions.empty()) {
-            answer["expressions"] = nlohmann::ordered_json::object();
-            for (std::size_t i = 0; i < point.expressions.size(); ++i) {
-                const ExpressionSample& sample = point.expressions[i];
-                answer["expressions"][expressions[i]->text()] = {{"value", sample.value},
-                                                                 {"gradient", sample.gradient},
-                                                                 {"value_estimated", sample.value_is_estimated},
-                                                                 {"gradient_estimated", sample.gradient_is_estimated}};
+        m_n_fields = m_columns.size();
+        for (const std::string& text : arguments.expressions)
+            m_columns.push_back({text, "", 1, m_n_values++});
+        ask(volume, arguments);
+    }
+
+    struct Column {
+        std::string name, unit;
+        std::uint32_t n_values = 1;
+        /** Of the first value, among those of a point. */
+        std::uint32_t first = 0;
+    };
+    std::span<const Column> fields() const { return std::span(m_columns).first(m_n_fields); }
+    std::span<const Column> expressions() const { return std::span(m_columns).subspan(m_n_fields); }
+
+    std::size_t n_points() const { return m_elements.size(); }
+    std::array<double, 3> position(std::size_t point) const { return triple(m_positions, point); }
+    std::array<double, 3> xi(std::size_t point) const { return triple(m_xi, point); }
+    bool is_inside(std::size_t point) const { return m_elements[point] >= 0; }
+    bool is_unknown(std::size_t point) const { return m_elements[point] == -2; }
+    std::int64_t element(std::size_t point) const { return m_elements[point]; }
+    std::uint32_t n_failures(std::size_t point) const { return m_failures[point]; }
+    std::vector<std::int64_t> also(std::size_t point) const {
+        const std::span<const std::int64_t> all = std::span(m_also).subspan(point * most_also, most_also);
+        return {all.begin(), std::ranges::find(all, -1)};
+    }
+    double value(std::size_t point, const Column& column, std::size_t component) const {
+        return m_values[point * m_n_values + column.first + component];
+    }
+    std::array<double, 3> gradient(std::size_t point, const Column& column, std::size_t component) const {
+        return triple(m_gradients, point * m_n_values + column.first + component);
+    }
+    bool is_estimated(std::size_t point, const Column& column, std::uint32_t what) const {
+        return (m_estimated[point * m_n_values + column.first] & what) != 0;
+    }
+
+private:
+    /** More elements than that do not meet in one point of any mesh that is drawn. */
+    static constexpr std::uint32_t most_also = 256;
+
+    static std::array<double, 3> triple(const std::vector<double>& numbers, std::size_t index) {
+        return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
+    }
+
+    void ask(const data& volume, const Arguments& arguments) {
+        const std::size_t n = m_positions.size() / 3;
+        m_elements.resize(n);
+        m_failures.resize(n);
+        m_also.resize(most_also * n);
+        m_xi.resize(3 * n);
+        m_values.resize(m_n_values * n);
+        m_gradients.resize(3 * m_n_values * n);
+        m_estimated.resize(m_n_values * n);
+        std::vector<elvis_string> names;
+        for (const Column& column : m_columns)
+            names.push_back(column.name.c_str());
+        auto probe = detail::sized<elvis_probe>();
+        probe.time_step = arguments.time_step;
+        probe.n_points = n;
+        probe.positions = m_positions.data();
+        probe.n_fields = static_cast<std::uint32_t>(names.size());
+        probe.fields = names.data();
+        probe.elements = m_elements.data();
+        probe.xi = m_xi.data();
+        probe.values = m_values.data();
+        probe.gradients = m_gradients.data();
+        probe.estimated = m_estimated.data();
+        probe.also = m_also.data();
+        probe.most_also = most_also;
+        probe.n_failures = m_failures.data();
+        probe.evaluation = arguments.evaluation == "cpu"      ? ELVIS_EVALUATION_CPU
+                           : arguments.evaluation == "device" ? ELVIS_EVALUATION_DEVICE
+                                                              : ELVIS_EVALUATION_AUTOMATIC;
+        volume.probe(probe);
+    }
+
+    std::vector<Column> m_columns;
+    std::size_t m_n_fields = 0;
+    /** A point's. */
+    std::uint32_t m_n_values = 0;
+    std::vector<double> m_positions, m_xi, m_values, m_gradients;
+    std::vector<std::int64_t> m_elements, m_also;
+    std::vector<std::uint32_t> m_failures;
+    std::vector<std::uint8_t> m_estimated;
+};
+
+nlohmann::ordered_json json_of(const Answers& answers, std::size_t point) {
+    nlohmann::ordered_json answer;
+    nlohmann::ordered_json values = nlohmann::ordered_json::object();
+    nlohmann::ordered_json gradients = nlohmann::ordered_json::object();
+    const bool is_inside = answers.is_inside(point);
+    bool is_estimated = false;
+    for (const Answers::Column& field : answers.fields()) {
+        for (std::size_t c = 0; is_inside && c < field.n_values; ++c) {
+            values[field.name].push_back(answers.value(point, field, c));
+            gradients[field.name].push_back(answers.gradient(point, field, c));
+        }
+        is_estimated = is_estimated || answers.is_estimated(point, field, ELVIS_ESTIMATED_GRADIENT);
+    }
+    answer["x"] = answers.position(point);
+    answer["element"] = is_inside ? nlohmann::ordered_json(answers.element(point)) : nlohmann::ordered_json();
+    answer["xi"] = is_inside ? nlohmann::ordered_json(answers.xi(point)) : nlohmann::ordered_json();
+    answer["fields"] = std::move(values);
+    answer["gradients"] = std::move(gradients);
+    answer["also"] = answers.also(point);
+    answer["gradients_estimated"] = is_estimated;
+    if (!answers.expressions().empty()) {
+        answer["expressions"] = nlohmann::ordered_json::object();
+        for (const Answers::Column& expression : answers.expressions()) {
+            if (is_inside) {
+                answer["expressions"][expression.name] = {
+                    {"value", answers.value(point, expression, 0)},
+                    {"gradient", answers.gradient(point, expression, 0)},
+                    {"value_estimated", answers.is_estimated(point, expression, ELVIS_ESTIMATED_VALUE)},
+                    {"gradient_estimated", answers.is_estimated(point, expression, ELVIS_ESTIMATED_GRADIENT)}};
             }
         }
-        answer["newton_failures"] = point.n_failures;
-        answers.push_back(std::move(answer));
     }
-    nlohmann::ordered_json document;
-    document["points"] = std::move(answers);
+    answer["newton_failures"] = answers.n_failures(point);
+    return answer;
+}
+
+void print_json(const Answers& answers) {
+    nlohmann::ordered_json document = {{"points", nlohmann::ordered_json::array()}};
+    for (std::size_t point = 0; point < answers.n_points(); ++point)
+        document["points"].push_back(json_of(answers, point));
     std::printf("%s\n", document.dump(2).c_str());
 }
 
-void print_table(const RuntimeVolume& volume, const Expressions& expressions, const std::vector<ProbedPoint>& points) {
-    for (const ProbedPoint& point : points) {
-        std::printf("x = (%.17g, %.17g, %.17g)\n", point.position[0], point.position[1], point.position[2]);
-        if (!point.element) {
+void print_value(const Answers& answers, std::size_t point, const Answers::Column& column, std::size_t component) {
+    const auto word = [&](std::uint32_t what) { return answers.is_estimated(point, column, what) ? ", estimated" : ""; };
+    const std::array<double, 3> gradient = answers.gradient(point, column, component);
+    std::string name = column.name;
+    if (column.n_values > 1)
+        name.append("[").append(std::to_string(component)).append("]");
+    std::printf("  %s = %.17g%s%s%s, gradient (%.17g, %.17g, %.17g)%s\n", name.c_str(), answers.value(point, column, component),
+                column.unit.empty() ? "" : " ", column.unit.c_str(), word(ELVIS_ESTIMATED_VALUE), gradient[0], gradient[1],
+                gradient[2], word(ELVIS_ESTIMATED_GRADIENT));
+}
+
+void print_table(const Answers& answers) {
+    for (std::size_t point = 0; point < answers.n_points(); ++point) {
+        const std::array<double, 3> x = answers.position(point), xi = answers.xi(point);
+        std::printf("x = (%.17g, %.17g, %.17g)\n", x[0], x[1], x[2]);
+        if (!answers.is_inside(point)) {
             std::printf("  in no element\n");
             continue;
         }
-        std::printf("  element %lld", static_cast<long long>(*point.element));
-        for (std::size_t i = 0; i < point.also.size(); ++i)
-            std::printf("%s%lld", i == 0 ? ", also " : ", ", static_cast<long long>(point.also[i]));
-        std::printf("\n  xi = (%.17g, %.17g, %.17g)\n", point.xi[0], point.xi[1], point.xi[2]);
-        for (std::size_t i = 0; i < point.fields.size(); ++i) {
-            const FieldInfo& field = volume.fields()[i];
-            const FieldSample& sample = point.fields[i];
-            for (std::size_t c = 0; c < sample.values.size(); ++c) {
-                std::string component;
-                if (sample.values.size() > 1)
-                    component.append("[").append(std::to_string(c)).append("]");
-                std::printf("  %s%s = %.17g%s%s, gradient (%.17g, %.17g, %.17g)%s\n", field.name.c_str(), component.c_str(),
-                            sample.values[c], field.unit.empty() ? "" : " ", field.unit.c_str(), sample.gradients[3 * c],
-                            sample.gradients[3 * c + 1], sample.gradients[3 * c + 2],
-                            sample.gradient_is_estimated ? ", estimated" : "");
-            }
+        std::printf("  element %lld", static_cast<long long>(answers.element(point)));
+        const char* separator = ", also ";
+        for (const std::int64_t other : answers.also(point)) {
+            std::printf("%s%lld", separator, static_cast<long long>(other));
+            separator = ", ";
         }
-        for (std::size_t i = 0; i < point.expressions.size(); ++i) {
-            const ExpressionSample& sample = point.expressions[i];
-            std::printf("  %s = %.17g%s, gradient (%.17g, %.17g, %.17g)%s\n", expressions[i]->text().c_str(), sample.value,
-                        sample.value_is_estimated ? ", estimated" : "", sample.gradient[0], sample.gradient[1],
-                        sample.gradient[2], sample.gradient_is_estimated ? ", estimated" : "");
-        }
+        std::printf("\n  xi = (%.17g, %.17g, %.17g)\n", xi[0], xi[1], xi[2]);
+        for (const Answers::Column& field : answers.fields())
+            for (std::size_t component = 0; component < field.n_values; ++component)
+                print_value(answers, point, field, component);
+        for (const Answers::Column& expression : answers.expressions())
+            print_value(answers, point, expression, 0);
     }
 }
 
 void run(const Arguments& arguments) {
-    const std::vector<Vector3> positions = positions_of(arguments);
-    const PluginRegistry registry;
-    const RuntimeVolume volume = open_volume(registry, arguments.volume, arguments.plugin, {});
-    Expressions expressions;
-    for (const std::string& text : arguments.expressions)
-        expressions.push_back(std::make_shared<const Expression>(text, volume.fields(), volume.dimension()));
-    Prober prober(volume, options_of(arguments));
-    const std::vector<ProbedPoint> points = prober.probe(positions, arguments.time_step, expressions);
-    if (arguments.json)
-        print_json(volume, expressions, points);
-    else
-        print_table(volume, expressions, points);
-
+    const std::vector<double> positions = positions_of(arguments);
+    const data volume = library_context(arguments.device).open(arguments.volume, arguments.plugin);
+    const Answers answers(volume, arguments, positions);
+    arguments.json ? print_json(answers) : print_table(answers);
     std::size_t n_unknown = 0;
-    for (const ProbedPoint& point : points)
-        n_unknown += !point.element && point.n_failures > 0;
+    for (std::size_t point = 0; point < answers.n_points(); ++point)
+        n_unknown += answers.is_unknown(point);
     if (n_unknown > 0)
         throw Error(arguments.volume, "the inverse mapping failed at " + counted(n_unknown, "point") +
                                           ": whether they lie in the volume is not known");

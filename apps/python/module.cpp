@@ -80,7 +80,10 @@ public:
 
     std::string describe(std::uint32_t time_step, bool brief) const {
         const py::gil_scoped_release unlocked;
-        return m_data.describe(time_step, brief ? ELVIS_DESCRIBE_BRIEF : 0);
+        auto options = detail::sized<elvis_describe_options>();
+        options.time_step = time_step;
+        options.flags = brief ? ELVIS_DESCRIBE_BRIEF : 0;
+        return m_data.describe(options);
     }
     py::dict range(const std::string& field, std::uint32_t time_step) const {
         elvis_range found{};

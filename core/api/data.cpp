@@ -31,9 +31,10 @@ Renderer& Data::renderer(Precision precision) {
     return *m_renderer;
 }
 
-Prober& Data::prober() {
-    if (!m_prober) {
-        m_prober.emplace(volume, ProbeOptions{ProbeOptions::Evaluation::automatic, context->wanted_device});
+Prober& Data::prober(ProbeOptions::Evaluation evaluation) {
+    if (!m_prober || m_evaluation != evaluation) {
+        m_prober.emplace(volume, ProbeOptions{evaluation, context->wanted_device});
+        m_evaluation = evaluation;
     }
     return *m_prober;
 }
@@ -213,16 +214,23 @@ elvis_result elvis_data_get_time(elvis_data* data, uint32_t time_step, double* t
     });
 }
 
-elvis_result elvis_data_describe(elvis_data* data, uint32_t time_step, elvis_describe_flags flags, char** text) {
+elvis_result elvis_data_describe(elvis_data* data, const elvis_describe_options* options, const elvis_task* task, char** text) {
     return call(context_of(data), [&] {
         need(text, "text");
-        const DataTask task(*data->state, nullptr);
-        check_step(data->state->volume, time_step);
-        DescribeOptions options;
-        options.time_step = time_step;
-        options.is_brief = (flags & ELVIS_DESCRIBE_BRIEF) != 0;
-        options.lists_all = (flags & ELVIS_DESCRIBE_ALL) != 0;
-        *text = text_for_caller(describe_volume(data->state->volume, options, data->state->extrema).dump(2));
+        elvis_describe_options known{};
+        if (options != nullptr) {
+            known = known_part(options, "options");
+        }
+        const DataTask running(*data->state, task);
+        check_step(data->state->volume, known.time_step);
+        DescribeOptions how;
+        how.time_step = known.time_step;
+        how.is_brief = (known.flags & ELVIS_DESCRIBE_BRIEF) != 0;
+        how.lists_all = (known.flags & ELVIS_DESCRIBE_ALL) != 0;
+        if ((known.flags & ELVIS_DESCRIBE_JACOBIAN_TOLERANCE) != 0) {
+            how.jacobian_tolerance = known.jacobian_tolerance;
+        }
+        *text = text_for_caller(describe_volume(data->state->volume, how, data->state->extrema).dump(2));
     });
 }
 

@@ -59,7 +59,8 @@ struct Data {
 
     /** Of that precision; the other precision's is given up: a volume is on the device once. */
     Renderer& renderer(Precision precision);
-    Prober& prober();
+    /** Evaluating that way; the one before is given up. */
+    Prober& prober(ProbeOptions::Evaluation evaluation);
     /** Values of fields have changed. */
     void forget_fields();
 
@@ -75,6 +76,7 @@ struct Data {
 
 private:
     std::optional<Prober> m_prober;
+    ProbeOptions::Evaluation m_evaluation = ProbeOptions::Evaluation::automatic;
     std::optional<Renderer> m_renderer;
     Precision m_precision = Precision::float32;
 };

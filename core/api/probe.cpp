@@ -60,29 +60,37 @@ public:
         if (m_probe.elements != nullptr) {
             m_probe.elements[at] = point.element ? *point.element : point.n_failures > 0 ? -2 : -1;
         }
+        if (m_probe.n_failures != nullptr) {
+            m_probe.n_failures[at] = point.n_failures;
+        }
         for (std::size_t axis = 0; m_probe.xi != nullptr && axis < 3; ++axis) {
             m_probe.xi[3 * at + axis] = point.element ? point.xi[axis] : nan;
+        }
+        for (std::uint32_t index = 0; m_probe.also != nullptr && index < m_probe.most_also; ++index) {
+            m_probe.also[at * m_probe.most_also + index] = index < point.also.size() ? point.also[index] : -1;
         }
         m_at = at * m_columns.n_values;
         for (const Column& column : m_columns.columns) {
             for (std::uint32_t component = 0; component < column.n_values; ++component) {
                 if (!point.element) {
-                    put(nan, {nan, nan, nan}, false);
+                    put(nan, {nan, nan, nan}, 0);
                 } else if (column.is_field) {
                     const FieldSample& sample = point.fields[column.field];
                     const std::size_t of = 3 * std::size_t{component};
                     put(sample.values[component], {sample.gradients[of], sample.gradients[of + 1], sample.gradients[of + 2]},
-                        sample.gradient_is_estimated);
+                        sample.gradient_is_estimated ? ELVIS_ESTIMATED_GRADIENT : 0);
                 } else {
                     const ExpressionSample& sample = point.expressions[column.expression];
-                    put(sample.value, sample.gradient, sample.value_is_estimated || sample.gradient_is_estimated);
+                    put(sample.value, sample.gradient,
+                        (sample.value_is_estimated ? ELVIS_ESTIMATED_VALUE : 0) |
+                            (sample.gradient_is_estimated ? ELVIS_ESTIMATED_GRADIENT : 0));
                 }
             }
         }
     }
 
 private:
-    void put(double value, const Vector3& gradient, bool is_estimated) {
+    void put(double value, const Vector3& gradient, std::uint32_t estimated) {
         if (m_probe.values != nullptr) {
             m_probe.values[m_at] = value;
         }
@@ -90,7 +98,7 @@ private:
             m_probe.gradients[3 * m_at + axis] = gradient[axis];
         }
         if (m_probe.estimated != nullptr) {
-            m_probe.estimated[m_at] = is_estimated ? 1 : 0;
+            m_probe.estimated[m_at] = static_cast<std::uint8_t>(estimated);
         }
         ++m_at;
     }
@@ -107,7 +115,11 @@ void probe_all(Data& data, const elvis_probe& probe) {
     if (probe.time_step >= data.volume.times().size()) {
         throw InvalidArgument("time_step", "the volume has " + counted(data.volume.times().size(), "time step"));
     }
+    if (probe.evaluation > ELVIS_EVALUATION_DEVICE) {
+        throw InvalidArgument("evaluation", "is not known");
+    }
     const Columns columns = columns_of(data.volume, probe.fields, probe.n_fields);
+    Prober& prober = data.prober(static_cast<ProbeOptions::Evaluation>(probe.evaluation));
     Writer writer(probe, columns);
     std::vector<Vector3> positions;
     for (std::uint64_t first = 0; first < probe.n_points; first += n_points_a_block) {
@@ -118,7 +130,7 @@ void probe_all(Data& data, const elvis_probe& probe) {
         for (std::uint64_t point = first; point < first + n; ++point) {
             positions.push_back({probe.positions[3 * point], probe.positions[3 * point + 1], probe.positions[3 * point + 2]});
         }
-        const std::vector<ProbedPoint> points = data.prober().probe(positions, probe.time_step, columns.expressions);
+        const std::vector<ProbedPoint> points = prober.probe(positions, probe.time_step, columns.expressions);
         for (std::uint64_t point = 0; point < n; ++point) {
             writer.write(first + point, points[point]);
         }

@@ -104,7 +104,7 @@ TEST_CASE("A volume from values at nodes has them at the nodes, and knows its fa
     const elvis::data data = context.from_arrays(cube.arrays, "cube");
     CHECK(data.info().n_elements == 6);
     // Twelve triangles outside, six inside.
-    CHECK_THAT(data.describe(0, ELVIS_DESCRIBE_BRIEF), Catch::Contains("\"n_faces\": 18"));
+    CHECK_THAT(data.describe_briefly(), Catch::Contains("\"n_faces\": 18"));
     const elvis::probed found = data.probe({0.3, 0.4, 0.6, 0.9, 0.2, 0.1}, {"p"});
     CHECK(found.values[0] == Approx(2 * 0.3 - 3 * 0.4 + 0.5).margin(1e-12));
     CHECK(found.values[1] == Approx(2 * 0.9 - 3 * 0.2 + 0.5).margin(1e-12));

@@ -89,7 +89,7 @@ TEST_CASE("Values at points are those of the field, with gradients, and NaN outs
     CHECK(range.certainty == ELVIS_CERTIFIED);
     CHECK(range.lower_bound <= range.minimum);
     CHECK(range.maximum <= range.upper_bound);
-    CHECK_THAT(data.describe(0, ELVIS_DESCRIBE_BRIEF), Contains("\"n_elements\": 27") && !Contains("negative_jacobians"));
+    CHECK_THAT(data.describe_briefly(), Contains("\"n_elements\": 27") && !Contains("negative_jacobians"));
 }
 
 TEST_CASE("A picture has the bytes of elvis render, and its arrays are those of its files") {

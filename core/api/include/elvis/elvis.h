@@ -267,9 +267,27 @@ typedef uint32_t elvis_describe_flags;
 #define ELVIS_DESCRIBE_BRIEF 1u
 /** All elements of the lists, not the first twenty. */
 #define ELVIS_DESCRIBE_ALL 2u
+/** The options' jacobian_tolerance counts; else it is 1e-9. */
+#define ELVIS_DESCRIBE_JACOBIAN_TOLERANCE 4u
 
-/** What `elvis info --json` prints, as JSON: classes, bounds, fields with ranges and orders, times, groups, Jacobians. */
-ELVIS_EXPORT elvis_result elvis_data_describe(elvis_data* data, uint32_t time_step, elvis_describe_flags flags, char** text);
+typedef struct elvis_describe_options {
+    uint32_t struct_size;
+    elvis_describe_flags flags;
+    /** Whose ranges are told. */
+    uint32_t time_step;
+    uint32_t reserved;
+    /**
+     * Elements whose smallest Jacobian determinant is closer to zero than this times its largest may stay undecided.
+     */
+    double jacobian_tolerance;
+} elvis_describe_options;
+
+/**
+ * What `elvis info --json` prints, as JSON: classes, bounds, fields with ranges and orders, times, groups, Jacobians, overlaps.
+ * `options` may be NULL.
+ */
+ELVIS_EXPORT elvis_result elvis_data_describe(elvis_data* data, const elvis_describe_options* options, const elvis_task* task,
+                                              char** text);
 
 /** A field's or expression's smallest and largest value over the volume. */
 typedef struct elvis_range {
@@ -285,6 +303,16 @@ typedef struct elvis_range {
 
 /** `field`: as the key "field" of scenes: a name, a component, or an expression. May need the device. */
 ELVIS_EXPORT elvis_result elvis_data_get_range(elvis_data* data, elvis_string field, uint32_t time_step, elvis_range* range);
+
+typedef uint32_t elvis_evaluation;
+/** By the plugin's functions on the processor where it has them, else by its snippet on the device. */
+#define ELVIS_EVALUATION_AUTOMATIC 0u
+#define ELVIS_EVALUATION_CPU 1u
+#define ELVIS_EVALUATION_DEVICE 2u
+
+/** Bits of elvis_probe.estimated. */
+#define ELVIS_ESTIMATED_VALUE 1u
+#define ELVIS_ESTIMATED_GRADIENT 2u
 
 /**
  * Values at points, in double precision. Arrays are the caller's, and each but `positions` may be NULL if it is not wanted.
@@ -311,9 +339,18 @@ typedef struct elvis_probe {
     double* values;
     /** World gradients of each of these: 3 a value. */
     double* gradients;
-    /** Of each point and value, not 0 where the value or its gradient rests on differences (plugins that give no derivatives).
+    /** Of each point and value, which of both rests on differences, since the plugin gives no derivatives: ELVIS_ESTIMATED_...
      */
     uint8_t* estimated;
+    /**
+     * Numbers of other elements that contain the point, ascending: on shared faces, or where elements overlap. `most_also` a
+     * point, -1 where there are no more.
+     */
+    int64_t* also;
+    uint32_t most_also;
+    elvis_evaluation evaluation;
+    /** Elements of which it is not known whether they contain the point. 1 a point. */
+    uint32_t* n_failures;
 } elvis_probe;
 
 /** Numbers a point that elvis_data_probe writes for these fields. */

@@ -230,15 +230,33 @@ public:
         check(elvis_data_get_time(get(), time_step, &result));
         return result;
     }
-    std::string describe(std::uint32_t time_step = 0, elvis_describe_flags flags = 0) const {
+    std::string describe(const elvis_describe_options& options = detail::sized<elvis_describe_options>(),
+                         const task& watch = {}) const {
         char* text = nullptr;
-        check(elvis_data_describe(get(), time_step, flags, &text));
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_describe(get(), &options, &c_watch, &text));
         return detail::taken(text);
+    }
+    /** Without what takes long. */
+    std::string describe_briefly() const {
+        auto options = detail::sized<elvis_describe_options>();
+        options.flags = ELVIS_DESCRIBE_BRIEF;
+        return describe(options);
     }
     elvis_range range(const std::string& field, std::uint32_t time_step = 0) const {
         auto result = detail::sized<elvis_range>();
         check(elvis_data_get_range(get(), field.c_str(), time_step, &result));
         return result;
+    }
+    /** As the struct says. */
+    void probe(const elvis_probe& request, const task& watch = {}) const {
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_probe(get(), &request, &c_watch));
+    }
+    std::uint32_t count_values(const elvis_string* fields, std::uint32_t n_fields) const {
+        std::uint32_t n_values = 0;
+        check(elvis_data_count_values(get(), fields, n_fields, &n_values));
+        return n_values;
     }
     /** `positions`: three numbers a point. */
     probed probe(const std::vector<double>& positions, const std::vector<std::string>& fields, std::uint32_t time_step = 0,
@@ -254,7 +272,7 @@ public:
         request.n_fields = static_cast<std::uint32_t>(names.size());
         request.fields = names.data();
         probed result;
-        check(elvis_data_count_values(get(), request.fields, request.n_fields, &result.n_values));
+        result.n_values = count_values(request.fields, request.n_fields);
         const std::size_t n_numbers = request.n_points * result.n_values;
         result.elements.resize(request.n_points);
         result.xi.resize(3 * request.n_points);
@@ -266,8 +284,7 @@ public:
         request.values = result.values.data();
         request.gradients = result.gradients.data();
         request.estimated = result.estimated.data();
-        const elvis_task c_watch = detail::c_task(watch);
-        check(elvis_data_probe(get(), &request, &c_watch));
+        probe(request, watch);
         return result;
     }
     picture render(const scene& shown, const elvis_render_options& options = detail::sized<elvis_render_options>(),

@@ -1,0 +1,15 @@
+# The shared library exports what its header declares, and nothing else.
+#   -DLIBRARY=libelvis.so -DHEADER=elvis.h -DNM=nm
+execute_process(COMMAND "${NM}" --dynamic --defined-only --format=posix "${LIBRARY}" OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[^\n ]+ [A-Z] [^\n]*" lines "${symbols}")
+list(TRANSFORM lines REPLACE " .*" "")
+list(TRANSFORM lines REPLACE "@.*" "")
+list(SORT lines)
+file(READ "${HEADER}" header)
+string(REGEX MATCHALL "ELVIS_EXPORT [^;(]*[ *]elvis_[a-z0-9_]+\\(" declared "${header}")
+list(TRANSFORM declared REPLACE ".*[ *](elvis_[a-z0-9_]+)\\(" "\\1")
+list(SORT declared)
+list(LENGTH declared n_declared)
+if(n_declared LESS 30 OR NOT "${lines}" STREQUAL "${declared}")
+  message(FATAL_ERROR "exported:\n${lines}\ndeclared:\n${declared}")
+endif()
