@@ -1,6 +1,8 @@
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
+#include <core/vulkan/device_choice.hpp>
 #include <core/vulkan/device_impl.hpp>
+#include <core/vulkan/device_summary.hpp>
 
 #include <spdlog/spdlog.h>
 

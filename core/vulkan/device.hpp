@@ -24,7 +24,13 @@ struct DeviceSummary {
     std::string type;   ///< "discrete", "integrated", "virtual", "cpu", "other"
     std::uint64_t memory_bytes = 0;
     bool has_float64 = false;
-    /** Empty if usable, else why not (Vulkan below 1.3, no compute queue). */
+    /** "0000:01:00.0": domain, bus, device and function. Empty where the driver does not say. */
+    std::string pci_bus_id;
+    /** "6d657361-3232-2e33-2e36-000000000000". The same in every process. Empty where the driver does not say. */
+    std::string uuid;
+    /** It has no memory, but its driver compiles kernels: a stand-in for hardware that is not there. */
+    bool only_compiles = false;
+    /** Empty if usable, else why not (Vulkan below 1.3, no compute queue, no memory). */
     std::string unusable_because;
 };
 
@@ -32,8 +38,9 @@ struct DeviceSummary {
 std::vector<DeviceSummary> list_devices();
 
 /**
- * The device ElVis would take: `wanted` (index or part of a name, case-insensitive), else $ELVIS_DEVICE, else the best by type
- * (discrete, integrated, virtual, cpu). Error that lists the devices if the wanted one does not exist.
+ * The device ElVis would take: `wanted` (index, PCI bus id, UUID or part of a name, all case-insensitive; an id may lack its
+ * domain 0000 and a UUID its dashes), else $ELVIS_DEVICE, else the best by type (discrete, integrated, virtual, cpu). Error
+ * that lists the devices if the wanted one does not exist.
  */
 DeviceSummary choose_device(const std::string& wanted);
 
