@@ -3,6 +3,7 @@
 #include <core/vulkan/device_choice.hpp>
 #include <core/vulkan/device_impl.hpp>
 #include <core/vulkan/device_summary.hpp>
+#include <core/vulkan/subgroup_choice.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -71,7 +72,7 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
     properties.pNext = &v11;
     vkGetPhysicalDeviceProperties2(physical, &properties);
     limits = properties.properties.limits;
-    subgroup_size = v11.subgroupSize;
+    subgroup_size = options.subgroup_size != 0 ? options.subgroup_size : choose_subgroup(physical).size;
     max_allocation_bytes = std::min(v11.maxMemoryAllocationSize, v13.maxBufferSize);
 
     texel_buffers =
@@ -272,6 +273,21 @@ std::vector<KernelBuild> Device::kernel_builds() const {
 void Device::add(KernelBuild build) const {
     const std::lock_guard lock(m_impl->builds_mutex);
     m_impl->builds.push_back(std::move(build));
+}
+
+std::vector<KernelTime> Device::kernel_times() const {
+    const std::lock_guard lock(m_impl->times_mutex);
+    std::vector<KernelTime> times;
+    for (const auto& [kernel, milliseconds] : m_impl->times) {
+        times.push_back({kernel, milliseconds});
+    }
+    return times;
+}
+
+void Device::tell(const KernelCode& code) const {
+    if (m_impl->options.on_kernel) {
+        m_impl->options.on_kernel(code);
+    }
 }
 
 std::vector<std::string> Device::validation_messages() const {

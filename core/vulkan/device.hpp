@@ -45,6 +45,13 @@ std::vector<DeviceSummary> list_devices();
 DeviceSummary choose_device(const std::string& wanted);
 
 class Background;
+struct KernelCode;
+
+/** How long a kernel has run, over all its parts. */
+struct KernelTime {
+    std::string kernel;
+    double milliseconds = 0;
+};
 
 /** What making a kernel took. */
 struct KernelBuild {
@@ -69,6 +76,10 @@ struct DeviceOptions {
     DataBuffers data_buffers = DataBuffers::automatic;
     /** Upper limit for max_binding_bytes(), to test what happens to large data; 0: only the device's own. */
     std::uint64_t max_binding_bytes = 0;
+    /** Lanes of a subgroup that kernels are written for; 0: the device's own. To draw with the kernels of another device. */
+    std::uint32_t subgroup_size = 0;
+    /** Called with every kernel that is composed, from several threads at once; may be empty. */
+    std::function<void(const KernelCode&)> on_kernel;
     /** Copy through a staging buffer even where the device's memory can be mapped. */
     bool always_stage = false;
 
@@ -125,6 +136,11 @@ public:
     /** Of the kernels made so far, in the order in which they were ready. */
     std::vector<KernelBuild> kernel_builds() const;
     void add(KernelBuild build) const;
+    /** Of the kernels that have run so far, in the order of their names. A first run may include a part of the driver's work.
+     */
+    std::vector<KernelTime> kernel_times() const;
+    /** DeviceOptions::on_kernel */
+    void tell(const KernelCode& code) const;
 
     /** For the other files of core/vulkan. */
     struct Impl;

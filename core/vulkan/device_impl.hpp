@@ -81,6 +81,10 @@ struct Device::Impl {
     /** Guards the builds. */
     std::mutex builds_mutex;
     std::vector<KernelBuild> builds;
+    /** Guards the times. */
+    std::mutex times_mutex;
+    /** Milliseconds by kernel. */
+    std::map<std::string, double> times;
     /** Guards the tasks. */
     std::mutex tasks_mutex;
     /** By thread. */
