@@ -72,7 +72,9 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
     properties.pNext = &v11;
     vkGetPhysicalDeviceProperties2(physical, &properties);
     limits = properties.properties.limits;
-    subgroup_size = options.subgroup_size != 0 ? options.subgroup_size : choose_subgroup(physical).size;
+    const SubgroupChoice subgroup = choose_subgroup(physical);
+    subgroup_size = options.subgroup_size != 0 ? options.subgroup_size : subgroup.size;
+    required_subgroup_size = subgroup.required;
     max_allocation_bytes = std::min(v11.maxMemoryAllocationSize, v13.maxBufferSize);
 
     texel_buffers =
@@ -108,6 +110,7 @@ void Device::Impl::create_device() {
     VkPhysicalDeviceVulkan13Features v13{};
     v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     v13.maintenance4 = VK_TRUE; // Every 1.3 driver has it; glslang writes work group sizes its way for SPIR-V 1.6.
+    v13.subgroupSizeControl = required_subgroup_size != 0 ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &v13;

@@ -96,7 +96,8 @@ struct Kernel::Impl {
     void create_pipeline(std::span<const std::uint32_t> spirv) {
         const Device::Impl& on = device.impl();
         pipeline.emplace(device.handle(), spirv, layout, push_constant_bytes,
-                         KernelPipeline::Options{.cache = on.pipelines->handle()}, place);
+                         KernelPipeline::Options{.cache = on.pipelines->handle(), .subgroup_size = on.required_subgroup_size},
+                         place);
     }
     void create_set();
     void update_set(std::span<const BoundBuffer> bindings);

@@ -17,6 +17,10 @@ struct SubgroupChoice {
     std::uint32_t required = 0;
 };
 
+/**
+ * What the driver takes, but 32 where that is less and may be chosen (Vulkan 1.3, AMD's RDNA, which would take 64): rays of
+ * neighbouring pixels go different ways, and what one of them does all wait for. Scratch memory of a wave is halved, too.
+ */
 SubgroupChoice choose_subgroup(VkPhysicalDevice device);
 
 } // namespace elvis
