@@ -20,6 +20,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <thread>
 
 namespace elvis::commands {
 
@@ -98,7 +99,8 @@ ordered_json describe_overlaps(const RuntimeVolume& volume, bool lists_all) {
 /** Sum of the elements' enclosures, from the plugin: one range a component. */
 ordered_json enclosures(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step, elvis_certainty& certainty) {
     ordered_json result = ordered_json::array();
-    for (const FieldRange& range : ranges_from_plugin(volume, field, time_step, certainty)) {
+    Background background(std::max(1u, std::thread::hardware_concurrency()));
+    for (const FieldRange& range : ranges_from_plugin(background, volume, field, time_step, certainty)) {
         result.push_back({number(range.lower), number(range.upper)});
     }
     return result;

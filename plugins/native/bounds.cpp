@@ -36,11 +36,12 @@ void Volume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> 
         native::RangeBounder bounder(geometry_space(element_class));
         const std::size_t n_modes = native::n_modes(geometry_space(element_class));
         for_each_block(n_run, elements_at_once, [&](std::uint64_t done, std::uint64_t n) {
+            // A host that asks for bounds evaluates the mapping soon.
+            const std::vector<double> coefficients = kept_geometry(element_class, local + done, n);
             for (std::uint64_t element = 0; element < n; ++element) {
-                // Kept, as room allows: a host that asks for bounds evaluates the mapping soon.
-                const Coefficients coefficients = element_geometry({element_class, local + done + element});
                 for (std::size_t direction = 0; direction < 3; ++direction) {
-                    const native::Range range = bounder(coefficients.numbers.subspan(direction * n_modes, n_modes));
+                    const native::Range range =
+                        bounder(std::span(coefficients).subspan((3 * element + direction) * n_modes, n_modes));
                     if (!std::isfinite(range.lower) || !std::isfinite(range.upper)) {
                         std::int64_t number = 0;
                         element_numbers(m_first_elements[element_class] + local + done + element, std::span(&number, 1));

@@ -18,7 +18,7 @@ constexpr double float32_value_error = 1e-6;
 
 const std::vector<Vector3>& VolumeRanges::outline() {
     if (m_outline.empty()) {
-        m_outline = outline_points(m_volume);
+        m_outline = outline_points(m_volume, m_device.background());
     }
     return m_outline;
 }
@@ -59,7 +59,8 @@ const VolumeRanges::Ranges& VolumeRanges::of_components(std::uint32_t field, std
         elvis_certainty certainty = ELVIS_ESTIMATED;
         std::vector<FieldRange> all;
         if (m_volume.has_field_ranges()) {
-            all = ranges_from_plugin(m_volume, field, time_step, certainty);
+            all = ranges_from_plugin(m_device.background(), m_volume, field, time_step, certainty,
+                                     [this] { m_device.check_task(); });
         } else {
             all = sampled(field, time_step);
         }
