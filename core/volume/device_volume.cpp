@@ -17,8 +17,9 @@ namespace elvis {
 
 namespace {
 
-/** Numbers that a thread fetches from the plugin at once (8 MiB): bounded host memory, whatever the volume's size. */
-constexpr std::uint64_t block_numbers = 1u << 20;
+/** Numbers that a thread fetches from the plugin at once (2 MiB): bounded host memory, whatever the volume's size, and not more
+ * than processors keep at hand. */
+constexpr std::uint64_t block_numbers = 1u << 18;
 /** Elements whose bounds a thread fetches at once. */
 constexpr std::uint64_t block_elements = 16384;
 

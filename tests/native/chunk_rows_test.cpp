@@ -5,8 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <random>
+#include <span>
 
 using namespace elvis::native;
 
@@ -51,6 +52,13 @@ public:
     }
 
     const h5::Handle& dataset() const { return m_dataset; }
+    /** All, as HDF5 reads it. */
+    std::vector<double> read_by_hdf5() const {
+        std::vector<double> numbers(m_numbers.size());
+        REQUIRE(H5Dread(m_dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0);
+        return numbers;
+    }
+    hsize_t packed_bytes() const { return H5Dget_storage_size(m_dataset.id()); }
     const std::string& path() const { return m_path; }
 
     std::vector<double> rows(std::uint64_t step, std::uint64_t first, std::uint64_t count) const {
@@ -109,4 +117,42 @@ TEST_CASE("A damaged chunk is not unpacked") {
     CHECK_FALSE(reads(file, 0, 0, 1000, numbers));
     CHECK(reads(file, 0, 3 * rows_a_chunk, 500, numbers));
     CHECK(numbers == file.rows(0, 3 * rows_a_chunk, 500));
+}
+
+TEST_CASE("HDF5 reads rows that were packed here, wherever a block of them begins and ends") {
+    const Filters filters = GENERATE(Filters{true, true, true}, Filters{true, false, true});
+    const ChunkedFile file(filters);
+    const std::vector<double> before = file.read_by_hdf5();
+    const std::uint64_t block = GENERATE(7u, 96u, 250u, 1000u);
+    CAPTURE(block);
+    std::vector<double> after = before;
+    for (double& number : after) {
+        number = 2 * number + 1;
+    }
+    for (std::uint64_t step = 0; step < 2; ++step) {
+        for (std::uint64_t first = 0; first < n_rows; first += block) {
+            const std::uint64_t count = std::min(block, n_rows - first);
+            h5::write_chunk_rows(file.dataset(), {step, first, 0}, count, 1,
+                                 after.data() + (step * n_rows + first) * numbers_a_row, H5T_NATIVE_DOUBLE,
+                                 {file.path(), "rows"});
+        }
+    }
+    CHECK(file.read_by_hdf5() == after);
+    std::vector<double> numbers(n_rows * numbers_a_row);
+    REQUIRE(h5::read_chunk_rows(file.dataset(), {1, 0, 0}, n_rows, 1, numbers.data()));
+    CHECK(std::ranges::equal(numbers, std::span(after).subspan(n_rows * numbers_a_row)));
+}
+
+TEST_CASE("Rows that are packed here take hardly more room than HDF5 needs for them") {
+    // Chunks of 128 KiB, as those of volumes.
+    const ChunkedFile by_hdf5({true, true, true}, {1, n_rows, numbers_a_row}),
+        here({true, true, true}, {1, n_rows, numbers_a_row});
+    const std::vector<double> numbers = here.read_by_hdf5();
+    for (std::uint64_t step = 0; step < 2; ++step) {
+        h5::write_chunk_rows(here.dataset(), {step, 0, 0}, n_rows, 1, numbers.data() + step * n_rows * numbers_a_row,
+                             H5T_NATIVE_DOUBLE, {here.path(), "rows"});
+    }
+    CHECK(here.read_by_hdf5() == numbers);
+    CHECK(here.packed_bytes() < by_hdf5.packed_bytes() / 20 * 21);
+    CHECK(here.packed_bytes() < numbers.size() * sizeof(double));
 }

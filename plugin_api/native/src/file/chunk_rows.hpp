@@ -21,4 +21,12 @@ namespace elvis::native::h5 {
 bool read_chunk_rows(const Handle& dataset, const std::vector<hsize_t>& start, hsize_t count, std::size_t row_dimension,
                      void* data);
 
+/**
+ * Writes rows as read_chunk_rows reads them. Whole chunks are packed here: shuffled bytes that do not get smaller are stored in
+ * the deflated stream as they are, which any HDF5 reads, several times faster. Of chunks that are written in part HDF5 takes
+ * care. Takes the lock itself.
+ */
+void write_chunk_rows(const Handle& dataset, const std::vector<hsize_t>& start, hsize_t count, std::size_t row_dimension,
+                      const void* data, hid_t type, const Place& place);
+
 } // namespace elvis::native::h5
