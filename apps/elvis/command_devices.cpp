@@ -23,6 +23,9 @@ void print_json(const std::vector<DeviceSummary>& devices, std::optional<std::ui
                                    {"type", device.type},
                                    {"memory_bytes", device.memory_bytes},
                                    {"float64", device.has_float64},
+                                   {"pci_bus_id", device.pci_bus_id},
+                                   {"uuid", device.uuid},
+                                   {"only_compiles", device.only_compiles},
                                    {"usable", device.unusable_because.empty()},
                                    {"unusable_because", device.unusable_because},
                                    {"chosen", device.index == chosen}});
@@ -39,7 +42,15 @@ void print_table(const std::vector<DeviceSummary>& devices, std::optional<std::u
         std::printf("%c %u  %s  (%s, %s, %.1f GiB, float64: %s)%s%s\n", device.index == chosen ? '*' : ' ', device.index,
                     device.name.c_str(), device.type.c_str(), device.driver.c_str(),
                     static_cast<double>(device.memory_bytes) / (1024.0 * 1024 * 1024), device.has_float64 ? "yes" : "no",
-                    device.unusable_because.empty() ? "" : " cannot be used: ", device.unusable_because.c_str());
+                    device.unusable_because.empty() ? ""
+                    : device.only_compiles          ? " compiles only"
+                                                    : " cannot be used: ",
+                    device.only_compiles ? "" : device.unusable_because.c_str());
+        const bool has_bus = !device.pci_bus_id.empty(), has_uuid = !device.uuid.empty();
+        if (has_bus || has_uuid) {
+            std::printf("     %s%s%s%s%s\n", has_bus ? "PCI " : "", device.pci_bus_id.c_str(), has_bus && has_uuid ? "  " : "",
+                        has_uuid ? "UUID " : "", device.uuid.c_str());
+        }
     }
 }
 

@@ -34,7 +34,8 @@ void add_view(CLI::App& app) {
     CLI::App* command = app.add_subcommand("view", "Look at a volume in a window");
     auto a = std::make_shared<Arguments>();
     command->add_option("input", a->options.file, "Volume, scene, or foreign file that is then converted");
-    command->add_option("--device", a->options.device, "Name (or part of it) or index of the Vulkan device that draws");
+    command->add_option("--device", a->options.device,
+                        "Name (or part of it), index, PCI bus id or UUID of the Vulkan device that draws");
     command->add_option("--size", a->size, "WIDTHxHEIGHT of the window");
     command->add_option("--text-scale", a->options.text_scale, "Size of texts and controls, times what the screen asks for")
         ->check(CLI::Range(0.5, 4.0));

@@ -69,24 +69,27 @@ FrameRequest volume_itself(const View& view, std::uint32_t size) {
 
 } // namespace
 
-void bench_four_pictures(const Device& device, const PluginRegistry& registry, const std::string& volume, std::uint32_t size,
-                         const std::function<void(const PictureRow&)>& report) {
-    const RuntimeVolume opened(registry.runtime_for(volume), volume);
-    Renderer renderer(device, opened, Precision::float32);
+std::vector<NamedFrame> four_pictures(Renderer& renderer, std::uint32_t size) {
     View view{renderer.ranges().bounds(), renderer.ranges().range({}, 0), {}};
     view.colors.name = "coolwarm";
     Isosurfaces middle;
     middle.values = {0.5 * (view.range.lower + view.range.upper)};
-    const auto draw = [&](const char* name, const FrameRequest& request) {
-        const RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+    return {{"slice", slice(view, size)},
+            {"boundary", lit(with_surface(looking_at(view, size), BoundaryFaces{}, view))},
+            {"isosurface", lit(with_surface(looking_at(view, size / 2), middle, view))},
+            {"volume", volume_itself(view, size / 2)}};
+}
+
+void bench_four_pictures(const Device& device, const PluginRegistry& registry, const std::string& volume, std::uint32_t size,
+                         const std::function<void(const PictureRow&)>& report) {
+    const RuntimeVolume opened(registry.runtime_for(volume), volume);
+    Renderer renderer(device, opened, Precision::float32);
+    for (const NamedFrame& picture : four_pictures(renderer, size)) {
+        const RepeatedFrame repeated = render_repeatedly(renderer, picture.request, n_runs);
         const FrameCounts& counts = repeated.frame.counts;
-        report({name, request.width, repeated.milliseconds, repeated.wall_milliseconds, counts,
+        report({picture.name, picture.request.width, repeated.milliseconds, repeated.wall_milliseconds, counts,
                 std::max(counts.hit_pixels, counts.volume_pixels)});
-    };
-    draw("slice", slice(view, size));
-    draw("boundary", lit(with_surface(looking_at(view, size), BoundaryFaces{}, view)));
-    draw("isosurface", lit(with_surface(looking_at(view, size / 2), middle, view)));
-    draw("volume", volume_itself(view, size / 2));
+    }
 }
 
 } // namespace elvis

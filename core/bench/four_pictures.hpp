@@ -6,11 +6,13 @@
 
 #include <core/bench/bench.hpp>
 #include <core/render/frame.hpp>
+#include <core/render/renderer.hpp>
 #include <core/vulkan/device.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace elvis {
 
@@ -24,6 +26,15 @@ struct PictureRow {
     /** Pixels that something is seen in. */
     std::uint64_t covered_pixels = 0;
 };
+
+struct NamedFrame {
+    /** slice, boundary, isosurface or volume. */
+    const char* name;
+    FrameRequest request;
+};
+
+/** Those of bench_four_pictures. */
+std::vector<NamedFrame> four_pictures(Renderer& renderer, std::uint32_t size);
 
 /**
  * A slice across and the lit boundary, `size`^2 pixels; the isosurface in the middle of the first field's range, lit, and the

@@ -1,5 +1,6 @@
 #include <core/session/describe_volume.hpp>
 
+#include <core/base/background.hpp>
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <thread>
 
 namespace elvis {
 
@@ -83,7 +85,8 @@ ordered_json describe_overlaps(const RuntimeVolume& volume, bool lists_all) {
 /** Sum of the elements' enclosures, from the plugin: one range a component. */
 ordered_json enclosures(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step, elvis_certainty& certainty) {
     ordered_json result = ordered_json::array();
-    for (const FieldRange& range : ranges_from_plugin(volume, field, time_step, certainty)) {
+    Background background(std::max(1u, std::thread::hardware_concurrency()));
+    for (const FieldRange& range : ranges_from_plugin(background, volume, field, time_step, certainty)) {
         result.push_back({number(range.lower), number(range.upper)});
     }
     return result;

@@ -7,6 +7,7 @@
 
 #include <cassert>
 #include <chrono>
+#include <filesystem>
 
 namespace elvis {
 
@@ -50,14 +51,21 @@ ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& reques
         m_watch->is_cut_short.fill(0);
     }
     // The request and its snippets are not kept: their text is.
-    m_building = device.background().hand_over([this, &device, text = compose_text(device, request),
-                                                layout = layout_of(device, request), bytes = request.push_constant_bytes] {
-        const auto start = std::chrono::steady_clock::now();
-        const std::vector<std::uint32_t> spirv = compile_shader(text, m_name);
-        const double compiler = milliseconds_since(start);
-        m_kernel.emplace(device, spirv, layout, bytes, m_name);
-        device.add({m_name, compiler, milliseconds_since(start) - compiler, spirv.size() * sizeof(std::uint32_t)});
-    });
+    KernelCode code{.name = m_name,
+                    .file = std::filesystem::path(request.kernel).replace_extension().string(),
+                    .precision = request.precision,
+                    .spirv = {},
+                    .layout = layout_of(device, request),
+                    .push_constant_bytes = request.push_constant_bytes};
+    m_building =
+        device.background().hand_over([this, &device, text = compose_text(device, request), code = std::move(code)]() mutable {
+            const auto start = std::chrono::steady_clock::now();
+            code.spirv = compile_shader(text, m_name);
+            const double compiler = milliseconds_since(start);
+            m_kernel.emplace(device, code.spirv, code.layout, code.push_constant_bytes, m_name);
+            device.add({m_name, compiler, milliseconds_since(start) - compiler, code.spirv.size() * sizeof(std::uint32_t)});
+            device.tell(code);
+        });
 }
 
 ComposedKernel::~ComposedKernel() { m_building->drop(); }

@@ -1,4 +1,5 @@
 #include <core/base/float_rounding.hpp>
+#include <core/base/in_parts.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/base/vector3.hpp>
 #include <core/expression/glsl.hpp>
@@ -16,10 +17,21 @@ namespace elvis {
 
 namespace {
 
-/** Numbers fetched from the plugin at once: bounded host memory, whatever the volume's size. */
-constexpr std::uint64_t block_numbers = 4u << 20;
+/** Numbers that a thread fetches from the plugin at once (2 MiB): bounded host memory, whatever the volume's size, and not more
+ * than processors keep at hand. */
+constexpr std::uint64_t block_numbers = 1u << 18;
+/** Elements whose bounds a thread fetches at once. */
+constexpr std::uint64_t block_elements = 16384;
 
 using Clock = std::chrono::steady_clock;
+
+/** Throws Cancelled if either is to stop. */
+void check_tasks(const Device& device, const TaskControl* control) {
+    if (control) {
+        control->check();
+    }
+    device.check_task();
+}
 
 /** Relative to the middle of the volume. `origins`: of the class's elements, three numbers each; none if positions are the
  * world's. */
@@ -73,14 +85,12 @@ void DeviceVolume::read_bounds() {
     const Clock::time_point start = Clock::now();
     const std::uint64_t n_elements = m_volume.n_elements();
     std::vector<double> boxes(6 * n_elements);
-    constexpr std::uint64_t block = block_numbers / 64;
-    for (std::uint64_t first = 0; first < n_elements; first += block) {
-        if (m_control) {
-            m_control->check();
-        }
-        const std::uint64_t count = std::min(block, n_elements - first);
-        m_volume.bounds(first, count, std::span<double>(boxes).subspan(6 * first, 6 * count));
-    }
+    in_parts(
+        m_device.background(), n_elements, block_elements,
+        [&](std::uint64_t first, std::uint64_t count) {
+            m_volume.bounds(first, count, std::span<double>(boxes).subspan(6 * first, 6 * count));
+        },
+        [&] { check_tasks(m_device, m_control); });
     std::fill_n(m_bounds.begin(), 3, std::numeric_limits<double>::infinity());
     std::fill_n(m_bounds.begin() + 3, 3, -std::numeric_limits<double>::infinity());
     m_origins.resize(3 * n_elements);
@@ -248,32 +258,29 @@ void DeviceVolume::fill(std::uint32_t index, const Slot& slot, PluginBuffer& buf
                                                         info.n_records, info.record_size);
     }
     buffer.is_filled = false;
-    elvis_fill_request request{};
-    request.struct_size = sizeof request;
-    request.buffer = index;
-    request.field = slot.field;
-    request.time_step = m_time_step;
-    request.field_offset = slot.offset.data();
-    request.origins = has_capability(info.element_class, ELVIS_SNIPPET_LOCAL_ORIGIN) ? m_origins.data() : nullptr;
-    const std::uint64_t block = std::max<std::uint64_t>(1, block_numbers / info.record_size);
-    std::vector<double> reals;
-    std::vector<std::uint32_t> uints;
-    for (request.first = 0; request.first < info.n_records; request.first += block) {
-        if (m_control) {
-            m_control->check();
-        }
-        m_device.check_task();
-        request.count = std::min(block, info.n_records - request.first);
+    elvis_fill_request all{};
+    all.struct_size = sizeof all;
+    all.buffer = index;
+    all.field = slot.field;
+    all.time_step = m_time_step;
+    all.field_offset = slot.offset.data();
+    all.origins = has_capability(info.element_class, ELVIS_SNIPPET_LOCAL_ORIGIN) ? m_origins.data() : nullptr;
+    const auto fill_part = [&](std::uint64_t first, std::uint64_t count) {
+        elvis_fill_request request = all;
+        request.first = first;
+        request.count = count;
         if (is_real) {
-            reals.resize(request.count * info.record_size);
+            std::vector<double> reals(count * info.record_size);
             m_volume.fill_buffer(request, reals.data());
-            buffer.records->write_reals(request.first, reals);
+            buffer.records->write_reals(first, reals);
         } else {
-            uints.resize(request.count * info.record_size);
+            std::vector<std::uint32_t> uints(count * info.record_size);
             m_volume.fill_buffer(request, uints.data());
-            buffer.records->write_uints(request.first, uints);
+            buffer.records->write_uints(first, uints);
         }
-    }
+    };
+    in_parts(m_device.background(), info.n_records, std::max<std::uint64_t>(1, block_numbers / info.record_size), fill_part,
+             [&] { check_tasks(m_device, m_control); });
     buffer.time_step = m_time_step;
     buffer.is_filled = true;
 }

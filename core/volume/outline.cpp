@@ -1,6 +1,7 @@
 #include <core/volume/outline.hpp>
 
 #include <core/base/bounds.hpp>
+#include <core/base/in_parts.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -110,16 +111,36 @@ public:
     std::vector<std::uint64_t> first_candidates(const std::vector<double>& boxes) const {
         std::vector<std::uint64_t> elements(m_directions.size());
         std::vector<double> reach = m_reach;
-        for (std::uint64_t element = 0; element < boxes.size() / 6; ++element) {
+        const auto look_at = [&](std::size_t i, std::uint64_t element) {
+            const double here = dot(m_directions[i], farthest_corner(box_of(boxes, element), m_directions[i]));
+            elements[i] = here > reach[i] ? element : elements[i];
+            reach[i] = std::max(reach[i], here);
+        };
+        // Elements that follow each other lie together, and most of them inside.
+        constexpr std::uint64_t together = 64;
+        for (std::uint64_t first = 0; first < boxes.size() / 6; first += together) {
+            const std::uint64_t end = std::min(first + together, std::uint64_t{boxes.size() / 6});
+            const Box all = box_of_all(boxes, first, end);
             for (std::size_t i = 0; i < m_directions.size(); ++i) {
-                const double here = dot(m_directions[i], farthest_corner(box_of(boxes, element), m_directions[i]));
-                elements[i] = here > reach[i] ? element : elements[i];
-                reach[i] = std::max(reach[i], here);
+                const bool may_reach = dot(m_directions[i], farthest_corner(all, m_directions[i])) > reach[i];
+                for (std::uint64_t element = first; may_reach && element < end; ++element) {
+                    look_at(i, element);
+                }
             }
         }
         std::sort(elements.begin(), elements.end());
         elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
         return elements;
+    }
+
+    /** Of elements `first` to `end - 1`. */
+    static Box box_of_all(const std::vector<double>& boxes, std::uint64_t first, std::uint64_t end) {
+        Box all = box_of(boxes, first);
+        for (std::uint64_t at = 6 * first; at < 6 * end; ++at) {
+            const std::size_t axis = at % 6;
+            all[axis] = axis < 3 ? std::min(all[axis], boxes[at]) : std::max(all[axis], boxes[at]);
+        }
+        return all;
     }
 
     bool may_reach_beyond(const Box& box, double tolerance) const {
@@ -147,23 +168,13 @@ private:
     std::vector<double> m_positions;
 };
 
-std::vector<double> all_bounds(const RuntimeVolume& volume) {
-    constexpr std::uint64_t block = 65536;
+std::vector<double> all_bounds(const RuntimeVolume& volume, Background& background) {
+    constexpr std::uint64_t block = 16384;
     std::vector<double> boxes(6 * volume.n_elements());
-    for (std::uint64_t first = 0; first < volume.n_elements(); first += block) {
-        const std::uint64_t count = std::min(block, volume.n_elements() - first);
+    in_parts(background, volume.n_elements(), block, [&](std::uint64_t first, std::uint64_t count) {
         volume.bounds(first, count, std::span<double>(boxes).subspan(6 * first, 6 * count));
-    }
+    });
     return boxes;
-}
-
-double diagonal_of_all(const std::vector<double>& boxes) {
-    Box all = Outline::box_of(boxes, 0);
-    for (std::size_t at = 0; at < boxes.size(); ++at) {
-        const std::size_t axis = at % 6;
-        all[axis] = axis < 3 ? std::min(all[axis], boxes[at]) : std::max(all[axis], boxes[at]);
-    }
-    return diagonal_of(all);
 }
 
 std::size_t class_of(const RuntimeVolume& volume, std::uint64_t element) {
@@ -175,9 +186,9 @@ std::size_t class_of(const RuntimeVolume& volume, std::uint64_t element) {
 
 } // namespace
 
-std::vector<Vector3> outline_points(const RuntimeVolume& volume) {
+std::vector<Vector3> outline_points(const RuntimeVolume& volume, Background& background) {
     Outline outline(volume);
-    const std::vector<double> boxes = all_bounds(volume);
+    const std::vector<double> boxes = all_bounds(volume, background);
     const std::vector<std::uint64_t> first = outline.first_candidates(boxes);
     if (!volume.has_evaluation()) {
         for (const std::uint64_t element : first) {
@@ -191,8 +202,15 @@ std::vector<Vector3> outline_points(const RuntimeVolume& volume) {
     for (const std::uint64_t element : first) {
         outline.take_element(class_of(volume, element), element);
     }
-    const double tolerance = worth_a_look * diagonal_of_all(boxes);
+    const double tolerance = worth_a_look * diagonal_of(Outline::box_of_all(boxes, 0, volume.n_elements()));
+    constexpr std::uint64_t together = 64;
     for (std::uint64_t element = 0; element < volume.n_elements(); ++element) {
+        // Where elements that follow each other do not reach beyond together, none of them does.
+        const std::uint64_t end = std::min(element + together, volume.n_elements());
+        if (element % together == 0 && !outline.may_reach_beyond(Outline::box_of_all(boxes, element, end), tolerance)) {
+            element = end - 1;
+            continue;
+        }
         if (outline.may_reach_beyond(Outline::box_of(boxes, element), tolerance) &&
             !std::binary_search(first.begin(), first.end(), element)) {
             outline.take_element(class_of(volume, element), element);

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/background.hpp>
 #include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
@@ -14,8 +15,8 @@ namespace elvis {
 /**
  * Points of the volume, one for each of some directions all around: the farthest of samples of its mapping. A picture that
  * shows all of them shows the volume, but for about three percent of its size. Of a plugin that evaluates no mappings on the
- * CPU they are corners of the elements' bounds, beyond which nothing is.
+ * CPU they are corners of the elements' bounds, beyond which nothing is. The background fetches bounds.
  */
-std::vector<Vector3> outline_points(const RuntimeVolume& volume);
+std::vector<Vector3> outline_points(const RuntimeVolume& volume, Background& background);
 
 } // namespace elvis

@@ -2,7 +2,10 @@
 #include <core/base/host.hpp>
 #include <core/base/log.hpp>
 #include <core/vulkan/check.hpp>
+#include <core/vulkan/device_choice.hpp>
 #include <core/vulkan/device_impl.hpp>
+#include <core/vulkan/device_summary.hpp>
+#include <core/vulkan/subgroup_choice.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -64,7 +67,9 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
     properties.pNext = &v11;
     vkGetPhysicalDeviceProperties2(physical, &properties);
     limits = properties.properties.limits;
-    subgroup_size = v11.subgroupSize;
+    const SubgroupChoice subgroup = choose_subgroup(physical);
+    subgroup_size = options.subgroup_size != 0 ? options.subgroup_size : subgroup.size;
+    required_subgroup_size = subgroup.required;
     max_allocation_bytes = std::min(v11.maxMemoryAllocationSize, v13.maxBufferSize);
 
     texel_buffers =
@@ -100,6 +105,7 @@ void Device::Impl::create_device() {
     VkPhysicalDeviceVulkan13Features v13{};
     v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     v13.maintenance4 = VK_TRUE; // Every 1.3 driver has it; glslang writes work group sizes its way for SPIR-V 1.6.
+    v13.subgroupSizeControl = required_subgroup_size != 0 ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &v13;
@@ -265,6 +271,21 @@ std::vector<KernelBuild> Device::kernel_builds() const {
 void Device::add(KernelBuild build) const {
     const std::lock_guard lock(m_impl->builds_mutex);
     m_impl->builds.push_back(std::move(build));
+}
+
+std::vector<KernelTime> Device::kernel_times() const {
+    const std::lock_guard lock(m_impl->times_mutex);
+    std::vector<KernelTime> times;
+    for (const auto& [kernel, milliseconds] : m_impl->times) {
+        times.push_back({kernel, milliseconds});
+    }
+    return times;
+}
+
+void Device::tell(const KernelCode& code) const {
+    if (m_impl->options.on_kernel) {
+        m_impl->options.on_kernel(code);
+    }
 }
 
 std::vector<std::string> Device::validation_messages() const {

@@ -24,7 +24,13 @@ struct DeviceSummary {
     std::string type;   ///< "discrete", "integrated", "virtual", "cpu", "other"
     std::uint64_t memory_bytes = 0;
     bool has_float64 = false;
-    /** Empty if usable, else why not (Vulkan below 1.3, no compute queue). */
+    /** "0000:01:00.0": domain, bus, device and function. Empty where the driver does not say. */
+    std::string pci_bus_id;
+    /** "6d657361-3232-2e33-2e36-000000000000". The same in every process. Empty where the driver does not say. */
+    std::string uuid;
+    /** It has no memory, but its driver compiles kernels: a stand-in for hardware that is not there. */
+    bool only_compiles = false;
+    /** Empty if usable, else why not (Vulkan below 1.3, no compute queue, no memory). */
     std::string unusable_because;
 };
 
@@ -32,12 +38,20 @@ struct DeviceSummary {
 std::vector<DeviceSummary> list_devices();
 
 /**
- * The device ElVis would take: `wanted` (index or part of a name, case-insensitive), else $ELVIS_DEVICE, else the best by type
- * (discrete, integrated, virtual, cpu). Error that lists the devices if the wanted one does not exist.
+ * The device ElVis would take: `wanted` (index, PCI bus id, UUID or part of a name, all case-insensitive; an id may lack its
+ * domain 0000 and a UUID its dashes), else $ELVIS_DEVICE, else the best by type (discrete, integrated, virtual, cpu). Error
+ * that lists the devices if the wanted one does not exist.
  */
 DeviceSummary choose_device(const std::string& wanted);
 
 class Background;
+struct KernelCode;
+
+/** How long a kernel has run, over all its parts. */
+struct KernelTime {
+    std::string kernel;
+    double milliseconds = 0;
+};
 
 /** What making a kernel took. */
 struct KernelBuild {
@@ -62,6 +76,10 @@ struct DeviceOptions {
     DataBuffers data_buffers = DataBuffers::automatic;
     /** Upper limit for max_binding_bytes(), to test what happens to large data; 0: only the device's own. */
     std::uint64_t max_binding_bytes = 0;
+    /** Lanes of a subgroup that kernels are written for; 0: the device's own. To draw with the kernels of another device. */
+    std::uint32_t subgroup_size = 0;
+    /** Called with every kernel that is composed, from several threads at once; may be empty. */
+    std::function<void(const KernelCode&)> on_kernel;
     /** Copy through a staging buffer even where the device's memory can be mapped. */
     bool always_stage = false;
 
@@ -118,6 +136,11 @@ public:
     /** Of the kernels made so far, in the order in which they were ready. */
     std::vector<KernelBuild> kernel_builds() const;
     void add(KernelBuild build) const;
+    /** Of the kernels that have run so far, in the order of their names. A first run may include a part of the driver's work.
+     */
+    std::vector<KernelTime> kernel_times() const;
+    /** DeviceOptions::on_kernel */
+    void tell(const KernelCode& code) const;
 
     /** For the other files of core/vulkan. */
     struct Impl;

@@ -58,6 +58,8 @@ struct Device::Impl {
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};
     std::uint32_t subgroup_size = 0;
+    /** For pipelines; 0: the driver's choice. */
+    std::uint32_t required_subgroup_size = 0;
     std::uint64_t max_allocation_bytes = 0;
     bool texel_buffers = false;
     std::uint64_t max_binding_bytes = 0;
@@ -81,6 +83,10 @@ struct Device::Impl {
     /** Guards the builds. */
     std::mutex builds_mutex;
     std::vector<KernelBuild> builds;
+    /** Guards the times. */
+    std::mutex times_mutex;
+    /** Milliseconds by kernel. */
+    std::map<std::string, double> times;
     /** Guards the tasks. */
     std::mutex tasks_mutex;
     /** By thread. */

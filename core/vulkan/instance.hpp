@@ -38,10 +38,4 @@ private:
     ValidationLog m_log;
 };
 
-/** The queue family with compute to use, preferring one without graphics (asynchronous compute); none: UINT32_MAX. */
-std::uint32_t compute_queue_family(VkPhysicalDevice device);
-
-/** choose_device among these. */
-DeviceSummary choose_among(const std::vector<DeviceSummary>& devices, const std::string& wanted);
-
 } // namespace elvis

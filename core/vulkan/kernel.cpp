@@ -12,22 +12,12 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace elvis {
 
 namespace {
-
-VkDescriptorType descriptor_type(BindingType type) {
-    switch (type) {
-    case BindingType::uniform_buffer:
-        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    case BindingType::texel_buffer:
-        return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    default:
-        return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    }
-}
 
 void check_limit(std::size_t needed, std::uint32_t limit, const std::string& place, const char* what) {
     if (needed > limit) {
@@ -76,18 +66,16 @@ struct Kernel::Impl {
     const Device& device;
     std::vector<BindingLayout> layout;
     std::uint32_t push_constant_bytes;
-    std::string place;
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    VkPipelineLayout pipeline_layout = VK_NULL_HANDLE;
-    VkPipeline pipeline = VK_NULL_HANDLE;
+    std::string name, place;
+    std::optional<KernelPipeline> pipeline;
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;
     /** Guards the descriptor set until the dispatch that uses it is over, and the pace. */
     std::mutex mutex;
     DispatchPace pace;
 
-    Impl(const Device& on, std::vector<BindingLayout> bindings, std::uint32_t push_bytes, const std::string& name)
-        : device(on), layout(std::move(bindings)), push_constant_bytes(push_bytes),
+    Impl(const Device& on, std::vector<BindingLayout> bindings, std::uint32_t push_bytes, std::string called)
+        : device(on), layout(std::move(bindings)), push_constant_bytes(push_bytes), name(std::move(called)),
           place("kernel '" + name + "' on " + on.impl().place()), pace(groups_at_once(on)) {
         ++device.impl().n_kernels;
     }
@@ -95,9 +83,6 @@ struct Kernel::Impl {
     ~Impl() {
         --device.impl().n_kernels;
         vkDestroyDescriptorPool(device.handle(), pool, nullptr);
-        vkDestroyPipeline(device.handle(), pipeline, nullptr);
-        vkDestroyPipelineLayout(device.handle(), pipeline_layout, nullptr);
-        vkDestroyDescriptorSetLayout(device.handle(), set_layout, nullptr);
     }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -108,8 +93,12 @@ struct Kernel::Impl {
     }
 
     void check_limits() const;
-    void create_layouts();
-    void create_pipeline(std::span<const std::uint32_t> spirv);
+    void create_pipeline(std::span<const std::uint32_t> spirv) {
+        const Device::Impl& on = device.impl();
+        pipeline.emplace(device.handle(), spirv, layout, push_constant_bytes,
+                         KernelPipeline::Options{.cache = on.pipelines->handle(), .subgroup_size = on.required_subgroup_size},
+                         place);
+    }
     void create_set();
     void update_set(std::span<const BoundBuffer> bindings);
     void run(const DispatchPart& part, std::span<const std::byte> push_constants);
@@ -122,49 +111,6 @@ void Kernel::Impl::check_limits() const {
     check_limit(count(BindingType::uniform_buffer), limits.maxPerStageDescriptorUniformBuffers, place, "uniform buffers");
     check_limit(layout.size(), limits.maxPerStageResources, place, "buffers");
     check_limit(push_constant_bytes, limits.maxPushConstantsSize, place, "bytes of push constants");
-}
-
-void Kernel::Impl::create_layouts() {
-    std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (const auto& binding : layout) {
-        bindings.push_back({binding.binding, descriptor_type(binding.type), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
-    }
-    VkDescriptorSetLayoutCreateInfo set_info{};
-    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    set_info.pBindings = bindings.data();
-    check_vulkan(vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set_layout), place, "creating its layout");
-
-    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_constant_bytes};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = 1;
-    info.pSetLayouts = &set_layout;
-    info.pushConstantRangeCount = push_constant_bytes > 0 ? 1 : 0;
-    info.pPushConstantRanges = &range;
-    check_vulkan(vkCreatePipelineLayout(device.handle(), &info, nullptr, &pipeline_layout), place, "creating its layout");
-}
-
-void Kernel::Impl::create_pipeline(std::span<const std::uint32_t> spirv) {
-    VkShaderModuleCreateInfo module_info{};
-    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    module_info.codeSize = spirv.size_bytes();
-    module_info.pCode = spirv.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    check_vulkan(vkCreateShaderModule(device.handle(), &module_info, nullptr, &module), place, "loading its code");
-
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module;
-    info.stage.pName = "main";
-    info.layout = pipeline_layout;
-    const VkResult result =
-        vkCreateComputePipelines(device.handle(), device.impl().pipelines->handle(), 1, &info, nullptr, &pipeline);
-    vkDestroyShaderModule(device.handle(), module, nullptr);
-    check_vulkan(result, place, "building it");
 }
 
 void Kernel::Impl::create_set() {
@@ -187,6 +133,7 @@ void Kernel::Impl::create_set() {
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     set_info.descriptorPool = pool;
     set_info.descriptorSetCount = 1;
+    const VkDescriptorSetLayout set_layout = pipeline->set_layout();
     set_info.pSetLayouts = &set_layout;
     check_vulkan(vkAllocateDescriptorSets(device.handle(), &set_info, &set), place, "creating its descriptors");
 }
@@ -229,12 +176,12 @@ void Kernel::Impl::update_set(std::span<const BoundBuffer> bindings) {
 
 void Kernel::Impl::run(const DispatchPart& part, std::span<const std::byte> push_constants) {
     device.submit([&](VkCommandBuffer commands) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle());
         if (set != VK_NULL_HANDLE) {
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout, 0, 1, &set, 0, nullptr);
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout(), 0, 1, &set, 0, nullptr);
         }
         if (!push_constants.empty()) {
-            vkCmdPushConstants(commands, pipeline_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+            vkCmdPushConstants(commands, pipeline->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
         }
         vkCmdDispatchBase(commands, part.first[0], part.first[1], part.first[2], part.count[0], part.count[1], part.count[2]);
@@ -251,9 +198,8 @@ std::vector<BindingLayout> buffer_bindings(const BufferCounts& counts) {
 
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::vector<BindingLayout> layout,
                std::uint32_t push_constant_bytes, std::string name)
-    : m_impl(std::make_unique<Impl>(device, std::move(layout), push_constant_bytes, name)) {
+    : m_impl(std::make_unique<Impl>(device, std::move(layout), push_constant_bytes, std::move(name))) {
     m_impl->check_limits();
-    m_impl->create_layouts();
     m_impl->create_pipeline(spirv);
     m_impl->create_set();
 }
@@ -281,15 +227,20 @@ void Kernel::dispatch_from(const Groups& first, std::span<const BoundBuffer> bin
     const std::lock_guard lock(impl.mutex);
     impl.update_set(bindings);
     const std::uint64_t n_groups = std::uint64_t{groups[0]} * groups[1] * groups[2];
+    double all_milliseconds = 0;
     for (std::uint64_t done = 0; done < n_groups;) {
         impl.device.check_task();
         DispatchPart part = next_part(groups, done, impl.pace.next(n_groups - done));
         std::transform(first.begin(), first.end(), part.first.begin(), part.first.begin(), std::plus<>());
         const auto start = std::chrono::steady_clock::now();
         impl.run(part, push_constants);
-        impl.pace.took(part.n_groups(), milliseconds_since(start));
+        const double milliseconds = milliseconds_since(start);
+        impl.pace.took(part.n_groups(), milliseconds);
+        all_milliseconds += milliseconds;
         done += part.n_groups();
     }
+    const std::lock_guard times_lock(impl.device.impl().times_mutex);
+    impl.device.impl().times[impl.name] += all_milliseconds;
 }
 
 } // namespace elvis

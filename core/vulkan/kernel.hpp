@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/vulkan/buffer.hpp>
+#include <core/vulkan/kernel_pipeline.hpp>
 
 #include <array>
 #include <memory>
@@ -13,14 +14,6 @@
 #include <vector>
 
 namespace elvis {
-
-/** What stands at one binding of set 0: exactly one descriptor each. */
-enum class BindingType { storage_buffer, uniform_buffer, texel_buffer };
-
-struct BindingLayout {
-    std::uint32_t binding = 0;
-    BindingType type = BindingType::storage_buffer;
-};
 
 /** How many buffers of each type a kernel has. */
 struct BufferCounts {

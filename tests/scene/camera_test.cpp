@@ -139,7 +139,8 @@ TEST_CASE("The outline of a volume is that of its curved elements, not of their 
     // A quarter of a pipe, in one element.
     const RuntimeVolume volume(Plugin::load(ELVIS_NURBS_PLUGIN), ELVIS_NURBS_SAMPLE);
     REQUIRE(volume.has_evaluation());
-    const std::vector<Vector3> outline = outline_points(volume);
+    Background background(2);
+    const std::vector<Vector3> outline = outline_points(volume, background);
     std::vector<Vector3> points;
     for (std::uint64_t element = 0; element < volume.n_elements(); ++element) {
         std::vector<double> xi;

@@ -1,4 +1,4 @@
-#include <core/base/background.hpp>
+#include <core/base/in_parts.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -71,4 +71,29 @@ TEST_CASE("What is left in the background when it ends can still be waited for")
     }
     left->wait();
     REQUIRE(n_done == 1);
+}
+
+TEST_CASE("Work in parts does each item once, and what a part throws is thrown") {
+    Background background(3);
+    std::vector<std::atomic<int>> done(1000);
+    std::atomic<bool> is_too_large{false};
+    in_parts(background, done.size(), 64, [&](std::uint64_t first, std::uint64_t count) {
+        is_too_large = is_too_large || count > 64;
+        for (std::uint64_t item = first; item < first + count; ++item) {
+            ++done[item];
+        }
+    });
+    CHECK(std::ranges::all_of(done, [](const std::atomic<int>& times) { return times == 1; }));
+    CHECK_FALSE(is_too_large);
+    in_parts(background, 0, 64, [](std::uint64_t, std::uint64_t) { FAIL(); });
+    const auto failing = [](std::uint64_t first, std::uint64_t) {
+        if (first >= 500) {
+            throw std::runtime_error("part " + std::to_string(first));
+        }
+    };
+    CHECK_THROWS_WITH(in_parts(background, done.size(), 100, failing), "part 500");
+    const auto stop = [] { throw std::runtime_error("stopped"); };
+    CHECK_THROWS_WITH(in_parts(
+                          background, done.size(), 100, [](std::uint64_t, std::uint64_t) {}, stop),
+                      "stopped");
 }

@@ -1,8 +1,10 @@
 #include <core/base/error.hpp>
-#include <core/vulkan/device.hpp>
+#include <core/vulkan/device_choice.hpp>
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 
 using namespace elvis;
@@ -61,6 +63,45 @@ TEST_CASE("An unknown device is an error that lists those there are") {
     CHECK_THROWS_WITH(Device("no such device"), Contains(name));
     const Variable variable("ELVIS_DEVICE", "nonsense");
     CHECK_THROWS_WITH(Device(), Contains("$ELVIS_DEVICE 'nonsense'") && Contains(name));
+}
+
+TEST_CASE("A device is chosen by UUID, with dashes or without, in any case") {
+    const Variable none("ELVIS_DEVICE", "");
+    const DeviceSummary best = choose_device("");
+    if (best.uuid.empty()) {
+        WARN("skipped: the driver of " << best.name << " tells no UUID");
+        return;
+    }
+    CHECK(best.uuid.size() == 36);
+    CHECK(Device(best.uuid).summary().index == best.index);
+    std::string plain = best.uuid;
+    std::erase(plain, '-');
+    CHECK(choose_device(plain).index == best.index);
+    std::ranges::transform(plain, plain.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    CHECK(choose_device(plain).index == best.index);
+    // Another digit is another device.
+    plain.back() = plain.back() == '0' ? '1' : '0';
+    CHECK_THROWS_WITH(choose_device(plain), Contains("no device of this UUID") && Contains(best.uuid));
+}
+
+TEST_CASE("A device is chosen by its PCI bus id") {
+    const auto at = [](std::uint32_t index, const char* bus) {
+        DeviceSummary device;
+        device.index = index;
+        device.name = "card";
+        device.type = "discrete";
+        device.pci_bus_id = bus;
+        return device;
+    };
+    const std::vector<DeviceSummary> twins{at(0, "0000:01:00.0"), at(1, "0000:c1:00.0"), at(2, "0001:01:00.0")};
+    CHECK(choose_among(twins, "0000:01:00.0").index == 0);
+    CHECK(choose_among(twins, "C1:00.0").index == 1);
+    CHECK(choose_among(twins, "01:00.0").index == 0);
+    CHECK(choose_among(twins, "0001:01:00.0").index == 2);
+    CHECK_THROWS_WITH(choose_among(twins, "0000:02:00.0"),
+                      Contains("no device at this PCI bus id") && Contains("0000:c1:00.0"));
+    // What is neither an index nor an id is a part of a name.
+    CHECK_THROWS_WITH(choose_among(twins, "01:00"), Contains("no such device"));
 }
 
 TEST_CASE("Options that mean nothing are errors that name the variable") {

@@ -29,6 +29,8 @@ struct BenchArguments {
     std::uint64_t n_polynomials = 1000000;
     std::string output;
     std::string volume;
+    /** Of the suite kernels; empty: all solids. */
+    std::vector<std::string> shapes;
     std::optional<double> isovalue;
     std::vector<std::string> integrators{"exact"};
     /** Of the suite accuracy. */
@@ -57,6 +59,7 @@ struct Bench {
 nlohmann::ordered_json run_hierarchy(const BenchArguments& arguments);
 nlohmann::ordered_json run_jacobian(const BenchArguments& arguments);
 nlohmann::ordered_json run_roots(const BenchArguments& arguments);
+nlohmann::ordered_json run_kernels(const BenchArguments& arguments);
 nlohmann::ordered_json run_segments(const Bench& bench);
 nlohmann::ordered_json run_surface(const Bench& bench, BenchView view);
 nlohmann::ordered_json run_surfaces(const Bench& bench);

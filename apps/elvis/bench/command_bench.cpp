@@ -76,6 +76,10 @@ void run(const BenchArguments& arguments) {
     if (is_wanted("roots")) {
         root["roots"] = run_roots(arguments);
     }
+    // It names its own device, which may be one that cannot draw.
+    if (arguments.suite == "kernels") {
+        root["kernels"] = run_kernels(arguments);
+    }
     run_drawing_suites(arguments, root);
     bool is_good = true;
     if (arguments.suite == "accuracy") {
@@ -108,7 +112,7 @@ void add_accuracy(CLI::App& command, BenchArguments::Accuracy& accuracy) {
                     }
                 }
             },
-            "Of its pictures: float32, float64 or both; none: the exact renderer alone")
+            "Of its pictures, and of the suite kernels: float32, float64 or both; none: the exact renderer alone")
         ->delimiter(',')
         ->check(CLI::IsMember({name_of(Precision::float32), name_of(Precision::float64), "none"}));
     command
@@ -136,7 +140,7 @@ void say(const BenchArguments& arguments, const char* format, ...) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure speed, memory and accuracy on scenes that anyone can repeat");
     auto arguments = std::make_shared<BenchArguments>();
-    std::vector<std::string> suites{"unit", "hierarchy", "jacobian", "roots", "accuracy", "all"};
+    std::vector<std::string> suites{"unit", "hierarchy", "jacobian", "roots", "accuracy", "kernels", "all"};
     for (const Suite& suite : drawing_suites()) {
         if (std::ranges::find(suites, suite.name) == suites.end()) {
             suites.emplace_back(suite.name);
@@ -146,10 +150,10 @@ void add_bench(CLI::App& app) {
         ->add_option("suite", arguments->suite,
                      "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, "
                      "surfaces, projection, "
-                     "combined, mfem, volume-convergence, interface or accuracy")
+                     "combined, mfem, volume-convergence, interface, kernels or accuracy")
         ->check(CLI::IsMember(std::move(suites)))
         ->default_val("all");
-    command->add_option("--device", arguments->device, "Name (or part of it) or index of the Vulkan device");
+    command->add_option("--device", arguments->device, "Name (or part of it), index, PCI bus id or UUID of the Vulkan device");
     command->add_option("--data", arguments->data, "Folder to keep the volumes in for the next time");
     command->add_option("--elements", arguments->elements, "Elements along each side")->delimiter(',');
     command->add_option("--orders", arguments->orders, "Orders of the field")->delimiter(',');
@@ -158,9 +162,13 @@ void add_bench(CLI::App& app) {
     command->add_option("--polynomials", arguments->n_polynomials, "Polynomials of the suite roots")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Answer in JSON");
-    command->add_option("--volume", arguments->volume,
-                        "A native volume for the suites projection, combined and interface, in place of the waves, mfem and "
-                        "volume-convergence");
+    command->add_option(
+        "--volume", arguments->volume,
+        "A native volume for the suites projection, combined, interface and kernels, in place of the waves, mfem "
+        "and volume-convergence");
+    command->add_option("--shapes", arguments->shapes, "Of the suite kernels: hexahedron, prism, pyramid, tetrahedron")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"hexahedron", "prism", "pyramid", "tetrahedron"}));
     command->add_option("--isovalue", arguments->isovalue,
                         "Of the suites projection, by default the middle of the field's range, and combined, at 0.6 of it");
     command
@@ -168,7 +176,7 @@ void add_bench(CLI::App& app) {
                      "Of the suite volume: riemann, trapezoid, categories, adaptive-trapezoid, exact")
         ->delimiter(',');
     command->add_option("--output", arguments->output,
-                        "Folder for CSV files and plots of the suites surfaces, projection and volume-convergence");
+                        "Folder for CSV files and plots of the suites surfaces, projection, volume-convergence and kernels");
     add_accuracy(*command, arguments->accuracy);
     command->callback([arguments, command] {
         arguments->names_elements = command->count("--elements") > 0;

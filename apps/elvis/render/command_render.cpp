@@ -115,7 +115,7 @@ void add_picture(CLI::App& command, RenderArguments& a) {
         .add_option_function<std::string>(
             "--precision", [&a](const std::string& name) { a.precision = precision_named(name); }, "float32 or float64")
         ->check(CLI::IsMember({name_of(Precision::float32), name_of(Precision::float64)}));
-    command.add_option("--device", a.device, "Name (or part of it) or index of the Vulkan device");
+    command.add_option("--device", a.device, "Name (or part of it), index, PCI bus id or UUID of the Vulkan device");
 }
 
 void add_animation(CLI::App& command, RenderArguments& a) {

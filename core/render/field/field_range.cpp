@@ -1,3 +1,4 @@
+#include <core/base/in_parts.hpp>
 #include <core/expression/glsl.hpp>
 #include <core/render/device/in_batches.hpp>
 #include <core/render/field/field_range.hpp>
@@ -7,13 +8,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 namespace elvis {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::uint64_t block = 65536;
+/** Elements whose ranges a thread asks for at once. */
+constexpr std::uint64_t ranges_block = 16384;
 constexpr std::uint32_t group_size = 32;
 
 void include(FieldRange& range, double lower, double upper) {
@@ -23,23 +26,29 @@ void include(FieldRange& range, double lower, double upper) {
 
 } // namespace
 
-std::vector<FieldRange> ranges_from_plugin(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step,
-                                           elvis_certainty& certainty) {
+std::vector<FieldRange> ranges_from_plugin(Background& background, const RuntimeVolume& volume, std::uint32_t field,
+                                           std::uint32_t time_step, elvis_certainty& certainty,
+                                           const std::function<void()>& check) {
     const std::size_t n_components = volume.fields()[field].n_components;
     std::vector<FieldRange> total(n_components, {infinity, -infinity});
-    std::vector<FieldRange> ranges;
     certainty = ELVIS_CERTIFIED;
-    for (std::uint64_t first = 0; first < volume.n_elements(); first += block) {
-        const std::uint64_t count = std::min(block, volume.n_elements() - first);
-        ranges.resize(count * n_components);
-        certainty = std::max(certainty, volume.field_ranges(field, time_step, first, count, ranges));
+    std::mutex mutex;
+    const auto take_part = [&](std::uint64_t first, std::uint64_t count) {
+        std::vector<FieldRange> ranges(count * n_components), of_part(n_components, {infinity, -infinity});
+        const elvis_certainty how_sure = volume.field_ranges(field, time_step, first, count, ranges);
         for (std::size_t index = 0; index < ranges.size(); ++index) {
             // An element with values that are not finite has no range; the others have.
             if (std::isfinite(ranges[index].lower) && std::isfinite(ranges[index].upper)) {
-                include(total[index % n_components], ranges[index].lower, ranges[index].upper);
+                include(of_part[index % n_components], ranges[index].lower, ranges[index].upper);
             }
         }
-    }
+        const std::lock_guard lock(mutex);
+        certainty = std::max(certainty, how_sure);
+        for (std::size_t component = 0; component < n_components; ++component) {
+            include(total[component], of_part[component].lower, of_part[component].upper);
+        }
+    };
+    in_parts(background, volume.n_elements(), ranges_block, take_part, check);
     return total;
 }
 

@@ -4,16 +4,21 @@
  */
 #pragma once
 
+#include <core/base/background.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/volume/device_volume.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace elvis {
 
-/** Range of every component over all elements, from the plugin. Needs RuntimeVolume::has_field_ranges(). */
-std::vector<FieldRange> ranges_from_plugin(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step,
-                                           elvis_certainty& certainty);
+/**
+ * Range of every component over all elements, from the plugin. Needs RuntimeVolume::has_field_ranges().
+ * `check` may throw, and is asked on the way. */
+std::vector<FieldRange> ranges_from_plugin(Background& background, const RuntimeVolume& volume, std::uint32_t field,
+                                           std::uint32_t time_step, elvis_certainty& certainty,
+                                           const std::function<void()>& check = {});
 
 /** About what rounding costs the selected expression in the precision of `data`: the largest of samples. */
 double rounding_of_expression(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,

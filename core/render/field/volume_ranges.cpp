@@ -25,7 +25,7 @@ void VolumeRanges::forget_fields() {
 
 const std::vector<Vector3>& VolumeRanges::outline() {
     if (m_outline.empty()) {
-        m_outline = outline_points(m_volume);
+        m_outline = outline_points(m_volume, m_device.background());
     }
     return m_outline;
 }
@@ -66,7 +66,8 @@ const VolumeRanges::Ranges& VolumeRanges::of_components(std::uint32_t field, std
         elvis_certainty certainty = ELVIS_ESTIMATED;
         std::vector<FieldRange> all;
         if (m_volume.has_field_ranges()) {
-            all = ranges_from_plugin(m_volume, field, time_step, certainty);
+            all = ranges_from_plugin(m_device.background(), m_volume, field, time_step, certainty,
+                                     [this] { m_device.check_task(); });
         } else {
             all = sampled(field, time_step);
         }

@@ -1,5 +1,5 @@
-#include <core/base/background.hpp>
 #include <core/base/error.hpp>
+#include <core/base/in_parts.hpp>
 #include <core/volume/element/element_records.hpp>
 #include <core/volume/element/mapping_curvature.hpp>
 
@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -79,23 +78,12 @@ std::vector<float> proven_curvatures(const Device& device, const RuntimeVolume& 
         volume.evaluate_mapping(element, xi, positions, jacobians);
     };
     std::vector<float> curvatures(info.n_elements);
-    std::vector<std::shared_ptr<Background::Work>> parts;
-    for (std::uint64_t first = 0; first < info.n_elements; first += elements_a_thread) {
-        const auto part = std::span(curvatures).subspan(first, std::min(elements_a_thread, info.n_elements - first));
-        parts.push_back(
-            device.background().hand_over([&, first, part] { bounder(mapping, info.first_element + first, part); }));
-    }
-    try {
-        for (const auto& part : parts) {
-            device.check_task();
-            part->wait();
-        }
-    } catch (...) {
-        for (const auto& part : parts) {
-            part->drop();
-        }
-        throw;
-    }
+    in_parts(
+        device.background(), info.n_elements, elements_a_thread,
+        [&](std::uint64_t first, std::uint64_t count) {
+            bounder(mapping, info.first_element + first, std::span(curvatures).subspan(first, count));
+        },
+        [&] { device.check_task(); });
     return curvatures;
 }
 
@@ -122,6 +110,8 @@ ElementCurvatures write_elements(const Device& device, const RuntimeVolume& volu
     const std::array<const Buffer*, 2> bindings = {&output, &input};
 
     ElementCurvatures curvatures;
+    curvatures.numbers.reserve(info.n_elements);
+    curvatures.are_proven.reserve(info.n_elements);
     std::vector<std::int64_t> numbers;
     std::vector<std::uint32_t> words;
     for (std::uint64_t first = 0; first < info.n_elements; first += block) {

@@ -2,14 +2,14 @@
 
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
+#include <core/vulkan/device_choice.hpp>
+#include <core/vulkan/device_summary.hpp>
 #include <core/vulkan/instance.hpp>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -18,16 +18,6 @@ namespace elvis::view {
 namespace {
 
 constexpr const char* place = "window";
-
-bool has_swapchains(VkPhysicalDevice device) {
-    std::uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
-    });
-}
 
 /** A family with graphics that can present to the surface, if the device has one. */
 std::optional<std::uint32_t> queue_family(VkPhysicalDevice device, VkSurfaceKHR surface) {
@@ -62,7 +52,8 @@ void choose_device(SurfaceDevice& target, const Instance& instance, const std::s
     const std::vector<VkPhysicalDevice> devices = instance.physical_devices();
     std::vector<DeviceSummary> able;
     for (std::size_t i = 0; i < devices.size(); ++i) {
-        if (has_swapchains(devices[i]) && queue_family(devices[i], target.surface)) {
+        if (!summaries[i].only_compiles && has_extension(devices[i], VK_KHR_SWAPCHAIN_EXTENSION_NAME) &&
+            queue_family(devices[i], target.surface)) {
             able.push_back(summaries[i]);
         }
     }

@@ -1,3 +1,4 @@
+#include "chunk_rows.hpp"
 #include "description.hpp"
 #include "format.hpp"
 #include "hdf5.hpp"
@@ -268,6 +269,9 @@ void Reader::read_geometry(std::size_t element_class, std::uint64_t first, std::
                            std::span<double> coefficients) const {
     const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).geometry);
     assert(coefficients.size() == count * 3 * modes);
+    if (h5::read_chunk_rows(m_impl->geometry[element_class], {first, 0, 0}, count, 0, coefficients.data())) {
+        return;
+    }
     const h5::Lock guard;
     h5::read_box(m_impl->geometry[element_class], H5T_NATIVE_DOUBLE, {first, 0, 0}, {count, 3, modes}, coefficients.data(),
                  m_impl->place.child("classes").child(std::to_string(element_class)).child("geometry"));
@@ -278,6 +282,10 @@ void Reader::read_field(std::size_t field, std::size_t time_step, std::size_t el
     const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).fields.at(field));
     const std::uint32_t n_components = m_impl->description.fields[field].n_components;
     assert(coefficients.size() == count * n_components * modes);
+    if (h5::read_chunk_rows(m_impl->coefficients[field][element_class], {time_step, first, 0, 0}, count, 1,
+                            coefficients.data())) {
+        return;
+    }
     const h5::Lock guard;
     h5::read_box(
         m_impl->coefficients[field][element_class], H5T_NATIVE_DOUBLE, {time_step, first, 0, 0},
@@ -301,8 +309,11 @@ void Reader::read_faces(std::uint64_t first, std::uint64_t count, std::span<Face
     }
     const Place place = m_impl->place.child("faces");
     std::vector<std::int64_t> rows(count * format::face_numbers);
+    const bool is_read = h5::read_chunk_rows(m_impl->faces, {first, 0}, count, 0, rows.data());
     const h5::Lock guard;
-    h5::read_box(m_impl->faces, H5T_NATIVE_INT64, {first, 0}, {count, format::face_numbers}, rows.data(), place);
+    if (!is_read) {
+        h5::read_box(m_impl->faces, H5T_NATIVE_INT64, {first, 0}, {count, format::face_numbers}, rows.data(), place);
+    }
     m_impl->check_numbers();
     const std::vector<Shape>& shapes = m_impl->shape_of_number;
     const std::size_t n_groups = m_impl->description.boundary_groups.size();

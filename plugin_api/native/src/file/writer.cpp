@@ -1,3 +1,4 @@
+#include "chunk_rows.hpp"
 #include "coverage.hpp"
 #include "description.hpp"
 #include "format.hpp"
@@ -264,25 +265,23 @@ Writer& Writer::operator=(Writer&&) noexcept = default;
 
 void Writer::write_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
                             std::span<const double> coefficients) {
-    const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).geometry);
-    assert(coefficients.size() == count * 3 * modes);
+    assert(coefficients.size() == count * 3 * n_modes(m_impl->description.classes.at(element_class).geometry));
+    h5::write_chunk_rows(m_impl->geometry[element_class], {first, 0, 0}, count, 0, coefficients.data(), H5T_NATIVE_DOUBLE,
+                         m_impl->place);
     const h5::Lock guard;
-    h5::write_box(m_impl->geometry[element_class], H5T_NATIVE_DOUBLE, {first, 0, 0}, {count, 3, modes}, coefficients.data(),
-                  m_impl->place);
     m_impl->written_geometry[element_class].add(first, count);
 }
 
 void Writer::write_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
                          std::uint64_t count, std::span<const double> coefficients) {
-    const std::size_t modes = n_modes(m_impl->description.classes.at(element_class).fields.at(field));
-    const std::uint32_t n_components = m_impl->description.fields[field].n_components;
-    assert(coefficients.size() == count * n_components * modes);
+    assert(coefficients.size() == count * m_impl->description.fields[field].n_components *
+                                      n_modes(m_impl->description.classes.at(element_class).fields.at(field)));
     if (m_impl->description.fields[field].transform == Transform::none) {
         m_impl->searches[field].at(time_step).add(element_class, first, count, coefficients);
     }
+    h5::write_chunk_rows(m_impl->coefficients[field][element_class], {time_step, first, 0, 0}, count, 1, coefficients.data(),
+                         H5T_NATIVE_DOUBLE, m_impl->place);
     const h5::Lock guard;
-    h5::write_box(m_impl->coefficients[field][element_class], H5T_NATIVE_DOUBLE, {time_step, first, 0, 0},
-                  {1, count, n_components, modes}, coefficients.data(), m_impl->place);
     m_impl->written_coefficients[field][element_class].at(time_step).add(first, count);
 }
 
@@ -313,10 +312,8 @@ void Writer::write_faces(std::uint64_t first, std::uint64_t count, std::span<con
         }
         rows.insert(rows.end(), {face.element, face.neighbour, face.local_face, face.neighbour_local_face, face.group});
     }
+    h5::write_chunk_rows(m_impl->faces, {first, 0}, count, 0, rows.data(), H5T_NATIVE_INT64, m_impl->place);
     const h5::Lock guard;
-    if (count > 0) {
-        h5::write_box(m_impl->faces, H5T_NATIVE_INT64, {first, 0}, {count, format::face_numbers}, rows.data(), m_impl->place);
-    }
     m_impl->written_faces.add(first, count);
 }
 

@@ -10,8 +10,10 @@
 namespace elvis::native_plugin {
 namespace {
 
-/** Elements between two looks at the user's wish to stop. */
-constexpr std::uint64_t elements_at_once = 4096;
+/** Elements that are read at once (about 4 MB), between two looks at the user's wish to stop. */
+std::uint64_t elements_at_once(std::size_t numbers_per_element) {
+    return std::max<std::uint64_t>(1, (std::size_t{1} << 19) / numbers_per_element);
+}
 
 /** Points in every collapsed direction for ranges that cannot be certified. */
 constexpr int samples_per_direction = 6;
@@ -35,12 +37,13 @@ void Volume::bounds(std::uint64_t first, std::uint64_t count, std::span<double> 
     for_each_run(first, count, [&](std::size_t element_class, std::uint64_t local, std::uint64_t n_run, std::uint64_t offset) {
         native::RangeBounder bounder(geometry_space(element_class));
         const std::size_t n_modes = native::n_modes(geometry_space(element_class));
-        for_each_block(n_run, elements_at_once, [&](std::uint64_t done, std::uint64_t n) {
+        for_each_block(n_run, elements_at_once(3 * n_modes), [&](std::uint64_t done, std::uint64_t n) {
+            // A host that asks for bounds evaluates the mapping soon.
+            const std::vector<double> coefficients = kept_geometry(element_class, local + done, n);
             for (std::uint64_t element = 0; element < n; ++element) {
-                // Kept, as room allows: a host that asks for bounds evaluates the mapping soon.
-                const Coefficients coefficients = element_geometry({element_class, local + done + element});
                 for (std::size_t direction = 0; direction < 3; ++direction) {
-                    const native::Range range = bounder(coefficients.numbers.subspan(direction * n_modes, n_modes));
+                    const native::Range range =
+                        bounder(std::span(coefficients).subspan((3 * element + direction) * n_modes, n_modes));
                     if (!std::isfinite(range.lower) || !std::isfinite(range.upper)) {
                         std::int64_t number = 0;
                         element_numbers(m_first_elements[element_class] + local + done + element, std::span(&number, 1));
@@ -82,7 +85,7 @@ elvis_certainty Volume::field_ranges(std::size_t field, std::size_t time_step, s
         }
         native::RangeBounder bounder(space);
         const std::size_t n_modes = native::n_modes(space);
-        for_each_block(n_run, elements_at_once, [&](std::uint64_t done, std::uint64_t n) {
+        for_each_block(n_run, elements_at_once(n_components * n_modes), [&](std::uint64_t done, std::uint64_t n) {
             const std::vector<double> coefficients = read_field(field, time_step, element_class, local + done, n);
             for (std::uint64_t i = 0; i < n * n_components; ++i) {
                 const native::Range range = bounder(std::span(coefficients).subspan(i * n_modes, n_modes));
@@ -99,7 +102,8 @@ void Volume::check_jacobians(std::uint64_t first, double tolerance, std::span<na
     for_each_run(first, checks.size(),
                  [&](std::size_t element_class, std::uint64_t local, std::uint64_t n_run, std::uint64_t offset) {
                      native::JacobianChecker checker(geometry_space(element_class), {.tolerance = tolerance});
-                     for_each_block(n_run, elements_at_once, [&](std::uint64_t done, std::uint64_t n) {
+                     const std::size_t numbers = 3 * native::n_modes(geometry_space(element_class));
+                     for_each_block(n_run, elements_at_once(numbers), [&](std::uint64_t done, std::uint64_t n) {
                          checker(read_geometry(element_class, local + done, n), checks.subspan(offset + done, n));
                      });
                  });

@@ -59,7 +59,6 @@ Volume::Volume(const api::Host& host, std::string path, std::shared_ptr<const na
 
 template <class Read> void Volume::read_file(Read read) const {
     try {
-        const std::lock_guard lock(m_source_mutex);
         read();
     } catch (const native::FileError& failure) {
         throw without_name(failure);
@@ -146,6 +145,7 @@ std::vector<native::Extrema> Volume::extrema(std::size_t field, std::size_t time
     std::vector<native::Extrema> result;
     if (description().fields[field].transform == Transform::none)
         read_file([&] {
+            const std::lock_guard lock(m_extrema_mutex);
             std::vector<native::Extrema>& kept = m_extrema[{field, time_step}];
             if (kept.empty())
                 kept = m_source->read_extrema(field, time_step);
@@ -157,7 +157,7 @@ std::vector<native::Extrema> Volume::extrema(std::size_t field, std::size_t time
 }
 
 void Volume::forget_fields() {
-    const std::lock_guard lock(m_source_mutex);
+    const std::lock_guard lock(m_extrema_mutex);
     m_cache.clear();
     m_extrema.clear();
 }
@@ -184,6 +184,23 @@ Volume::Coefficients Volume::element_geometry(Place place) const {
         m_cache.get({-1, 0, place.element_class, block}, [&] { return read_geometry(place.element_class, first, count); });
     const std::size_t size = numbers->size() / count;
     return {numbers, std::span(*numbers).subspan((place.local - first) * size, size)};
+}
+
+std::vector<double> Volume::kept_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count) const {
+    std::vector<double> numbers = read_geometry(element_class, first, count);
+    const std::size_t size = numbers.size() / count;
+    const std::uint64_t n_elements = description().classes[element_class].n_elements, end = first + count;
+    for (std::uint64_t block = (first + elements_per_block - 1) / elements_per_block; block * elements_per_block < end;
+         ++block) {
+        const std::uint64_t from = block * elements_per_block;
+        const std::uint64_t n = std::min(elements_per_block, n_elements - from);
+        if (from + n <= end)
+            m_cache.get({-1, 0, element_class, block}, [&] {
+                const auto its = std::span<const double>(numbers).subspan((from - first) * size, n * size);
+                return std::vector<double>(its.begin(), its.end());
+            });
+    }
+    return numbers;
 }
 
 Volume::Coefficients Volume::element_field(std::size_t field, std::size_t time_step, Place place) const {

@@ -119,11 +119,13 @@ private:
         std::span<const double> numbers;
     };
     Coefficients element_geometry(Place place) const;
+    /** Geometry of elements of a class, read at once; what fills blocks of the cache is kept there, as room allows. */
+    std::vector<double> kept_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count) const;
     Coefficients element_field(std::size_t field, std::size_t time_step, Place place) const;
 
     const Conversion& conversion(const native::Space& space) const;
     const native::DerivativeBounder& derivative_bounder(const native::Space& space, native::SecondDerivatives second) const;
-    /** Runs `read` with the file to itself; its errors become ours. */
+    /** Runs `read`; its errors become ours. */
     template <class Read> void read_file(Read read) const;
     api::Error error(elvis_result code, const std::string& what) const { return {code, m_path, what}; }
     void make_constants();
@@ -132,9 +134,10 @@ private:
 
     api::Host m_host;
     std::string m_path;
+    /** Any thread may read. */
     std::shared_ptr<const native::VolumeSource> m_source;
-    mutable std::mutex m_source_mutex;
-    /** By field and time step, once they were asked for; under the same mutex. */
+    mutable std::mutex m_extrema_mutex;
+    /** By field and time step, once they were asked for. */
     mutable std::map<std::pair<std::size_t, std::size_t>, std::vector<native::Extrema>> m_extrema;
     /** First element of each class, and the number of all elements. */
     std::vector<std::uint64_t> m_first_elements;

@@ -12,7 +12,7 @@
 
 namespace elvis::native {
 
-/** Errors are FileError. One thread at a time. */
+/** Errors are FileError. Several threads may read at once. */
 class VolumeSource {
 public:
     VolumeSource() = default;
