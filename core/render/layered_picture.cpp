@@ -38,7 +38,7 @@ void LayeredPicture::begin(const FrameRequest& request, const PixelRows& rows, F
     m_color_pass.begin(request.surfaces.size());
 }
 
-void LayeredPicture::provide(const Surface& surface) { m_color_pass.provide(is_lit(surface), surface.has_lines()); }
+void LayeredPicture::provide(const Surface& surface) { m_color_pass.provide(surface, is_lit(surface)); }
 
 LayeredPicture::Setting LayeredPicture::setting_of(const SurfaceDrawing& drawing) {
     const Surface& surface = drawing.surface();

@@ -129,6 +129,7 @@ void core_step_in_candidate(core_cut_point point, inout core_element_candidate c
                               (status == CORE_NEWTON_CONVERGED && excess > most);
     const bool is_open = is_active && !candidate.is_tracked && is_dismissed && !candidate.state.is_certain;
     found.n_open += is_open ? 1u : 0u;
+    found.other_open_element = is_open ? found.open_element : found.other_open_element;
     found.open_element = is_open ? candidate.element : found.open_element;
     const bool is_accepted = side.is_inside && (is_alone || !candidate.is_tracked);
     found.n_holders += is_held ? 1u : 0u;
@@ -188,6 +189,6 @@ void core_list_open_point(uint pixel, core_location found) {
 #endif
     if (found.n_open > 0u && found.element == CORE_NO_ELEMENT) {
         core_open_points[atomicAdd(core_n_open_points, 1u)] =
-            core_open_point(pixel, found.n_open == 1u ? found.open_element : CORE_NO_ELEMENT);
+            core_open_point(pixel, found.n_open <= 2u ? found.open_element : CORE_NO_ELEMENT, found.other_open_element);
     }
 }

@@ -5,18 +5,12 @@
 // the octant's curvature lets it be off. Otherwise the octant's eighths are looked at, in which a prediction can be off less.
 
 #include "isosurface/octant_parts.glsl"
+#include "cut_surface/octant_descent.glsl"
 
 // Parts of octants have codes, too. Where an octant is bent more than this there is no use in them.
 #define CORE_MOST_DIVIDED_BEND elvis_real(2)
 // Of Newton's method in an octant.
 #define CORE_OCTANT_STEPS 8u
-#define CORE_NO_OCTANT 0x80000000u
-
-core_node core_fetch_octant_node(uint index) {
-    const uvec4 first = elvis_fetch4_core_octant_nodes(index, 0u);
-    const uvec4 second = elvis_fetch4_core_octant_nodes(index, 1u);
-    return core_node(uintBitsToFloat(first.xyz), uintBitsToFloat(second.xyz), first.w, second.w != 0u);
-}
 
 struct core_octant_candidate {
     core_element_candidate in_element;
@@ -41,37 +35,11 @@ void core_take_octant(uint word, core_cut_point point, vec3 in_hierarchy, const 
                       inout core_octant_candidate candidate) {
     const bool is_part = (word & CORE_OCTANT_PART) != 0u;
     const core_octant octant = core_fetch_octant(is_part ? 0u : word);
-    const float far = max(max(abs(in_hierarchy.x), abs(in_hierarchy.y)), abs(in_hierarchy.z));
-    const float tolerance = core_octant_tolerance(octant, far + float(point.error) / float(CORE_OCTANT_ROUNDING));
-    const bool is_linear = !is_part && octant.size > 0.0;
-    const vec3 y = is_linear ? core_octant_rotate(octant, in_hierarchy - octant.middle) : vec3(0);
-    if (max(max(abs(y.x), abs(y.y)), abs(y.z)) <= 1.0 + tolerance) {
+    const core_octant_guess guess = core_guess_in(octant, point, in_hierarchy);
+    if (is_part || guess.may_hold) {
         candidate = core_candidate_in(is_part ? search.element : octant.element, is_part ? word & ~CORE_OCTANT_PART : octant.code,
-                                      is_part ? search.curvature : elvis_real(octant.curvature), y, point);
+                                      is_part ? search.curvature : elvis_real(octant.curvature), is_part ? vec3(0) : guess.y, point);
     }
-}
-
-// A leaf of the octants' hierarchies that holds the point, a part of an octant, or CORE_NO_OCTANT.
-uint core_next_octant(vec3 in_hierarchy, float box_tolerance, inout core_octant_search search) {
-    uint next = CORE_NO_OCTANT;
-    while (search.stack_size > 0u) {
-        search.stack_size -= 1u;
-        search.work += 1u;
-        const uint word = core_stack[search.stack_size];
-        const bool is_part = (word & CORE_OCTANT_PART) != 0u;
-        const core_node node = core_fetch_octant_node(is_part ? 0u : word);
-        const bool is_touched = !is_part && core_contains(node, in_hierarchy, box_tolerance);
-        if (is_touched && !node.is_leaf) {
-            core_stack[search.stack_size] = node.child + 1u;
-            core_stack[search.stack_size + 1u] = node.child;
-            search.stack_size += 2u;
-        }
-        next = is_part ? word : is_touched && node.is_leaf ? node.child : CORE_NO_OCTANT;
-        if (next != CORE_NO_OCTANT || search.stack_size == 0u) {
-            break;
-        }
-    }
-    return next;
 }
 
 // The eighths of an octant that share more than an edge with the shape.

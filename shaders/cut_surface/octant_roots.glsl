@@ -55,29 +55,43 @@ void core_take_element(uint element, core_cut_point point, inout core_octant_sea
     }
 }
 
-// `element`: the only one, or CORE_NO_ELEMENT for all whose boxes hold the point.
-core_octant_search core_octants_around(uint element, core_cut_point point, vec3 in_hierarchy, float box_tolerance, bool is_wanted) {
-    core_octant_search search = core_octant_search(0u, 0u, false, false, false, 0u, elvis_real(0));
-    core_element_stack[0] = 0u;
-    uint stack_size = is_wanted ? 1u : 0u;
-    while (stack_size > 0u && search.work < CORE_WORK_LIMIT) {
+// The next element whose box holds the point, or CORE_NO_ELEMENT.
+uint core_next_around(vec3 in_hierarchy, float box_tolerance, inout uint stack_size, inout core_octant_search search) {
+    uint next = CORE_NO_ELEMENT;
+    while (stack_size > 0u) {
         stack_size -= 1u;
         search.work += 1u;
-        uint reached = element;
-        if (element == CORE_NO_ELEMENT) {
-            const core_node node = core_fetch_node(core_element_stack[stack_size]);
-            const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
-            reached = is_touched && node.is_leaf ? node.child : CORE_NO_ELEMENT;
-            if (is_touched && !node.is_leaf) {
-                core_element_stack[stack_size] = node.child + 1u;
-                core_element_stack[stack_size + 1u] = node.child;
-                stack_size += 2u;
-            }
+        const core_node node = core_fetch_node(core_element_stack[stack_size]);
+        const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
+        if (is_touched && !node.is_leaf) {
+            core_element_stack[stack_size] = node.child + 1u;
+            core_element_stack[stack_size + 1u] = node.child;
+            stack_size += 2u;
         }
-        if (reached != CORE_NO_ELEMENT) {
-            core_take_element(reached, point, search);
+        next = is_touched && node.is_leaf ? node.child : CORE_NO_ELEMENT;
+        if (next != CORE_NO_ELEMENT || stack_size == 0u) {
+            break;
         }
-        if (stack_size == 0u) {
+    }
+    return next;
+}
+
+// Of the elements that may hold the point, or of all whose boxes hold it.
+core_octant_search core_octants_around(core_open_point open, core_cut_point point, vec3 in_hierarchy, float box_tolerance,
+                                       bool is_wanted) {
+    core_octant_search search = core_octant_search(0u, 0u, false, false, false, 0u, elvis_real(0));
+    core_element_stack[0] = 0u;
+    uint stack_size = is_wanted && open.element == CORE_NO_ELEMENT ? 1u : 0u;
+    uint next = is_wanted ? open.element : CORE_NO_ELEMENT;
+    uint other = next == CORE_NO_ELEMENT ? CORE_NO_ELEMENT : open.other;
+    while ((next != CORE_NO_ELEMENT || stack_size > 0u) && search.work < CORE_WORK_LIMIT) {
+        next = next == CORE_NO_ELEMENT ? core_next_around(in_hierarchy, box_tolerance, stack_size, search) : next;
+        if (next != CORE_NO_ELEMENT) {
+            core_take_element(next, point, search);
+        }
+        next = other;
+        other = CORE_NO_ELEMENT;
+        if (next == CORE_NO_ELEMENT && stack_size == 0u) {
             break;
         }
     }

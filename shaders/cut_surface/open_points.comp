@@ -28,27 +28,9 @@ layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_p
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"
 #include "cut_surface/element_candidate.glsl"
+#include "cut_surface/listed_point.glsl"
 #include "cut_surface/octant_roots.glsl"
 #include "cut_surface/octant_location.glsl"
-
-core_cut_point core_point_of(uint pixel) {
-    const core_cut_column along = core_cut_begin(elvis_real(pixel % core_size.x));
-    const elvis_real row = elvis_real(pixel / core_size.x);
-#if CORE_ON_PLANE
-    core_cut_point point = core_cut_pixel(along, row);
-#else
-    core_cut_point point = core_hit_point(along, row, core_hits[pixel], core_most_error);
-#endif
-    point.error += core_data_error();
-    return point;
-}
-
-// Whether the pixel's point would be seen, and no other class has found it.
-bool core_is_wanted(uint pixel, core_cut_point point) {
-    const uint surface = core_marks[pixel].owner >> CORE_OWNER_BITS;
-    const elvis_real depth = (point.t + core_reference.w) * length(point.direction);
-    return surface == 0u || (surface != core_surface_number && depth < core_samples[pixel].depth);
-}
 
 void main() {
     const uint i = core_first + gl_GlobalInvocationID.x;
@@ -59,7 +41,7 @@ void main() {
     const bool is_wanted = is_listed && core_is_wanted(pixel, point);
     const vec3 in_hierarchy = vec3(point.position + core_reference_in_hierarchy.xyz);
     const float box_tolerance = core_box_tolerance(point, in_hierarchy);
-    core_octant_search search = core_octants_around(open.element, point, in_hierarchy, box_tolerance, is_wanted);
+    core_octant_search search = core_octants_around(open, point, in_hierarchy, box_tolerance, is_wanted);
     const core_location found = core_locate_in_octants(point, in_hierarchy, box_tolerance, search);
     const bool has_found = found.element != CORE_NO_ELEMENT;
     elvis_real value = elvis_real(0);

@@ -3,8 +3,8 @@
 
 struct core_open_point {
     uint pixel;
-    // The element that may hold it, or CORE_NO_ELEMENT: several may.
-    uint element;
+    // Elements that may hold it: one or two, the other one being CORE_NO_ELEMENT if there is none. If the first is, more than two may.
+    uint element, other;
 };
 
 layout(set = 0, binding = CORE_OPEN_POINTS_BINDING, std430) buffer core_open_points_block {

@@ -21,6 +21,8 @@ struct core_surface_ray {
     bool is_behind_crossing;
     // Rounding error of the ray's points between from and to, in each coordinate.
     elvis_real noise;
+    // Where the surface is seen up to `from` and `to` only: what rounding may make of these. Else far below zero.
+    elvis_real end_error;
 };
 
 struct core_hit {
@@ -46,7 +48,8 @@ core_hit core_no_hit() {
 }
 
 // Numbers of the surface for this picture, prepared by the host in extended precision. First the box that the surface is drawn in
-// (lower, upper; relative to the reference point), then the rows that the solver describes.
+// (lower, upper; relative to the reference point), then the rows that the solver describes. The box's last number is 1 if it ends what is
+// seen of the surface, else 0.
 layout(std140, set = 0, binding = 1) uniform core_shape_block { elvis_vec4 core_shape[CORE_SHAPE_ROWS]; };
 #define CORE_SHAPE(i) core_shape[2 + (i)]
 
@@ -55,10 +58,15 @@ elvis_real core_first_t(core_surface_ray ray) {
     return ray.is_behind_crossing ? max(ray.from, min(ray.after, ray.to)) : ray.from;
 }
 
+// Whether rounding decides on which side of the surface's end a crossing lies.
+bool core_is_at_end(core_surface_ray ray, elvis_real t, elvis_real error) {
+    return min(abs(t - ray.from), abs(t - ray.to)) <= elvis_real(2) * error + ray.end_error;
+}
+
 // Whether a crossing counts. Where rounding decides that it is as far from the eye as those that count, the hit is undecided.
 bool core_is_counted(core_surface_ray ray, elvis_real t, elvis_real error, inout core_hit best) {
     const bool is_at_start = !ray.is_behind_crossing && abs(t - ray.after) <= elvis_real(2) * error;
-    best.is_undecided = best.is_undecided || is_at_start;
+    best.is_undecided = best.is_undecided || is_at_start || core_is_at_end(ray, t, error);
     return t > ray.from && t < ray.to && t - (ray.is_behind_crossing ? elvis_real(2) * error : elvis_real(0)) > ray.after;
 }
 

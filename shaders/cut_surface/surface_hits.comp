@@ -94,6 +94,7 @@ core_surface_ray core_surface_ray_of(core_cut_column along, elvis_real row, uint
     const elvis_real margin = elvis_real(16) * CORE_ROUNDOFF * (abs(enter) + abs(leave)) + ray.noise;
     ray.from = max(enter - margin, elvis_real(0.5LF) * core_near.x / stretch - along.reference_distance);
     ray.to = leave + margin;
+    ray.end_error = core_shape[1].w > elvis_real(0) ? elvis_real(2) * margin : -CORE_FAR;
     const bool is_wanted = ray.from < ray.to && ray.after < ray.to;
     ray.to = is_wanted ? ray.to : ray.from - elvis_real(1);
     return ray;

@@ -48,6 +48,7 @@ void core_quadric_consider(core_surface_ray ray, elvis_real t0, elvis_real s, el
     // Where the ray touches the surface, f is quadratic in t.
     const elvis_real error = min(point.error / steep, sqrt(point.error / max(abs(quadratic), elvis_real(1e-30LF))));
     bool is_valid = bounded == s;
+    best.is_undecided = best.is_undecided || (!is_valid && core_is_at_end(ray, t0 + s, error));
 #if CORE_HAS_ENDS
     const elvis_vec4 ends = CORE_SHAPE(5);
     // A ray through the rim must not pass between side and cap.

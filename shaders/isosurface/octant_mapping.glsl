@@ -15,7 +15,9 @@
 // that pictures would take twice as long.
 #define CORE_MOST_PROVEN_CURVATURE elvis_real(1)
 // A linearization that leaves out more than this much of the octant's half side is of no use.
+#ifndef CORE_MOST_BENDING
 #define CORE_MOST_BENDING elvis_real(0.5LF)
+#endif
 
 struct core_octant_place {
     // In reference coordinates; where the mapping and the field are linearized, in the shape; and the way from there to the middle.

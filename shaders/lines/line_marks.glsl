@@ -42,6 +42,13 @@ void core_leave_open(inout core_line_marks lines, bool leaves_contour, bool leav
     lines.is_mesh_open = lines.is_mesh_open || leaves_mesh;
 }
 
+// Leaves open what was found, if it may not be seen.
+void core_doubt_lines(bool is_doubtful, inout core_line_marks lines) {
+    core_leave_open(lines, is_doubtful && lines.has_contour, is_doubtful && lines.has_mesh_line);
+    lines.has_contour = lines.has_contour && !is_doubtful;
+    lines.has_mesh_line = lines.has_mesh_line && !is_doubtful;
+}
+
 // What is not decided, as bits of a list's word. `is_cut_short`: more would have been looked at.
 uint core_undecided_lines(const core_line_marks lines, bool is_cut_short) {
     const bool is_contour_undecided = !lines.has_contour && (lines.is_contour_open || (lines.wants_contour && is_cut_short));

@@ -75,8 +75,11 @@ core_line_search core_begin_listed(core_listed_pixel listed, uint most_level, bo
     return search;
 }
 
-void core_store_or_relist(core_listed_pixel listed, const core_line_search search) {
+void core_store_or_relist(core_listed_pixel listed, core_line_search search) {
     const bool is_cut_short = core_is_unfinished(search) || core_has_driver_given_up(core_size.x >> 31);
+    const core_cut_square square =
+        core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, elvis_real(0.5LF)));
+    core_doubt_lines(core_may_end_near(listed.pixel, square, listed.tangent), search.lines);
     const uint open = core_undecided_lines(search.lines, is_cut_short);
     const bool is_last = core_open_count == 0u;
     if (listed.is_pixel && !is_last && open != 0u) {

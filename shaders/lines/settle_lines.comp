@@ -56,18 +56,21 @@ uint core_next_row(uint column, uint row, uint end_row) {
 }
 
 // The pixel's square on the surface. `is_estimated`: where it lies rests on estimates.
-core_shown_square core_pixel_square(core_element_image image, core_place place, uvec2 at, uint pixel, out bool is_estimated) {
+core_shown_square core_pixel_square(core_element_image image, core_place place, uvec2 at, uint pixel, out bool is_estimated,
+                                    out bool may_end_near) {
     const core_picture_square in_picture = core_picture_square(elvis_real(at.x), elvis_real(at.y), elvis_real(0.5LF));
 #if CORE_ON_FACES
     core_shown_square square = core_own_square_at(image, max(core_face_of(place), 0), in_picture);
     const core_surroundings around = core_look_around(at, pixel, true, square.tangent);
     square.is_whole_pixel = true;
     is_estimated = false;
+    may_end_near = core_may_end_near(pixel, square.corners, square.tangent);
 #else
     const core_cut_ray ray = core_cut_ray_at(in_picture.column, in_picture.row);
     const core_tangent tangent = core_shown_tangent(pixel, ray);
     const core_surroundings around = core_look_around(at, pixel, true, tangent);
     core_cut_square corners = core_tangent_square(tangent, in_picture);
+    may_end_near = core_may_end_near(pixel, corners, tangent);
     const core_departure bent = core_departure_in(corners, tangent, ray, core_bending[pixel], around.turning);
     corners.error += bent.distance;
     core_shown_square square = core_shown_square_at(image, corners, tangent.normal, ray.direction, CORE_NO_FACE);
@@ -83,8 +86,8 @@ void core_settle(uvec2 at, uint pixel) {
     const core_place place = core_places[pixel];
     const core_element_image image =
         core_element_image_at(is_outside ? 0u : place.element, elvis_vec3(place.x, place.y, place.z));
-    bool is_estimated;
-    const core_shown_square square = core_pixel_square(image, place, at, pixel, is_estimated);
+    bool is_estimated, may_end_near;
+    const core_shown_square square = core_pixel_square(image, place, at, pixel, is_estimated, may_end_near);
     const bool is_seen = !is_outside && square.is_seen;
     const bool is_inside = is_seen && square.subpixel.is_inside, is_filled = is_inside && square.is_whole_pixel;
     core_line_marks lines = core_no_lines_yet(CORE_WITH_CONTOURS != 0, core_with_mesh_lines != 0u);
@@ -94,6 +97,7 @@ void core_settle(uvec2 at, uint pixel) {
     lines.has_contour = is_inside && test.is_met;
     lines.is_contour_open = lines.wants_contour && !(is_filled && test.is_excluded);
     lines.is_estimated = !is_outside && (is_estimated || test.is_estimated);
+    core_doubt_lines(may_end_near, lines);
     core_mark_lines(pixel, lines, 0u);
     const uint open = core_undecided_lines(lines, false);
     if (open != 0u) {

@@ -7,7 +7,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "picture/view.glsl"
 #include "arithmetic/finite.glsl"
 #include "picture/samples.glsl"
-// A kernel without light costs nothing for it.
+// A kernel without light costs nothing for it; nor does one without lines, or planes that clip.
 #if CORE_IS_LIT
 #define CORE_LIGHTS_BINDING 6
 #include "picture/lighting.glsl"
@@ -58,6 +58,7 @@ elvis_vec3 core_position(uint pixel, elvis_real depth, out elvis_vec3 direction)
     return (column.base + down * column.base_row).xyz + (depth / length(direction) - column.reference_distance) * direction;
 }
 
+#if CORE_IS_CLIPPED
 // Whether that point is cut away.
 bool core_is_clipped(uint pixel, elvis_real depth) {
     elvis_vec3 direction;
@@ -69,6 +70,7 @@ bool core_is_clipped(uint pixel, elvis_real depth) {
     }
     return is_clipped;
 }
+#endif
 
 // The isovalue nearest to a value, of which there is at least one, and the colour of its contour.
 elvis_vec4 core_nearest_isovalue(elvis_real value) {
@@ -207,9 +209,11 @@ void main() {
         lines = core_lines_at(pixel);
 #endif
     }
-    if (is_drawn && core_n_clips > 0u) {
+#if CORE_IS_CLIPPED
+    if (is_drawn) {
         shown.is_seen = !core_is_clipped(pixel, core_samples[pixel].depth);
     }
+#endif
     shown.is_nan = !core_is_finite(shown.value) && !shown.is_outside;
 #if CORE_HAS_LINES
     if (lines.is_contour) {

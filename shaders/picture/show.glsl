@@ -29,15 +29,15 @@ struct core_location {
     uint n_failures;
     // The search was ended before it was done.
     bool is_cut_short;
-    // Elements that were dismissed and may hold the point all the same: how many, and one of them (cut_surface/open_points.comp).
+    // Elements that were dismissed and may hold the point all the same: how many, and two of them (cut_surface/open_points.comp).
     uint n_open;
-    uint open_element;
+    uint open_element, other_open_element;
 };
 
 core_location core_nothing_found() {
     const elvis_real zero = elvis_real(0);
     return core_location(CORE_NO_ELEMENT, 0xffffffffu, 2u, zero, zero, zero, false, 0u, 0u, false, CORE_NO_ELEMENT, zero, zero, zero,
-                         0u, 0u, false, 0u, CORE_NO_ELEMENT);
+                         0u, 0u, false, 0u, CORE_NO_ELEMENT, CORE_NO_ELEMENT);
 }
 
 // Puts what was found into the picture, unless another surface or element goes before it. Returns the number of field evaluations.

@@ -62,6 +62,20 @@ core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_
     return around;
 }
 
+elvis_real core_farthest_square(core_cut_square square, elvis_vec3 point) {
+    const elvis_vec3 d0 = square.corner0 - point, d1 = square.corner1 - point, d2 = square.corner2 - point, d3 = square.corner3 - point;
+    return max(max(dot(d0, d0), dot(d1, d1)), max(dot(d2, d2), dot(d3, d3)));
+}
+
+// Whether the surface may end in the pixel because it is too near to the eye to be seen. `square`: of the pixel on the tangent plane. Twice
+// that is room for what the surface departs from the plane; where it is not known, the surface is seen edge on, and its depth may vary by
+// half.
+bool core_may_end_near(uint pixel, core_cut_square square, core_tangent tangent) {
+    const elvis_real depth = core_samples[pixel].depth;
+    const elvis_real reach = square.all_hit ? elvis_real(2) * sqrt(core_farthest_square(square, tangent.point)) : elvis_real(0.5LF) * depth;
+    return depth - min(reach, elvis_real(0.5LF) * depth) <= core_near.x;
+}
+
 #if !CORE_ON_FACES
 // A bound by which the surface could turn this much (in radians) in a pixel tells less than the neighbours do.
 #define CORE_LOOSE elvis_real(0.1LF)
@@ -78,9 +92,7 @@ struct core_departure {
 core_departure core_departure_in(core_cut_square square, core_tangent tangent, core_cut_ray ray, elvis_real bending,
                                  elvis_real turning) {
     const elvis_real cosine = -dot(tangent.normal, ray.direction) / length(ray.direction);
-    const elvis_vec3 d0 = square.corner0 - tangent.point, d1 = square.corner1 - tangent.point;
-    const elvis_vec3 d2 = square.corner2 - tangent.point, d3 = square.corner3 - tangent.point;
-    const elvis_real farthest = max(max(dot(d0, d0), dot(d1, d1)), max(dot(d2, d2), dot(d3, d3)));
+    const elvis_real farthest = core_farthest_square(square, tangent.point);
     core_departure departure;
     departure.is_estimated = bending >= CORE_FAR ||
                              (bending * bending * farthest > CORE_LOOSE * CORE_LOOSE && elvis_real(2) * turning < bending);

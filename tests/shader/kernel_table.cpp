@@ -30,7 +30,8 @@ void add_pixel_kernels(std::vector<KernelUse>& uses) {
         uses.push_back({.kernel = kernel, .choices = {pixel_group}});
     }
     uses.push_back(
-        {.kernel = "picture/color", .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES")}});
+        {.kernel = "picture/color",
+         .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES"), no_or_yes("CORE_IS_CLIPPED")}});
     uses.push_back({.kernel = "picture/list_pixels", .choices = {pixel_group, width, height}});
     uses.push_back({.kernel = "volume/live_rays", .choices = {width, height, {"CORE_GROUPS", {"16u"}}}});
     uses.push_back({.kernel = "cut_surface/surface_outside", .choices = {pixel_group, no_or_yes("CORE_ON_PLANE")}});
@@ -73,6 +74,11 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
                     .buffers = {"core_elements"},
                     .is_for_solids = true,
                     .watches_loops = true});
+    uses.push_back({.kernel = "cut_surface/sift_points",
+                    .element = Element::snippet,
+                    .buffers = {"core_nodes", "core_elements", "core_reaches", "core_octants", "core_octant_nodes"},
+                    .choices = {group, no_or_yes("CORE_ON_PLANE")},
+                    .is_for_solids = true});
     uses.push_back({.kernel = "cut_surface/open_points",
                     .element = Element::value,
                     .buffers = {"core_nodes", "core_elements", "core_reaches", "core_octants", "core_octant_nodes"},

@@ -12,6 +12,8 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t group_size = 32;
+/** Words of an entry of the list: shaders/cut_surface/open_points.glsl. */
+constexpr std::uint64_t open_point_size = 3;
 /** Pixels of one dispatch: bounds its time. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 15;
 
@@ -31,10 +33,15 @@ std::vector<FetchBuffer> OpenPoints::buffers(std::uint32_t element_class) const 
     return reaches ? std::vector{reaches->records()} : std::vector<FetchBuffer>{};
 }
 
-std::array<const Buffer*, 2> OpenPoints::begin(std::uint32_t element_class, std::uint64_t n_pixels) {
-    Buffer& list = provide_buffer(m_classes[element_class].list, m_device, (2 * n_pixels + 1) * sizeof(std::uint32_t));
+Buffer& OpenPoints::empty_list(std::optional<Buffer>& list, std::uint64_t n_pixels) const {
+    Buffer& provided = provide_buffer(list, m_device, (open_point_size * n_pixels + 1) * sizeof(std::uint32_t));
     const std::uint32_t none = 0;
-    list.write_items(std::span(&none, 1));
+    provided.write_items(std::span(&none, 1));
+    return provided;
+}
+
+std::array<const Buffer*, 2> OpenPoints::begin(std::uint32_t element_class, std::uint64_t n_pixels) {
+    const Buffer& list = empty_list(m_classes[element_class].list, n_pixels);
     const std::unique_ptr<ElementReaches>& reaches = m_classes[element_class].reaches;
     if (!reaches) {
         // Not written to.
@@ -44,60 +51,71 @@ std::array<const Buffer*, 2> OpenPoints::begin(std::uint32_t element_class, std:
     return {&list, &reaches->wanted()};
 }
 
-void OpenPoints::provide_kernel(std::uint32_t element_class) {
+void OpenPoints::provide_kernels(std::uint32_t element_class) {
     OfClass& of_class = m_classes[element_class];
-    if (of_class.kernel) {
+    if (of_class.search) {
         return;
     }
     of_class.octants = std::make_unique<ElementOctants>(m_device, m_volume, m_data, element_class);
     KernelRequest request;
-    request.name = "open_points of element class " + std::to_string(element_class);
-    request.kernel = "cut_surface/open_points.comp";
+    request.name = "sift_points of element class " + std::to_string(element_class);
+    request.kernel = "cut_surface/sift_points.comp";
     request.precision = m_data.precision();
+    request.instances = {m_data.instance(element_class)};
     request.buffers = m_data.host_buffers(element_class);
     std::ranges::copy(buffers(element_class), std::back_inserter(request.buffers));
     std::ranges::copy(of_class.octants->buffers(), std::back_inserter(request.buffers));
-    m_data.add_field(request, element_class);
-    request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)},
-                       {"CORE_CLASS", std::to_string(element_class) + "u"},
-                       {"CORE_ON_PLANE", m_is_on_plane ? "1" : "0"}};
-    request.bindings = buffer_bindings({.uniform = 1, .storage = m_is_on_plane ? 6u : 8u});
+    request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}, {"CORE_ON_PLANE", m_is_on_plane ? "1" : "0"}};
+    request.bindings = buffer_bindings({.uniform = 1, .storage = m_is_on_plane ? 6u : 7u});
     request.push_constant_bytes = sizeof(PointParameters);
-    of_class.kernel = std::make_unique<ComposedKernel>(m_device, request);
+    of_class.sift = std::make_unique<ComposedKernel>(m_device, request);
+
+    request.name = "open_points of element class " + std::to_string(element_class);
+    request.kernel = "cut_surface/open_points.comp";
+    request.instances.clear();
+    m_data.add_field(request, element_class);
+    request.defines.emplace_back("CORE_CLASS", std::to_string(element_class) + "u");
+    request.bindings = buffer_bindings({.uniform = 1, .storage = m_is_on_plane ? 6u : 8u});
+    of_class.search = std::make_unique<ComposedKernel>(m_device, request);
 }
 
 void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
-    if (m_classes[element_class].reaches) {
-        m_classes[element_class].reaches->provide();
+    OfClass& of_class = m_classes[element_class];
+    if (of_class.reaches) {
+        of_class.reaches->provide();
     }
-    const Buffer& list = *m_classes[element_class].list;
+    const Buffer& list = *of_class.list;
     const std::uint32_t n_listed = list.read_items<std::uint32_t>(1)[0];
     if (n_listed == 0) {
         return;
     }
-    provide_kernel(element_class);
-    const OfClass& of_class = m_classes[element_class];
-    const Layer& layer = surface.target.layer;
-    std::vector<const Buffer*> bindings = {&surface.frame,
-                                           &layer.samples,
-                                           &layer.marks,
-                                           &surface.counts,
-                                           &list,
-                                           &of_class.octants->roots(),
-                                           &of_class.octants->asked()};
-    if (!m_is_on_plane) {
-        bindings.insert(bindings.end(),
-                        {surface.hits, surface.target.places != nullptr ? surface.target.places : &layer.normals});
-    }
+    provide_kernels(element_class);
     of_class.octants->begin();
-    PointParameters parameters(surface.target, surface.number, surface.component, surface.most_error);
     // Where octants were missing it is done again with them.
     do {
-        in_batches(n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-            parameters.first = first;
-            of_class.kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
-        });
+        const Buffer& sifted = empty_list(of_class.sifted, n_listed);
+        dispatch(*of_class.sift, sifted, list, n_listed, of_class, surface);
+        const std::uint32_t n_sifted = sifted.read_items<std::uint32_t>(1)[0];
+        dispatch(*of_class.search, surface.counts, sifted, n_sifted, of_class, surface);
     } while (of_class.octants->provide());
+}
+
+void OpenPoints::dispatch(const ComposedKernel& kernel, const Buffer& output, const Buffer& list, std::uint32_t n_listed,
+                          const OfClass& of_class, const Surface& surface) const {
+    const Layer& layer = surface.target.layer;
+    std::vector<const Buffer*> bindings = {
+        &surface.frame, &layer.samples, &layer.marks, &output, &list, &of_class.octants->roots(), &of_class.octants->asked()};
+    if (!m_is_on_plane) {
+        bindings.push_back(surface.hits);
+        if (&kernel == of_class.search.get()) {
+            bindings.push_back(surface.target.places != nullptr ? surface.target.places : &layer.normals);
+        }
+    }
+    PointParameters parameters(surface.target, surface.number, surface.component, surface.most_error);
+    in_batches(n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+        parameters.first = first;
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+    });
 }
 
 } // namespace elvis

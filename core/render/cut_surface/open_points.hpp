@@ -21,8 +21,9 @@ namespace elvis {
 
 /**
  * For the passes of one field on cut surfaces. The kernels that search whole elements list pixels
- * (shaders/cut_surface/open_points.glsl); once all classes are drawn, these are searched octant by octant. Kernels and octants
- * are made when they are first needed.
+ * (shaders/cut_surface/open_points.glsl). Once all classes are drawn, those that linear models of octants do not rule out
+ * (shaders/cut_surface/sift_points.comp) are searched octant by octant. Kernels and octants are made when they are first
+ * needed.
  */
 class OpenPoints {
 public:
@@ -50,13 +51,17 @@ public:
 
 private:
     struct OfClass {
-        std::optional<Buffer> list;
+        std::optional<Buffer> list, sifted;
         /** Only if there are strongly bent elements. */
         std::unique_ptr<ElementReaches> reaches;
         std::unique_ptr<ElementOctants> octants;
-        std::unique_ptr<ComposedKernel> kernel;
+        std::unique_ptr<ComposedKernel> sift, search;
     };
-    void provide_kernel(std::uint32_t element_class);
+    void provide_kernels(std::uint32_t element_class);
+    Buffer& empty_list(std::optional<Buffer>& list, std::uint64_t n_pixels) const;
+    /** `output`: where the kernel writes sifted points, or counts. */
+    void dispatch(const ComposedKernel& kernel, const Buffer& output, const Buffer& list, std::uint32_t n_listed,
+                  const OfClass& of_class, const Surface& surface) const;
 
     const Device& m_device;
     const RuntimeVolume& m_volume;

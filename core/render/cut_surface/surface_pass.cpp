@@ -44,6 +44,10 @@ std::array<double, 6> box_of(const CutShape& shape, const std::array<double, 6>&
     return box;
 }
 
+bool is_endless(const CutShape& shape) {
+    return !std::ranges::all_of(shape_bounds(shape), [](double end) { return std::isfinite(end); });
+}
+
 } // namespace
 
 SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
@@ -154,7 +158,8 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                           target.tile_rows(surface_tile_height)};
     provide_buffers(layer.n_pixels(), std::uint64_t{picture.tiles_a_row} * picture.tile_rows, solver.boxes_a_tile());
     write_view(m_frame, m_precision, view);
-    solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error);
+    solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error,
+                 shows_outside && is_endless(shape));
     m_counts.fill(0);
     const OpenPoints::Surface open{
         surface, component, target, m_frame, m_counts, &*m_hits, static_cast<float>(picture.most_error)};

@@ -39,7 +39,10 @@ public:
         m_right = unit(cross(m_axis, camera.up));
         m_top = cross(m_right, m_axis);
         m_spread = std::tan(camera.field_of_view * std::numbers::pi / 360);
-        m_near = nearest_depth * dot(m_axis, minus(camera.look_at, camera.eye));
+        const Vector3 corner = direction(0, 0), other = direction(width - 1, height - 1);
+        m_slope = std::sqrt(std::max(dot(corner, corner), dot(other, other)));
+        // Half of what a point at the least depth has: some are drawn that lie a little beside the picture.
+        m_near = std::max(nearest_depth * dot(m_axis, minus(camera.look_at, camera.eye)), 0.5 * camera.near / m_slope);
     }
 
     ViewPoint see(const Vector3& x) const {
@@ -55,7 +58,31 @@ public:
                 0.5 * (1 - p.y / half) * m_height - 0.5 - m_camera.image_shift[1], m_camera.orthographic ? p.z : 1 / p.z};
     }
     double z_of(double depth) const { return m_camera.orthographic ? depth : 1 / depth; }
+    /** Nothing of the picture is seen nearer along the view. */
     double near() const { return m_near; }
+    /** The most that rays of the picture slant: length of a direction. */
+    double slope() const { return m_slope; }
+
+    /** The parts of a chord, as shares of it, that are at least this deep: along rays in perspective. */
+    std::vector<std::array<double, 2>> parts_from(double depth, const ViewPoint& a, const ViewPoint& b) const {
+        const double across = m_camera.orthographic ? 0 : 1;
+        const Vector3 start{across * a.x, across * a.y, a.z}, way{across * (b.x - a.x), across * (b.y - a.y), b.z - a.z};
+        // |start + share way| = depth
+        const double square = dot(way, way), slant = dot(start, way);
+        const double rest = dot(start, start) - std::max(depth, 0.0) * depth;
+        const double discriminant = slant * slant - square * rest;
+        if (!(discriminant > 0)) {
+            return rest >= 0 ? std::vector<std::array<double, 2>>{{0, 1}} : std::vector<std::array<double, 2>>{};
+        }
+        const double enters = (-slant - std::sqrt(discriminant)) / square, leaves = (-slant + std::sqrt(discriminant)) / square;
+        std::vector<std::array<double, 2>> parts;
+        for (const auto& [from, to] : {std::array{0.0, std::min(enters, 1.0)}, std::array{std::max(leaves, 0.0), 1.0}}) {
+            if (from < to) {
+                parts.push_back({from, to});
+            }
+        }
+        return parts;
+    }
 
     /** Of a pixel's ray, with component 1 along the view. */
     Vector3 direction(std::uint32_t column, std::uint32_t row) const {
@@ -71,7 +98,7 @@ private:
     Camera m_camera;
     double m_width, m_height;
     Vector3 m_axis{}, m_right{}, m_top{};
-    double m_spread = 0, m_near = 0;
+    double m_spread = 0, m_slope = 0, m_near = 0;
 };
 
 struct Pixel {
@@ -88,8 +115,8 @@ public:
           // The square, or the disc, around a pixel's middle that the chord must meet.
           m_reach(std::max(0.5, 0.5 * line_width)), m_pixels(std::size_t{width} * height) {}
 
-    /** `error`: how far the edge may be from the chord, in pixels. */
-    void draw(const PicturePoint& a, const PicturePoint& b, double error, std::uint32_t number) {
+    /** `error`: how far the edge may be from the chord, in pixels. `is_doubtful`: whether the chord is seen at all. */
+    void draw(const PicturePoint& a, const PicturePoint& b, double error, bool is_doubtful, std::uint32_t number) {
         const double room = m_reach + error;
         const auto [top, bottom] = std::minmax(a.row, b.row);
         const std::int64_t first = std::max<std::int64_t>(0, floor(top - room));
@@ -107,7 +134,7 @@ public:
             const std::int64_t left = std::max<std::int64_t>(0, floor(std::min(x0, x1) - room));
             const std::int64_t right = std::min<std::int64_t>(m_width - 1, ceil(std::max(x0, x1) + room));
             for (std::int64_t column = left; column <= right; ++column) {
-                visit(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), a, b, error, number);
+                visit(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), a, b, error, is_doubtful, number);
             }
         }
     }
@@ -120,7 +147,7 @@ private:
     static std::int64_t ceil(double x) { return static_cast<std::int64_t>(std::ceil(std::clamp(x, -1e9, 1e9))); }
 
     void visit(std::uint32_t column, std::uint32_t row, const PicturePoint& a, const PicturePoint& b, double error,
-               std::uint32_t number) {
+               bool is_doubtful, std::uint32_t number) {
         const double ax = a.column - column, ay = a.row - row, bx = b.column - column, by = b.row - row;
         const double dx = bx - ax, dy = by - ay;
         const double length = std::hypot(dx, dy);
@@ -138,7 +165,8 @@ private:
             return;
         }
         Pixel& pixel = m_pixels[std::size_t{row} * m_width + column];
-        pixel.flags |= apart < -error ? pixel_flag::mesh_line : is_met ? pixel_flag::mesh_line_undecided : 0u;
+        const bool is_certain = apart < -error && !is_doubtful;
+        pixel.flags |= is_certain ? pixel_flag::mesh_line : is_met ? pixel_flag::mesh_line_undecided : 0u;
         const double z = m_view.z_of(a.depth + at * (b.depth - a.depth));
         if (z < pixel.z || (z == pixel.z && number < pixel.number)) {
             pixel.z = z;
@@ -170,7 +198,31 @@ Extent extent_of(const View& view, std::span<const double> coefficients) {
     return {middle.z - reach, middle.z + reach, bend};
 }
 
-void draw_edge(const View& view, const EdgeSet& edges, const EdgeSet::Edge& edge, double picture_slope, Canvas& canvas) {
+/** `error`: how far the edge may be from the chord in pixels; `world_error`: in world units. */
+struct Chord {
+    ViewPoint a, b;
+    double error, world_error;
+    std::uint32_t number;
+};
+
+/** What is deep enough to be seen. */
+void draw_chord(const View& view, const Chord& chord, double least_depth, Canvas& canvas) {
+    const auto& [a, b, error, world_error, number] = chord;
+    const auto project = [&](double share) {
+        return view.project({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)});
+    };
+    const std::vector<std::array<double, 2>> certain = view.parts_from(least_depth + world_error, a, b);
+    for (const auto& [from, to] : certain) {
+        canvas.draw(project(from), project(to), error, false, number);
+    }
+    if (certain != std::vector<std::array<double, 2>>{{0, 1}}) {
+        for (const auto& [from, to] : view.parts_from(least_depth - world_error, a, b)) {
+            canvas.draw(project(from), project(to), error, true, number);
+        }
+    }
+}
+
+void draw_edge(const View& view, const EdgeSet& edges, const EdgeSet::Edge& edge, double least_depth, Canvas& canvas) {
     const std::span<const double> coefficients = edges.coefficients(edge);
     const Extent extent = extent_of(view, coefficients);
     if (extent.farthest <= view.near()) {
@@ -178,7 +230,7 @@ void draw_edge(const View& view, const EdgeSet& edges, const EdgeSet::Edge& edge
     }
     const double nearest = std::max(extent.nearest, view.near());
     // What a distance in the world is on the picture, at most: across the view, and along it where rays slant.
-    const double pixels_a_length = picture_slope / view.pixel_size(nearest);
+    const double pixels_a_length = view.slope() / view.pixel_size(nearest);
     // A chord over 2/n of the parameter is off by at most bend (2/n)^2 / 8.
     const double n_wanted = std::sqrt(0.5 * extent.bend * pixels_a_length / chord_error);
     const double n = std::clamp(std::ceil(n_wanted), 1.0, most_chords);
@@ -201,7 +253,7 @@ void draw_edge(const View& view, const EdgeSet& edges, const EdgeSet::Edge& edge
                     *behind = {before.x + share * (now.x - before.x), before.y + share * (now.y - before.y), view.near()};
                 }
             }
-            canvas.draw(view.project(a), view.project(b), error, edge.number);
+            draw_chord(view, {a, b, error, error / pixels_a_length, edge.number}, least_depth, canvas);
         }
         before = now;
     }
@@ -224,7 +276,9 @@ void write(const View& view, const Canvas& canvas, double width, double value, s
         const double tolerance = EdgePass::depth_tolerance * std::max(1.0, width) * view.pixel_size(pixel.z);
         samples[i] = {static_cast<Real>(value), static_cast<Real>(distance * std::max(pixel.z - tolerance, 0.5 * pixel.z)),
                       pixel.number};
-        marks[i] = {surface << owner_bits, pixel.flags};
+        // What one chord leaves open another one may tell.
+        const bool is_met = (pixel.flags & pixel_flag::mesh_line) != 0;
+        marks[i] = {surface << owner_bits, is_met ? pixel_flag::mesh_line : pixel.flags};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             normals[3 * i + axis] = -d[axis] / distance;
         }
@@ -240,11 +294,9 @@ void EdgePass::draw(const EdgeSet& edges, const Camera& camera, double width, do
                     const LayerTarget& target) const {
     const Layer& layer = target.layer;
     const View view(camera, layer.width, layer.height);
-    const Vector3 corner = view.direction(0, 0), other = view.direction(layer.width - 1, layer.height - 1);
-    const double slope = std::sqrt(std::max(dot(corner, corner), dot(other, other)));
     Canvas canvas(view, layer.width, layer.height, width);
     for (const EdgeSet::Edge& edge : edges.edges()) {
-        draw_edge(view, edges, edge, slope, canvas);
+        draw_edge(view, edges, edge, camera.near, canvas);
     }
     with_real(m_precision, [&]<class Real>(Real) { write<Real>(view, canvas, width, value, surface, layer, m_precision); });
 }

@@ -27,8 +27,8 @@ public:
 
     /**
      * The given value, the number of an element at the edge, a depth in the edge less the tolerance, a normal towards the
-     * viewer. Flags: mesh_line where the pixel's closed square meets an edge, mesh_line_undecided where that is within the
-     * chords' error. `width`: see WireFrame.
+     * viewer. Flags: mesh_line where the pixel's closed square meets an edge from the camera's `near` on, mesh_line_undecided
+     * where that is within the chords' error. `width`: see WireFrame.
      */
     void draw(const EdgeSet& edges, const Camera& camera, double width, double value, std::uint32_t surface,
               const LayerTarget& target) const;

@@ -57,12 +57,14 @@ std::array<double, 3> special_limits(const ColorTable& table, Precision precisio
     return {least, lower - beyond * (upper - lower), upper + beyond * (upper - lower)};
 }
 
-KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines) {
-    KernelRequest request = pixel_kernel(std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : ""),
-                                         precision, {.uniform = 1, .storage = is_lit ? 7u : 5u}, sizeof(ColorParameters));
+KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines, bool is_clipped) {
+    const std::string name =
+        std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : "") + (is_clipped ? "_clipped" : "");
+    KernelRequest request = pixel_kernel(name, precision, {.uniform = 1, .storage = is_lit ? 7u : 5u}, sizeof(ColorParameters));
     request.kernel = "picture/color.comp";
     request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
     request.defines.emplace_back("CORE_HAS_LINES", has_lines ? "1" : "0");
+    request.defines.emplace_back("CORE_IS_CLIPPED", is_clipped ? "1" : "0");
     return request;
 }
 
@@ -71,10 +73,11 @@ KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines) {
 ColorPass::ColorPass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision), m_frame(view_buffer(device, precision)) {}
 
-const ComposedKernel& ColorPass::provide(bool is_lit, bool has_lines) {
-    std::unique_ptr<ComposedKernel>& kernel = m_kernels[(is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];
+const ComposedKernel& ColorPass::provide(const Surface& surface, bool is_lit) {
+    const bool has_lines = surface.has_lines(), is_clipped = !surface.clip.empty();
+    std::unique_ptr<ComposedKernel>& kernel = m_kernels[(is_clipped ? 4u : 0u) + (is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];
     if (!kernel) {
-        kernel = std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, is_lit, has_lines));
+        kernel = std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, is_lit, has_lines, is_clipped));
     }
     return *kernel;
 }
@@ -146,7 +149,7 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      traits_of(surface.geometry).plane != nullptr ? 1u : 0u};
     const std::span<const std::byte> push_constants = std::as_bytes(std::span(&parameters, 1));
     std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
-    const ComposedKernel& kernel = provide(lighting != nullptr, surface.has_lines());
+    const ComposedKernel& kernel = provide(surface, lighting != nullptr);
     if (!lighting) {
         dispatch_rows(kernel, bindings, push_constants, layer);
         return;

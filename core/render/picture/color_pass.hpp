@@ -31,8 +31,8 @@ public:
     void draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
               const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting);
 
-    /** The kernel for surfaces with light or lines; compiled when it is first asked for. */
-    const ComposedKernel& provide(bool is_lit, bool has_lines);
+    /** The kernel for surfaces like this one; compiled when it is first asked for. */
+    const ComposedKernel& provide(const Surface& surface, bool is_lit);
 
     /** Of the surfaces drawn since begin. */
     std::vector<SpecialValues> special_values() const;
@@ -40,8 +40,8 @@ public:
 private:
     const Device& m_device;
     Precision m_precision;
-    /** Plain, with lines, with light, with both: what a picture does not need costs it nothing. */
-    std::array<std::unique_ptr<ComposedKernel>, 4> m_kernels;
+    /** With and without lines, light, and planes that clip: what a picture does not need costs it nothing. */
+    std::array<std::unique_ptr<ComposedKernel>, 8> m_kernels;
     Buffer m_frame;
     std::unique_ptr<Buffer> m_special;
     std::size_t m_n_surfaces = 0;

@@ -119,7 +119,7 @@ TEST_CASE("conditions choose elements") {
     CHECK_THROWS_AS(faces_of_elements(volume, selection, nullptr), Error);
 }
 
-TEST_CASE("edges are drawn where they are, curved") {
+TEST_CASE("edges are drawn where they are, curved, from the camera's near on") {
     const TemporaryFile file("edges.h5");
     generate(R"({"generator": 1, "mesh": "twisted-tetrahedron", "order": 1, "field": "waves"})", file.path());
     const RuntimeVolume volume = open_volume(file.path());
@@ -127,9 +127,12 @@ TEST_CASE("edges are drawn where they are, curved") {
     constexpr std::uint32_t size = 300;
     FrameRequest request = request_for(WireFrame{}, {1.5, 1.1, 1.3}, size);
     request.camera.look_at = {0.3, 0.3, 0.3};
-    for (const bool is_orthographic : {false, true}) {
+    // From 1.75 on a third of them is left away, or more.
+    for (const auto& [is_orthographic, near] :
+         {std::pair{false, 0.0}, std::pair{false, 1.75}, std::pair{true, 0.0}, std::pair{true, 1.75}}) {
         request.camera.orthographic = is_orthographic;
         request.camera.height = 1.5;
+        request.camera.near = near;
         Renderer renderer(device(), volume, Precision::float64);
         const Frame frame = renderer.render(request);
         // How often each pixel's square, and one a little larger, is met by points of the edges.
@@ -143,6 +146,7 @@ TEST_CASE("edges are drawn where they are, curved") {
             for (int b = a + 1; b < 4; ++b)
                 for (int k = 0; k <= 20000; ++k) {
                     const Vector x = model.position(0, corners[a] + k / 20000.0 * (corners[b] - corners[a])) - eye;
+                    const double depth = is_orthographic ? x.dot(axis) : x.norm();
                     const double half = is_orthographic ? 0.75 : std::tan(std::acos(-1.0) / 9) * x.dot(axis);
                     const double column = (x.dot(right) / half + 1) * size / 2, row = (1 - x.dot(top) / half) * size / 2;
                     const auto mark = [&](std::vector<bool>& in, double room) {
@@ -153,8 +157,10 @@ TEST_CASE("edges are drawn where they are, curved") {
                                     in[static_cast<std::size_t>(r) * size + static_cast<std::size_t>(c)] = true;
                             }
                     };
-                    mark(inside, 0);
-                    mark(nearby, 0.05);
+                    if (depth > near)
+                        mark(inside, 0);
+                    if (depth > near - 1e-4)
+                        mark(nearby, 0.05);
                 }
         std::size_t missed = 0, invented = 0, undecided = 0, drawn = 0;
         for (std::size_t pixel = 0; pixel < size * size; ++pixel) {
@@ -167,6 +173,7 @@ TEST_CASE("edges are drawn where they are, curved") {
         }
         WARN(drawn << " pixels of edges, " << missed << " missed, " << invented << " invented, " << undecided << " undecided");
         CHECK(drawn > 500);
+        CHECK((drawn < 1200) == (near > 0));
         CHECK(missed == 0);
         CHECK(invented == 0);
         CHECK(undecided < drawn / 50);

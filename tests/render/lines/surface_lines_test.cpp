@@ -65,7 +65,7 @@ Counts compare_lines(const FrameRequest& request, const Frame& frame, std::uint3
     for (std::uint32_t row = 0; row < size; ++row)
         for (std::uint32_t column = 0; column < size; ++column) {
             const std::size_t pixel = std::size_t{row} * size + column;
-            if (frame.element[pixel] < 0)
+            if (frame.element[pixel] < 0 || !see(pixel_ray(request.camera, size, size, column, row)))
                 continue;
             const bool is_marked = (frame.flags[pixel] & yes) != 0, is_open = (frame.flags[pixel] & open) != 0;
             counts.hit += 1;
@@ -135,7 +135,37 @@ std::optional<double> element_on_sphere(const Ray& ray) {
              : std::nullopt;
 }
 
+/** What is seen of the sphere's front. */
+std::function<std::optional<double>(const Ray&)> from_near(long double near, std::optional<double> (*see)(const Ray&)) {
+    return [near, see](const Ray& ray) {
+        const auto x = on_sphere(ray);
+        return x && (*x - ray.origin).norm() > near ? see(ray) : std::nullopt;
+    };
+}
+
 } // namespace
+
+TEST_CASE("lines on a sphere begin at the camera's near, or are marked undecided there") {
+    const TemporaryFile file("near_lines.h5");
+    write_volume(file.path(), cube_volume(4));
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request = sphere_view();
+    Renderer renderer(device(), volume, Precision::float32);
+    // The sphere's front is 1.76 to 2.1 away: these cut it along many directions.
+    for (const double near : {1.8, 1.83, 1.86}) {
+        request.camera.near = near;
+        const Frame frame = renderer.render(request);
+        INFO("near " << near);
+        const Counts contours = compare_lines(request, frame, pixel_flag::contour, pixel_flag::contour_undecided,
+                                              from_near(near, contour_on_sphere), true);
+        report("contours", contours);
+        CHECK(contours.undecided <= contours.hit / 50);
+        const Counts lines = compare_lines(request, frame, pixel_flag::mesh_line, pixel_flag::mesh_line_undecided,
+                                           from_near(near, element_on_sphere), false);
+        report("mesh lines", lines);
+        CHECK(lines.undecided <= lines.hit / 20);
+    }
+}
 
 TEST_CASE("lines on a sphere are those of its points, or marked undecided") {
     const TemporaryFile file("sphere_lines.h5");
