@@ -36,10 +36,19 @@ const char* error_of(const Context* context);
 /** The result that stands for what is being thrown; its text is set. */
 elvis_result result_of_exception(const Context* context) noexcept;
 
-/** Does `what` for a context. */
-template <class What> elvis_result call(Context* context, What what) noexcept {
+/** Whose the caller's handle is; null for null. */
+inline Context* context_of(const elvis_context* handle) { return handle != nullptr ? handle->state.get() : nullptr; }
+inline Context* context_of(const elvis_data* handle) { return handle != nullptr ? handle->state->context.get() : nullptr; }
+inline Context* context_of(const elvis_scene* handle) { return handle != nullptr ? handle->state.context.get() : nullptr; }
+inline Context* context_of(const elvis_picture* handle) {
+    return handle != nullptr ? handle->state.data->context.get() : nullptr;
+}
+
+/** Does `what` for the context of the caller's handle. */
+template <class Handle, class What> elvis_result call(const Handle* handle, What what) noexcept {
+    Context* const context = context_of(handle);
     try {
-        need(context, "context");
+        need(context, "handle");
         const HostScope scope(context->host);
         std::move(what)();
         return ELVIS_OK;

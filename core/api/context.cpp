@@ -99,7 +99,7 @@ elvis_string elvis_context_error(const elvis_context* context) {
 }
 
 elvis_result elvis_context_list_devices(elvis_context* context, char** text) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(text, "text");
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
         for (const DeviceSummary& device : list_devices()) {
@@ -116,7 +116,7 @@ elvis_result elvis_context_list_devices(elvis_context* context, char** text) {
 }
 
 elvis_result elvis_context_list_plugins(elvis_context* context, char** text) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(text, "text");
         nlohmann::ordered_json root = {{"plugins", nlohmann::ordered_json::array()},
                                        {"refused", nlohmann::ordered_json::array()}};

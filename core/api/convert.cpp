@@ -55,7 +55,7 @@ using namespace elvis;
 using namespace elvis::library;
 
 elvis_result elvis_convert(elvis_context* context, const elvis_conversion* conversion, const elvis_task* task, char** report) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(report, "report");
         *report = nullptr;
         const ConvertRequest request = request_of(known_part(conversion, "conversion"));

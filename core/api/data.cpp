@@ -88,8 +88,6 @@ elvis_range range_of(const RuntimeVolume& volume, const FieldExtrema& found) {
     return range;
 }
 
-Context* context_of(elvis_data* data) { return data != nullptr ? data->state->context.get() : nullptr; }
-
 } // namespace
 
 } // namespace elvis::library
@@ -99,7 +97,7 @@ using namespace elvis::library;
 
 elvis_result elvis_data_open(elvis_context* context, elvis_string path, elvis_string plugin, elvis_string options,
                              const elvis_task* task, elvis_data** data) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(data, "data");
         *data = nullptr;
         need(path, "path");
@@ -115,7 +113,7 @@ elvis_result elvis_data_open(elvis_context* context, elvis_string path, elvis_st
 
 elvis_result elvis_data_from_runtime(elvis_context* context, const elvis_runtime* runtime, elvis_volume* volume,
                                      elvis_string name, elvis_data** data) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(data, "data");
         *data = nullptr;
         const elvis_runtime table = known_part(runtime, "runtime");
@@ -126,7 +124,7 @@ elvis_result elvis_data_from_runtime(elvis_context* context, const elvis_runtime
 }
 
 elvis_result elvis_space_count_modes(elvis_context* context, elvis_shape shape, const elvis_space* space, uint64_t* n_modes) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(n_modes, "n_modes");
         elvis_space known = known_part(space, "space");
         known.nodes = nullptr;
@@ -136,7 +134,7 @@ elvis_result elvis_space_count_modes(elvis_context* context, elvis_shape shape, 
 
 elvis_result elvis_data_from_arrays(elvis_context* context, const elvis_arrays* arrays, elvis_string name,
                                     const elvis_task* task, elvis_data** data) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(data, "data");
         *data = nullptr;
         const std::string called = name != nullptr ? name : "volume";
@@ -153,7 +151,7 @@ elvis_result elvis_data_from_arrays(elvis_context* context, const elvis_arrays* 
 
 elvis_result elvis_data_update_field(elvis_data* data, uint32_t field, uint32_t time_step, uint32_t element_class,
                                      const double* values) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         const DataTask task(*data->state, nullptr);
         if (!data->state->arrays) {
             throw InvalidArgument("data", "is not from arrays");
@@ -164,7 +162,7 @@ elvis_result elvis_data_update_field(elvis_data* data, uint32_t field, uint32_t 
 }
 
 elvis_result elvis_data_fields_changed(elvis_data* data) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         const DataTask task(*data->state, nullptr);
         data->state->forget_fields();
     });
@@ -173,7 +171,7 @@ elvis_result elvis_data_fields_changed(elvis_data* data) {
 void elvis_data_release(elvis_data* data) { delete data; }
 
 elvis_result elvis_data_get_info(elvis_data* data, elvis_data_info* info) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         const DataTask task(*data->state, nullptr);
         const RuntimeVolume& volume = data->state->volume;
         elvis_data_info ours{};
@@ -189,7 +187,7 @@ elvis_result elvis_data_get_info(elvis_data* data, elvis_data_info* info) {
 }
 
 elvis_result elvis_data_get_field(elvis_data* data, uint32_t field, elvis_field* out) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         const auto& fields = data->state->volume.fields();
         if (field >= fields.size()) {
             throw InvalidArgument("field", "the volume has " + counted(fields.size(), "field"));
@@ -207,7 +205,7 @@ elvis_result elvis_data_get_field(elvis_data* data, uint32_t field, elvis_field*
 }
 
 elvis_result elvis_data_get_time(elvis_data* data, uint32_t time_step, double* time) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         need(time, "time");
         check_step(data->state->volume, time_step);
         *time = data->state->volume.times()[time_step];
@@ -215,7 +213,7 @@ elvis_result elvis_data_get_time(elvis_data* data, uint32_t time_step, double* t
 }
 
 elvis_result elvis_data_describe(elvis_data* data, const elvis_describe_options* options, const elvis_task* task, char** text) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         need(text, "text");
         elvis_describe_options known{};
         if (options != nullptr) {
@@ -235,7 +233,7 @@ elvis_result elvis_data_describe(elvis_data* data, const elvis_describe_options*
 }
 
 elvis_result elvis_data_get_range(elvis_data* data, elvis_string field, uint32_t time_step, elvis_range* range) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         need(field, "field");
         const DataTask task(*data->state, nullptr);
         const RuntimeVolume& volume = data->state->volume;

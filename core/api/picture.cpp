@@ -130,8 +130,6 @@ nlohmann::ordered_json bar_json(const ColorBar& bar) {
             {"logarithmic", bar.colors.is_logarithmic}};
 }
 
-Context* context_of(const elvis_picture* picture) { return picture != nullptr ? picture->state.data->context.get() : nullptr; }
-
 } // namespace
 
 } // namespace elvis::library
@@ -141,7 +139,7 @@ using namespace elvis::library;
 
 elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvis_render_options* options,
                           const elvis_task* task, elvis_picture** picture) {
-    return call(data != nullptr ? data->state->context.get() : nullptr, [&] {
+    return call(data, [&] {
         need(picture, "picture");
         *picture = nullptr;
         need(scene, "scene");
@@ -168,7 +166,7 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
 void elvis_picture_release(elvis_picture* picture) { delete picture; }
 
 elvis_result elvis_picture_get_info(const elvis_picture* picture, elvis_picture_info* info) {
-    return call(context_of(picture), [&] {
+    return call(picture, [&] {
         const Frame& frame = picture->state.still.frame;
         elvis_picture_info ours{};
         ours.width = frame.width;
@@ -183,7 +181,7 @@ elvis_result elvis_picture_get_info(const elvis_picture* picture, elvis_picture_
 }
 
 elvis_result elvis_picture_get_remark(const elvis_picture* picture, uint32_t remark, elvis_string* text, int32_t* is_warning) {
-    return call(context_of(picture), [&] {
+    return call(picture, [&] {
         need(text, "text");
         const auto& remarks = picture->state.still.remarks;
         if (remark >= remarks.size()) {
@@ -197,14 +195,14 @@ elvis_result elvis_picture_get_remark(const elvis_picture* picture, uint32_t rem
 }
 
 elvis_result elvis_picture_get_stats(const elvis_picture* picture, char** text) {
-    return call(context_of(picture), [&] {
+    return call(picture, [&] {
         need(text, "text");
         *text = text_for_caller(picture->state.stats);
     });
 }
 
 elvis_result elvis_picture_get_color_bars(const elvis_picture* picture, char** text) {
-    return call(context_of(picture), [&] {
+    return call(picture, [&] {
         need(text, "text");
         const Picture& state = picture->state;
         const DataTask task(*state.data, nullptr);
@@ -222,7 +220,7 @@ elvis_result elvis_picture_get_color_bars(const elvis_picture* picture, char** t
 
 elvis_result elvis_picture_read(const elvis_picture* picture, elvis_channel channel, elvis_number number, void* destination,
                                 ptrdiff_t row_stride, ptrdiff_t pixel_stride) {
-    return call(context_of(picture), [&] {
+    return call(picture, [&] {
         need(destination, "destination");
         const Frame& frame = picture->state.still.frame;
         copy_channel(Rows(frame, destination, row_stride, pixel_stride), frame, channel, number);
@@ -230,7 +228,7 @@ elvis_result elvis_picture_read(const elvis_picture* picture, elvis_channel chan
 }
 
 elvis_result elvis_picture_write_png(const elvis_picture* picture, elvis_string path, uint32_t bits) {
-    return call(context_of(picture), [&] {
+    return call(picture, [&] {
         need(path, "path");
         if (bits != 8 && bits != 16) {
             throw InvalidArgument("bits", "is neither 8 nor 16");
@@ -240,7 +238,7 @@ elvis_result elvis_picture_write_png(const elvis_picture* picture, elvis_string 
 }
 
 elvis_result elvis_picture_write_buffers(const elvis_picture* picture, elvis_string path) {
-    return call(context_of(picture), [&] {
+    return call(picture, [&] {
         need(path, "path");
         const Picture& state = picture->state;
         if (state.still.frame.flags.empty()) {

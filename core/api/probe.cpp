@@ -137,8 +137,6 @@ void probe_all(Data& data, const elvis_probe& probe) {
     }
 }
 
-Context* context_of(elvis_data* data) { return data != nullptr ? data->state->context.get() : nullptr; }
-
 } // namespace
 
 } // namespace elvis::library
@@ -147,14 +145,14 @@ using namespace elvis;
 using namespace elvis::library;
 
 elvis_result elvis_data_count_values(elvis_data* data, const elvis_string* fields, uint32_t n_fields, uint32_t* n_values) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         need(n_values, "n_values");
         *n_values = columns_of(data->state->volume, fields, n_fields).n_values;
     });
 }
 
 elvis_result elvis_data_probe(elvis_data* data, const elvis_probe* probe, const elvis_task* task) {
-    return call(context_of(data), [&] {
+    return call(data, [&] {
         const elvis_probe known = known_part(probe, "probe");
         if (known.n_points > 0) {
             need(known.positions, "positions");

@@ -14,8 +14,6 @@ using nlohmann::json;
 /** The file that a scene without one is named by in messages; paths are seen from the working directory. */
 constexpr const char* no_file = "scene";
 
-Context* context_of(const elvis_scene* scene) { return scene != nullptr ? scene->state.context.get() : nullptr; }
-
 elvis_scene* new_scene(const std::shared_ptr<Context>& context, json document, const std::string& file) {
     Scene scene = scene_of(document, file);
     return new elvis_scene{{context, std::move(document), file, std::move(scene)}};
@@ -66,7 +64,7 @@ using namespace elvis;
 using namespace elvis::library;
 
 elvis_result elvis_scene_create(elvis_context* context, elvis_scene** scene) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(scene, "scene");
         *scene = nullptr;
         *scene = new_scene(context->state, {{"version", 1}}, no_file);
@@ -74,7 +72,7 @@ elvis_result elvis_scene_create(elvis_context* context, elvis_scene** scene) {
 }
 
 elvis_result elvis_scene_read(elvis_context* context, elvis_string path, elvis_scene** scene) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(scene, "scene");
         *scene = nullptr;
         need(path, "path");
@@ -83,7 +81,7 @@ elvis_result elvis_scene_read(elvis_context* context, elvis_string path, elvis_s
 }
 
 elvis_result elvis_scene_parse(elvis_context* context, elvis_string text, elvis_string folder, elvis_scene** scene) {
-    return call(context != nullptr ? context->state.get() : nullptr, [&] {
+    return call(context, [&] {
         need(scene, "scene");
         *scene = nullptr;
         need(text, "text");
@@ -93,7 +91,7 @@ elvis_result elvis_scene_parse(elvis_context* context, elvis_string text, elvis_
 }
 
 elvis_result elvis_scene_copy(const elvis_scene* scene, elvis_scene** copy) {
-    return call(context_of(scene), [&] {
+    return call(scene, [&] {
         need(copy, "copy");
         *copy = nullptr;
         *copy = new elvis_scene(*scene);
@@ -103,7 +101,7 @@ elvis_result elvis_scene_copy(const elvis_scene* scene, elvis_scene** copy) {
 void elvis_scene_release(elvis_scene* scene) { delete scene; }
 
 elvis_result elvis_scene_set(elvis_scene* scene, elvis_string pointer, elvis_string value) {
-    return call(context_of(scene), [&] {
+    return call(scene, [&] {
         need(pointer, "pointer");
         nlohmann::json document = changed(scene->state.document, pointer, value);
         scene->state.scene = scene_of(document, scene->state.file);
@@ -112,7 +110,7 @@ elvis_result elvis_scene_set(elvis_scene* scene, elvis_string pointer, elvis_str
 }
 
 elvis_result elvis_scene_get(const elvis_scene* scene, elvis_string pointer, char** text) {
-    return call(context_of(scene), [&] {
+    return call(scene, [&] {
         need(pointer, "pointer");
         need(text, "text");
         const nlohmann::json::json_pointer place = parsed_pointer(pointer);
@@ -124,14 +122,14 @@ elvis_result elvis_scene_get(const elvis_scene* scene, elvis_string pointer, cha
 }
 
 elvis_result elvis_scene_write(const elvis_scene* scene, elvis_string path) {
-    return call(context_of(scene), [&] {
+    return call(scene, [&] {
         need(path, "path");
         write_scene(scene->state.scene, path);
     });
 }
 
 elvis_result elvis_scene_get_volume(const elvis_scene* scene, char** path) {
-    return call(context_of(scene), [&] {
+    return call(scene, [&] {
         need(path, "path");
         *path = text_for_caller(scene->state.scene.volume);
     });

@@ -36,7 +36,7 @@ TEST_CASE("progress reaches whoever started the task") {
         reported = fraction;
         activity = what;
     };
-    const RuntimeVolume volume(Plugin::load(fixture("good")), "a.cube", {}, &control);
+    const RuntimeVolume volume(Plugin::load(fixture("good")), "a.cube", "", &control);
     CHECK(reported == 0.5);
     CHECK(activity == "opening");
 }
@@ -44,7 +44,7 @@ TEST_CASE("progress reaches whoever started the task") {
 TEST_CASE("a cancelled open ends with Cancelled") {
     TaskControl control;
     control.cancelled = true;
-    CHECK_THROWS_AS(RuntimeVolume(Plugin::load(fixture("good")), "a.cube", {}, &control), Cancelled);
+    CHECK_THROWS_AS(RuntimeVolume(Plugin::load(fixture("good")), "a.cube", "", &control), Cancelled);
 }
 
 TEST_CASE("each thread hears the error of its own call") {
@@ -95,7 +95,7 @@ TEST_CASE("the calls of a plugin's functions are under way while they last") {
     TaskControl control;
     std::vector<current_call::SilentCall> calls;
     control.on_progress = [&](double, std::string_view) { calls = current_call::silent_for(std::chrono::milliseconds(0)); };
-    const RuntimeVolume volume(Plugin::load(fixture("good")), "a.cube", {}, &control);
+    const RuntimeVolume volume(Plugin::load(fixture("good")), "a.cube", "", &control);
     REQUIRE(calls.size() == 1);
     CHECK(calls[0].plugin == "org.elvis.test.good");
     CHECK(calls[0].function == "open");
