@@ -25,8 +25,8 @@ layout(set = 0, binding = 6, std430) buffer core_asked_block {
 
 // Roots of elements, nodes of one element's octants, and seven parts of an octant at each level.
 uint core_stack[CORE_MOST_ELEMENTS + CORE_STACK_SIZE + 8 * CORE_MOST_LEVELS];
-// Of nodes of elements.
-uint core_element_stack[CORE_STACK_SIZE];
+// Before anything but roots waits, nodes of elements do, behind the roots.
+#define CORE_FIRST_NODE CORE_MOST_ELEMENTS
 
 // What of the search is not in core_location.
 struct core_octant_search {
@@ -58,19 +58,19 @@ void core_take_element(uint element, core_cut_point point, inout core_octant_sea
 // `element`: the only one, or CORE_NO_ELEMENT for all whose boxes hold the point.
 core_octant_search core_octants_around(uint element, core_cut_point point, vec3 in_hierarchy, float box_tolerance, bool is_wanted) {
     core_octant_search search = core_octant_search(0u, 0u, false, false, false, 0u, elvis_real(0));
-    core_element_stack[0] = 0u;
+    core_stack[CORE_FIRST_NODE] = 0u;
     uint stack_size = is_wanted ? 1u : 0u;
     while (stack_size > 0u && search.work < CORE_WORK_LIMIT) {
         stack_size -= 1u;
         search.work += 1u;
         uint reached = element;
         if (element == CORE_NO_ELEMENT) {
-            const core_node node = core_fetch_node(core_element_stack[stack_size]);
+            const core_node node = core_fetch_node(core_stack[CORE_FIRST_NODE + stack_size]);
             const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
             reached = is_touched && node.is_leaf ? node.child : CORE_NO_ELEMENT;
             if (is_touched && !node.is_leaf) {
-                core_element_stack[stack_size] = node.child + 1u;
-                core_element_stack[stack_size + 1u] = node.child;
+                core_stack[CORE_FIRST_NODE + stack_size] = node.child + 1u;
+                core_stack[CORE_FIRST_NODE + stack_size + 1u] = node.child;
                 stack_size += 2u;
             }
         }
