@@ -9,7 +9,6 @@ namespace elvis::native_plugin {
 namespace {
 
 using native::Basis;
-using native::Shape;
 using native::Space;
 using native::Transform;
 
