@@ -22,7 +22,7 @@ namespace elvis {
 struct KernelKey {
     std::string kernel, shape;
     Precision precision = Precision::float32;
-    auto operator<=>(const KernelKey&) const = default;
+    friend auto operator<=>(const KernelKey&, const KernelKey&) = default; // NOLINT(modernize-use-nullptr): clang-tidy's own 0
 };
 
 struct KernelLimit {

@@ -3,6 +3,7 @@
 // element. So samples of such faces tell whether elements overlap at all, as long as Jacobian determinants are positive and
 // neighbours lie on both sides of the face that they share. Only if they do, all faces of all elements are sampled, to know
 // which.
+#include <core/base/in_parts.hpp>
 #include <core/base/vector3.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/probe/newton.hpp>
@@ -16,13 +17,14 @@
 #include <array>
 #include <cassert>
 #include <span>
+#include <thread>
 #include <utility>
 
 namespace elvis {
 
 namespace {
 
-/** Elements between two looks at the wish to stop. */
+/** Elements that are linearized at once, between two looks at the wish to stop. */
 constexpr std::uint64_t block = 16384;
 /** In reference coordinates: how deep in its own element a sample lies, and in the other one has to. More than coordinates in
  * single precision are off. */
@@ -92,11 +94,14 @@ using Candidate = std::pair<std::uint32_t, Vector3>;
 
 class Search {
 public:
-    Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, const TaskControl* control);
+    Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, Background& background,
+           const TaskControl* control);
 
     std::vector<std::uint64_t> find();
 
 private:
+    /** Of elements from `first` on, for look_at_links. */
+    void linearize(const ClassInfo& info, std::uint64_t first, std::uint64_t count);
     void look_at_links(std::uint64_t element, elvis_shape shape, std::span<const std::uint32_t> links);
     void look_at_faces(const SampledClass& in, bool of_all);
     void look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links);
@@ -107,11 +112,15 @@ private:
     void mark(std::uint64_t one, std::uint64_t other);
 
     const RuntimeVolume& m_volume;
+    Background& m_background;
     const TaskControl* m_control;
     std::vector<SampledClass> m_classes;
     std::span<const Hierarchy* const> m_hierarchies;
-    /** Positions, of elements that were looked at. */
+    /** Positions, of elements that were linearized. */
     std::vector<Vector3> m_centroids;
+    /** Of a block of elements, and its first one. */
+    std::vector<Jacobian> m_jacobians;
+    std::uint64_t m_first_linearized = 0;
     std::vector<bool> m_is_marked;
     bool m_has_any = false;
     /** Of the element that is looked at: samples and their positions, and which elements may hold them. */
@@ -121,9 +130,10 @@ private:
     std::vector<Vector3> m_points;
 };
 
-Search::Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, const TaskControl* control)
-    : m_volume(volume), m_control(control), m_hierarchies(hierarchies), m_centroids(volume.n_elements()),
-      m_is_marked(volume.n_elements(), false) {
+Search::Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, Background& background,
+               const TaskControl* control)
+    : m_volume(volume), m_background(background), m_control(control), m_hierarchies(hierarchies),
+      m_centroids(volume.n_elements()), m_is_marked(volume.n_elements(), false) {
     std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
     for (std::size_t index = 0; index < links.size(); ++index) {
         SampledClass sampled{volume.classes()[index], std::move(links[index]), {}};
@@ -152,14 +162,23 @@ std::vector<std::uint64_t> Search::find() {
     return elements;
 }
 
+void Search::linearize(const ClassInfo& info, std::uint64_t first, std::uint64_t count) {
+    constexpr std::uint64_t elements_a_thread = 1024;
+    const Vector3 centroid = reference_centroid(info.shape);
+    m_first_linearized = first;
+    m_jacobians.resize(count);
+    in_parts(m_background, count, elements_a_thread, [&](std::uint64_t from, std::uint64_t n) {
+        for (std::uint64_t at = from; at < from + n; ++at) {
+            m_volume.evaluate_mapping(first + at, centroid, m_centroids[first + at], m_jacobians[at]);
+        }
+    });
+}
+
 /** Neighbours that lie on the same side of the face that they share. */
 void Search::look_at_links(std::uint64_t element, elvis_shape shape, std::span<const std::uint32_t> links) {
     const Vector3 centroid = reference_centroid(shape);
-    Vector3 position{};
-    Jacobian jacobian{};
-    m_volume.evaluate_mapping(element, centroid, position, jacobian);
-    m_centroids[element] = position;
-    const Jacobian inverse = invert_matrix(jacobian);
+    const Vector3& position = m_centroids[element];
+    const Jacobian inverse = invert_matrix(m_jacobians[element - m_first_linearized]);
     for (const std::uint32_t neighbour : links) {
         if (neighbour == no_link || neighbour >= element) {
             continue;
@@ -176,6 +195,9 @@ void Search::look_at_faces(const SampledClass& in, bool of_all) {
     for (std::uint64_t local = 0; local < in.info.n_elements; ++local) {
         const std::uint64_t element = in.info.first_element + local;
         check(element);
+        if (!of_all && local % block == 0) {
+            linearize(in.info, element, std::min(block, in.info.n_elements - local));
+        }
         const auto links = std::span(in.links).subspan(links_an_element * local, in.faces.size());
         m_xi.clear();
         for (std::size_t face = 0; face < in.faces.size(); ++face) {
@@ -280,9 +302,9 @@ bool can_find_overlaps(const RuntimeVolume& volume) {
 }
 
 std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies,
-                                                const TaskControl* control) {
+                                                Background& background, const TaskControl* control) {
     assert(can_find_overlaps(volume) && hierarchies.size() == volume.classes().size());
-    return Search(volume, hierarchies, control).find();
+    return Search(volume, hierarchies, background, control).find();
 }
 
 std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, const TaskControl* control) {
@@ -300,7 +322,8 @@ std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, con
         }
         pointers.push_back(&hierarchies.back());
     }
-    return overlapping_elements(volume, pointers, control);
+    Background background(std::max(1u, std::thread::hardware_concurrency()));
+    return overlapping_elements(volume, pointers, background, control);
 }
 
 } // namespace elvis

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/background.hpp>
 #include <core/base/cancel.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
@@ -24,6 +25,6 @@ bool can_find_overlaps(const RuntimeVolume& volume);
 std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, const TaskControl* control = nullptr);
 /** The same with the hierarchies of the elements of each class. */
 std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies,
-                                                const TaskControl* control);
+                                                Background& background, const TaskControl* control);
 
 } // namespace elvis

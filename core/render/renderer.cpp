@@ -97,7 +97,7 @@ void Renderer::Impl::find_overlaps(const TaskControl* task) {
         for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
             hierarchies.push_back(&data.hierarchy(index));
         }
-        n_overlapping = overlapping_elements(volume, hierarchies, task).size();
+        n_overlapping = overlapping_elements(volume, hierarchies, device.background(), task).size();
         times.overlaps_milliseconds = milliseconds_since(start);
     }
     if (n_overlapping > 0) {

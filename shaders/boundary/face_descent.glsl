@@ -12,7 +12,11 @@ struct core_face_descent {
 
 // A stack costs a quarter of the time even where it stays empty.
 #if CORE_DESCENDS
-uint core_stack[CORE_STACK_SIZE];
+#ifndef CORE_OTHER_WORDS
+#define CORE_OTHER_WORDS 0
+#endif
+// Behind the stack, words that the kernel may use for other things.
+uint core_stack[CORE_STACK_SIZE + CORE_OTHER_WORDS];
 #define CORE_TOP core_stack[descent.stack_size - 1u]
 #else
 #define CORE_TOP 0u

@@ -27,16 +27,14 @@ layout(local_size_x = 32) in;
 #include "element/inside.glsl"
 #include "boundary/face_rays.glsl"
 #include "boundary/face_surface.glsl"
+// Squares of the patch that wait: each level leaves three behind.
+#define CORE_OTHER_WORDS 48
 #include "boundary/face_descent.glsl"
+#define CORE_SQUARE(index) core_stack[CORE_STACK_SIZE + (index)]
 
 #define CORE_STEPS 10u
 #define CORE_WORK_LIMIT 30000u
 #define CORE_MOST_LEVEL 13u
-// Each level leaves three squares behind.
-#define CORE_SQUARES 48
-
-// Squares of the patch that wait.
-uint core_squares[CORE_SQUARES];
 
 struct core_careful_search {
     // The patch at hand, its face, and the word of its square.
@@ -72,7 +70,7 @@ void core_next_patch(core_ray ray, float end_t, inout core_careful_search search
         search.patch_index = word;
         search.square_word = more.w;
         search.face = more.z;
-        core_squares[0] = 0u;
+        CORE_SQUARE(0u) = 0u;
         search.n_squares = meeting.is_met ? 1u : 0u;
     }
     core_descend(word, ray, end_t, false, descent);
@@ -153,7 +151,7 @@ core_square_verdict core_judge_square(core_ray ray, core_face_newton_step s, uin
 
 void core_split(core_patch_square square, inout core_careful_search search) {
     for (uint k = 0u; k < 4u; ++k) {
-        core_squares[search.n_squares] =
+        CORE_SQUARE(search.n_squares) =
             (square.level + 1u) | ((2u * square.column + (k & 1u)) << 4) | ((2u * square.row + (k >> 1)) << 17);
         search.n_squares += 1u;
     }
@@ -163,7 +161,7 @@ void core_split(core_patch_square square, inout core_careful_search search) {
 void core_step_in_square(core_ray ray, inout core_careful_search search, inout core_face_crossing nearest) {
     const bool is_active = core_has_patch(search), is_square = is_active && !search.is_polishing;
     search.n_squares -= is_square ? 1u : 0u;
-    search.square = is_square ? core_squares[search.n_squares] : search.square;
+    search.square = is_square ? CORE_SQUARE(search.n_squares) : search.square;
     const core_square patch_square = core_square_of(search.square_word);
     const core_patch_square square = core_patch_square_of(search.square, patch_square);
     search.u = is_square ? square.u : search.u;

@@ -25,8 +25,8 @@ layout(set = 0, binding = 6, std430) buffer core_asked_block {
 
 // Roots of elements, nodes of one element's octants, and seven parts of an octant at each level.
 uint core_stack[CORE_MOST_ELEMENTS + CORE_STACK_SIZE + 8 * CORE_MOST_LEVELS];
-// Of nodes of elements.
-uint core_element_stack[CORE_STACK_SIZE];
+// Before anything but roots waits, nodes of elements do, behind the roots.
+#define CORE_FIRST_NODE CORE_MOST_ELEMENTS
 
 // What of the search is not in core_location.
 struct core_octant_search {
@@ -61,11 +61,11 @@ uint core_next_around(vec3 in_hierarchy, float box_tolerance, inout uint stack_s
     while (stack_size > 0u) {
         stack_size -= 1u;
         search.work += 1u;
-        const core_node node = core_fetch_node(core_element_stack[stack_size]);
+        const core_node node = core_fetch_node(core_stack[CORE_FIRST_NODE + stack_size]);
         const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
         if (is_touched && !node.is_leaf) {
-            core_element_stack[stack_size] = node.child + 1u;
-            core_element_stack[stack_size + 1u] = node.child;
+            core_stack[CORE_FIRST_NODE + stack_size] = node.child + 1u;
+            core_stack[CORE_FIRST_NODE + stack_size + 1u] = node.child;
             stack_size += 2u;
         }
         next = is_touched && node.is_leaf ? node.child : CORE_NO_ELEMENT;
@@ -80,7 +80,7 @@ uint core_next_around(vec3 in_hierarchy, float box_tolerance, inout uint stack_s
 core_octant_search core_octants_around(core_open_point open, core_cut_point point, vec3 in_hierarchy, float box_tolerance,
                                        bool is_wanted) {
     core_octant_search search = core_octant_search(0u, 0u, false, false, false, 0u, elvis_real(0));
-    core_element_stack[0] = 0u;
+    core_stack[CORE_FIRST_NODE] = 0u;
     uint stack_size = is_wanted && open.element == CORE_NO_ELEMENT ? 1u : 0u;
     uint next = is_wanted ? open.element : CORE_NO_ELEMENT;
     uint other = next == CORE_NO_ELEMENT ? CORE_NO_ELEMENT : open.other;

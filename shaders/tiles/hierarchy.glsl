@@ -5,8 +5,11 @@
 
 #define CORE_NO_NODE 0xffffffffu
 
-// Hierarchy::max_depth inner nodes can each leave one sibling behind.
-#define CORE_STACK_SIZE 61
+// Arrays of this many words lie in memory. Mesa's RADV keeps arrays of up to 256 bytes in registers, one for each word, as long as they
+// live, and goes through all of them at each access.
+#define CORE_WORDS_IN_MEMORY 65
+// Hierarchy::max_depth inner nodes can each leave one sibling behind: 61.
+#define CORE_STACK_SIZE CORE_WORDS_IN_MEMORY
 
 struct core_node {
     vec3 lower;

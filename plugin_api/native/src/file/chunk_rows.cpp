@@ -234,7 +234,7 @@ public:
     }
 
 private:
-    /** By more than an eighth, as a part of it shows: less is not worth the time of unpacking. */
+    /** By more than a quarter, as a part of it shows: less is not worth the time of unpacking. */
     static bool gets_smaller(std::span<const std::byte> plane) {
         constexpr std::size_t least = 1024;
         if (plane.size() < least) {
@@ -246,7 +246,7 @@ private:
         scratch.resize(size);
         compress2(scratch.data(), &size, reinterpret_cast<const Bytef*>(sample.data()), static_cast<uLong>(sample.size()),
                   deflate_level);
-        return size < sample.size() / 8 * 7;
+        return size < sample.size() / 4 * 3;
     }
 
     z_stream m_stream{};

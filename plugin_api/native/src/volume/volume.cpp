@@ -8,7 +8,6 @@ namespace elvis::native_plugin {
 namespace {
 
 using native::Basis;
-using native::Shape;
 using native::Space;
 using native::Transform;
 
@@ -118,24 +117,22 @@ void Volume::element_numbers(std::uint64_t first, std::span<std::int64_t> number
 std::int64_t Volume::position(std::int64_t number) const {
     if (number < 0)
         return number;
-    const auto found = m_positions.find(number);
-    if (found == m_positions.end())
+    if (static_cast<std::uint64_t>(number) >= m_positions.size())
         throw error(ELVIS_ERROR_FORMAT, "the faces name element " + std::to_string(number) + ", which does not exist");
-    return found->second;
+    return m_positions[static_cast<std::size_t>(number)];
 }
 
 void Volume::faces(std::uint64_t first, std::span<elvis_face> faces) const {
     if (m_positions.empty()) {
         std::vector<std::int64_t> numbers(n_elements());
         element_numbers(0, numbers);
-        m_positions.reserve(numbers.size());
+        m_positions.resize(numbers.size());
+        // The reader makes sure that each of 0 .. n-1 is there once.
         for (std::size_t i = 0; i < numbers.size(); ++i)
-            m_positions.emplace(numbers[i], static_cast<std::int64_t>(i));
+            m_positions[static_cast<std::size_t>(numbers[i])] = static_cast<std::int64_t>(i);
     }
     std::vector<native::Face> read(faces.size());
-    {
-        read_file([&] { m_source->read_faces(first, read.size(), read); });
-    }
+    read_file([&] { m_source->read_faces(first, read.size(), read); });
     for (std::size_t i = 0; i < read.size(); ++i)
         faces[i] = {sizeof(elvis_face),          read[i].group,      position(read[i].element),
                     position(read[i].neighbour), read[i].local_face, read[i].neighbour_local_face};

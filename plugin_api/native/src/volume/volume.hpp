@@ -18,7 +18,6 @@
 #include <mutex>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -153,8 +152,8 @@ private:
         std::unique_ptr<const native::DerivativeBounder> bounder;
     };
     mutable std::vector<KnownBounder> m_derivative_bounders;
-    /** Filled when faces are first asked for. */
-    mutable std::unordered_map<std::int64_t, std::int64_t> m_positions;
+    /** Of the elements by number; filled when faces are first asked for. */
+    mutable std::vector<std::int64_t> m_positions;
 };
 
 template <class Visit> void Volume::for_each_run(std::uint64_t first, std::uint64_t count, Visit visit) const {
