@@ -12,8 +12,6 @@ layout(set = 0, binding = 1, std430) writeonly buffer core_output { uint core_wo
 layout(set = 0, binding = 2, std430) readonly buffer core_centre_block { elvis_real core_centre[]; };
 layout(push_constant) uniform core_parameters { uint core_n_octants; };
 
-// Smaller octants than isosurfaces have: in these the near solution of a prediction is the only one as a rule, so that one step decides.
-#define CORE_MOST_BENDING elvis_real(0.25LF)
 #include "isosurface/octant_mapping.glsl"
 
 void main() {

@@ -14,10 +14,11 @@
 // What is proven of the element holds in its octants. Where it is larger than this, what is measured of each octant is smaller by so much
 // that pictures would take twice as long.
 #define CORE_MOST_PROVEN_CURVATURE elvis_real(1)
-// A linearization that leaves out more than this much of the octant's half side is of no use.
-#ifndef CORE_MOST_BENDING
-#define CORE_MOST_BENDING elvis_real(0.5LF)
-#endif
+// A linearization that leaves out more than this much of the octant's half side is of no use. With less than a quarter, the far solution of a
+// prediction (element/prediction.glsl) lies 1/(2C) away or more, which is the octant's side: it lies outside of it. Octants that are small
+// already, beside places where the mapping is nearly singular, would stay without a linear model.
+#define CORE_SMALL_LEVEL 5u
+#define CORE_MOST_BENDING(code) (((code) & 7u) < CORE_SMALL_LEVEL ? elvis_real(0.25LF) : elvis_real(0.5LF))
 
 struct core_octant_place {
     // In reference coordinates; where the mapping and the field are linearized, in the shape; and the way from there to the middle.
@@ -79,7 +80,7 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
     mapping.bending = mapping.curvature * place.radius * place.radius + rounding;
     mapping.size = place.half_side + mapping.bending;
     const bool is_finite = core_is_finite(mapping.size + core_max_norm(mapping.position));
-    mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING * place.half_side;
+    mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING(code) * place.half_side;
     // x = x(xi) + J d + e, |e| <= L |d|^2 / 2, with a Jacobian that changes by L |d| at most: twice as much as measured.
     const elvis_vec3 bent_box = place.radius * (sides + turn) + core_max_norm(place.shift) * sides;
     mapping.half_box = (mapping.is_linear ? min(mapping.size * sides, bent_box) : bent_box) +

@@ -190,6 +190,8 @@ TEST_CASE("isosurfaces in bent elements of every shape are certified but for few
             CHECK(frame.counts.undecided_isosurface_pixels <= 3 * few);
             CHECK(frame.counts.undecided_pixels <= few);
             CHECK(frame.counts.estimated_pixels <= 3 * few);
+            // Octants are so small that predictions are good. With twice as bent ones there were 66 and more for each pixel.
+            CHECK(frame.counts.field_evaluations < 55 * frame.counts.isosurface_pixels);
         }
     }
 }
