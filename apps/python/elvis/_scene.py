@@ -34,9 +34,12 @@ class Scene(SceneKeys):
         return scene
 
     def write(self, path: str | os.PathLike) -> None:
-        """Writes a scene file, which appears whole or not at all. `elvis render` draws it to the same bytes."""
+        """Writes a scene file, which appears whole or not at all. `elvis render` draws it to the same bytes.
+
+        The scene of a volume from arrays names no volume, since there is no file of it.
+        """
         whole = self.to_json()
-        if self._shown is not None and "volume" not in self.to_dict():
+        if self._shown is not None and self._shown.is_file and "volume" not in self.to_dict():
             whole = json.dumps({**json.loads(whole), "volume": {"path": os.path.abspath(self._shown.path)}})
         context().write_scene(whole, self._folder, os.fspath(path))
 

@@ -57,6 +57,11 @@ class Volume:
         self._facts = json.loads(handle.describe(0, True))
 
     @property
+    def is_file(self) -> bool:
+        """Not from arrays."""
+        return self._layouts is None
+
+    @property
     def fields(self) -> dict[str, Field]:
         """The fields by their names."""
         return {field["name"]: Field(field["name"], field["components"], field["unit"], field["continuity"])
@@ -118,7 +123,7 @@ class Volume:
         if field is not None:
             scene.field = field
         if time_step:
-            scene.volume.path = os.path.abspath(self.path)
+            scene.volume.path = os.path.abspath(self.path) if self.is_file else self.path
             scene.volume.time_step = time_step
         for plane in cut_planes:
             scene.surfaces.append(Surface(type="plane", plane=plane))
