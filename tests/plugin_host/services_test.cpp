@@ -3,15 +3,14 @@
  */
 #include "fixtures.hpp"
 
+#include <core/base/host.hpp>
 #include <core/plugin_host/current_call.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
-
 #include <chrono>
-#include <sstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 using namespace elvis;
 using Catch::Matchers::Contains;
@@ -19,13 +18,16 @@ using test::error_of;
 using test::fixture;
 
 TEST_CASE("what a plugin logs appears under its id") {
-    std::ostringstream lines;
-    const auto before = spdlog::default_logger();
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines)));
+    Host host;
+    std::vector<std::string> warnings;
+    host.log = [&](LogLevel level, std::string_view line) {
+        if (level == LogLevel::warning) {
+            warnings.emplace_back(line);
+        }
+    };
+    const HostScope scope(host);
     const RuntimeVolume volume(Plugin::load(fixture("good")), "a.cube");
-    spdlog::set_default_logger(before);
-    CHECK_THAT(lines.str(), Contains("warning") && Contains("org.elvis.test.good: a cube is opened"));
+    CHECK(warnings == std::vector<std::string>{"org.elvis.test.good: a cube is opened"});
 }
 
 TEST_CASE("progress reaches whoever started the task") {
