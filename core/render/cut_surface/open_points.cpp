@@ -33,15 +33,15 @@ std::vector<FetchBuffer> OpenPoints::buffers(std::uint32_t element_class) const 
     return reaches ? std::vector{reaches->records()} : std::vector<FetchBuffer>{};
 }
 
-Buffer& OpenPoints::empty_list(std::optional<Buffer>& list, std::uint64_t n_pixels) const {
-    Buffer& provided = provide_buffer(list, m_device, (open_point_size * n_pixels + 1) * sizeof(std::uint32_t));
+Buffer& OpenPoints::empty_list(std::optional<Buffer>& list, std::uint64_t bytes) const {
+    Buffer& provided = provide_buffer(list, m_device, bytes);
     const std::uint32_t none = 0;
     provided.write_items(std::span(&none, 1));
     return provided;
 }
 
 std::array<const Buffer*, 2> OpenPoints::begin(std::uint32_t element_class, std::uint64_t n_pixels) {
-    const Buffer& list = empty_list(m_classes[element_class].list, n_pixels);
+    const Buffer& list = empty_list(m_classes[element_class].list, (open_point_size * n_pixels + 1) * sizeof(std::uint32_t));
     const std::unique_ptr<ElementReaches>& reaches = m_classes[element_class].reaches;
     if (!reaches) {
         // Not written to.
@@ -93,7 +93,7 @@ void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
     of_class.octants->begin();
     // Where octants were missing it is done again with them.
     do {
-        const Buffer& sifted = empty_list(of_class.sifted, n_listed);
+        const Buffer& sifted = empty_list(m_sifted, list.bytes());
         dispatch(*of_class.sift, sifted, list, n_listed, of_class, surface);
         const std::uint32_t n_sifted = sifted.read_items<std::uint32_t>(1)[0];
         dispatch(*of_class.search, surface.counts, sifted, n_sifted, of_class, surface);

@@ -51,14 +51,14 @@ public:
 
 private:
     struct OfClass {
-        std::optional<Buffer> list, sifted;
+        std::optional<Buffer> list;
         /** Only if there are strongly bent elements. */
         std::unique_ptr<ElementReaches> reaches;
         std::unique_ptr<ElementOctants> octants;
         std::unique_ptr<ComposedKernel> sift, search;
     };
     void provide_kernels(std::uint32_t element_class);
-    Buffer& empty_list(std::optional<Buffer>& list, std::uint64_t n_pixels) const;
+    Buffer& empty_list(std::optional<Buffer>& list, std::uint64_t bytes) const;
     /** `output`: where the kernel writes sifted points, or counts. */
     void dispatch(const ComposedKernel& kernel, const Buffer& output, const Buffer& list, std::uint32_t n_listed,
                   const OfClass& of_class, const Surface& surface) const;
@@ -68,6 +68,8 @@ private:
     const DeviceVolume& m_data;
     bool m_is_on_plane;
     std::vector<OfClass> m_classes;
+    /** Of one class after the other: points that linear models do not rule out. As long as lists, whatever they hold. */
+    std::optional<Buffer> m_sifted;
 };
 
 } // namespace elvis
