@@ -67,13 +67,13 @@ install_below() {
     case "$prefix" in /usr | /usr/local) ;; *) packages=site-packages ;; esac
     build -DELVIS_BUILD_TESTS=OFF -DELVIS_PYTHON_DIRECTORY="lib/python$version/$packages"
     cmake --install build/release --prefix "$prefix"
-    if ! /usr/bin/python3 -c 'import elvis' 2>/dev/null; then
-        local user
+    local folder="$prefix/lib/python$version/$packages" found='import elvis; print(elvis.__path__[0])' user
+    if [ "$(cd / && /usr/bin/python3 -c "$found" 2>/dev/null)" != "$folder/elvis" ]; then
         user=$(/usr/bin/python3 -m site --user-site)
         mkdir -p "$user"
-        echo "$prefix/lib/python$version/$packages" >"$user/elvis.pth"
+        echo "$folder" >"$user/elvis.pth"
     fi
-    (cd / && /usr/bin/python3 -c 'import elvis; print("Python has the package elvis in", elvis.__path__[0])')
+    echo "Python has the package elvis in $(cd / && /usr/bin/python3 -c "$found")."
     echo "The program is $prefix/bin/elvis."
 }
 
