@@ -37,7 +37,7 @@ ArrayVolume::ArrayVolume(std::uint32_t dimension, const py::list& classes, const
         auto& element_class = m_classes.emplace_back(detail::sized<elvis_array_class>());
         element_class.shape = py::cast<elvis_shape>(of["shape"]);
         element_class.n_elements = py::cast<std::uint64_t>(of["n_elements"]);
-        element_class.geometry_space = space(of);
+        element_class.geometry_space = &m_spaces.emplace_back(std::vector{space(of)}).front();
         element_class.geometry = keep(of["geometry"]);
         if (!of["corners"].is_none()) {
             const auto corners = py::cast<Array<std::int64_t>>(of["corners"]);

@@ -39,10 +39,60 @@ Eigen::PartialPivLU<Eigen::MatrixXd> from_nodes(const native::Space& space, cons
 }
 
 /** The step's field of a class, as the caller has it. */
-const double* values_of(const elvis_array_field& field, std::size_t place, const std::string& what) {
-    need(field.values, what.c_str());
-    need(field.values[place], what.c_str());
+const double* values_of(const elvis_array_field& field, std::size_t place) {
+    need(field.values, "values");
+    need(field.values[place], "values");
     return field.values[place];
+}
+
+/** Dimension, times and groups. */
+native::Description describe(const elvis_arrays& arrays) {
+    native::Description description;
+    description.dimension = static_cast<int>(arrays.dimension);
+    if (arrays.times != nullptr) {
+        description.times.assign(arrays.times, arrays.times + std::max(1u, arrays.n_time_steps));
+    }
+    for (std::uint32_t group = 0; group < arrays.n_boundary_groups; ++group) {
+        need(arrays.boundary_groups, "boundary_groups");
+        description.boundary_groups.push_back(text_or_empty(arrays.boundary_groups[group]));
+    }
+    return description;
+}
+
+/** Describes a class; returns its geometry's coefficients. */
+std::vector<double> add_class(const elvis_array_class& given, std::uint32_t index, native::Description& description) {
+    const std::string what = "class " + std::to_string(index);
+    need(given.geometry, what.c_str());
+    if (given.n_elements == 0) {
+        throw InvalidArgument(what, "has no elements");
+    }
+    const ToModes to_modes(known_part(given.geometry_space, what.c_str()), given.shape, what);
+    description.classes.push_back({to_modes.space(), {}, given.n_elements});
+    std::vector<double> coefficients(3 * to_modes.n_modes() * given.n_elements);
+    to_modes.apply({given.geometry, coefficients.size()}, coefficients);
+    return coefficients;
+}
+
+/** Describes a field; returns how its numbers become coefficients, by class. */
+std::vector<ToModes> add_field(const elvis_array_field& given, std::uint32_t index, std::span<const elvis_array_class> classes,
+                               native::Description& description) {
+    const std::string what = "field " + std::to_string(index);
+    need(given.name, what.c_str());
+    need(given.spaces, what.c_str());
+    if (given.continuity > ELVIS_CONTINUITY_DISCONTINUOUS || given.n_components == 0) {
+        throw InvalidArgument(what, "its continuity is not known, or it has no components");
+    }
+    native::Field& own = description.fields.emplace_back();
+    own.name = given.name;
+    own.unit = text_or_empty(given.unit);
+    own.n_components = given.n_components;
+    own.continuity = static_cast<native::Continuity>(given.continuity);
+    std::vector<ToModes> spaces;
+    for (std::uint32_t of = 0; of < classes.size(); ++of) {
+        spaces.emplace_back(copy_entry(given.spaces, of), classes[of].shape, what + " in class " + std::to_string(of));
+        description.classes[of].fields.push_back(spaces.back().space());
+    }
+    return spaces;
 }
 
 void check_counts(const elvis_arrays& arrays) {
@@ -92,52 +142,17 @@ void ToModes::apply(std::span<const double> numbers, std::span<double> coefficie
 
 Arrays::Arrays(const elvis_arrays& arrays, const std::string& name, const TaskControl& control) {
     check_counts(arrays);
-    native::Description description;
-    description.dimension = static_cast<int>(arrays.dimension);
-    if (arrays.n_time_steps > 1 || arrays.times != nullptr) {
-        description.times.assign(arrays.times, arrays.times + std::max(1u, arrays.n_time_steps));
-    }
-    for (std::uint32_t group = 0; group < arrays.n_boundary_groups; ++group) {
-        need(arrays.boundary_groups, "boundary_groups");
-        description.boundary_groups.push_back(text_or_empty(arrays.boundary_groups[group]));
-    }
+    native::Description description = describe(arrays);
     std::vector<elvis_array_class> classes;
-    std::vector<ToModes> geometries;
+    std::vector<std::vector<double>> geometry;
     for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
         classes.push_back(copy_entry(arrays.classes, index));
-        const std::string what = "class " + std::to_string(index);
-        need(classes.back().geometry, what.c_str());
-        if (classes.back().n_elements == 0) {
-            throw InvalidArgument(what, "has no elements");
-        }
-        geometries.emplace_back(classes.back().geometry_space, classes.back().shape, what);
-        description.classes.push_back({geometries.back().space(), {}, classes.back().n_elements});
+        geometry.push_back(add_class(classes.back(), index, description));
     }
     std::vector<elvis_array_field> fields;
     for (std::uint32_t index = 0; index < arrays.n_fields; ++index) {
-        const elvis_array_field field = fields.emplace_back(copy_entry(arrays.fields, index));
-        const std::string what = "field " + std::to_string(index);
-        need(field.name, what.c_str());
-        need(field.spaces, what.c_str());
-        if (field.continuity > ELVIS_CONTINUITY_DISCONTINUOUS || field.n_components == 0) {
-            throw InvalidArgument(what, "its continuity is not known, or it has no components");
-        }
-        native::Field& own = description.fields.emplace_back();
-        own.name = field.name;
-        own.unit = text_or_empty(field.unit);
-        own.n_components = field.n_components;
-        own.continuity = static_cast<native::Continuity>(field.continuity);
-        std::vector<ToModes>& spaces = m_fields.emplace_back();
-        for (std::uint32_t of = 0; of < arrays.n_classes; ++of) {
-            spaces.emplace_back(copy_entry(field.spaces, of), classes[of].shape, what + " in class " + std::to_string(of));
-            description.classes[of].fields.push_back(spaces.back().space());
-        }
-    }
-    std::vector<std::vector<double>> geometry;
-    for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
-        const std::size_t n_numbers = 3 * geometries[index].n_modes() * classes[index].n_elements;
-        geometry.emplace_back(n_numbers);
-        geometries[index].apply({classes[index].geometry, n_numbers}, geometry.back());
+        fields.push_back(copy_entry(arrays.fields, index));
+        m_fields.push_back(add_field(fields.back(), index, classes, description));
     }
     std::vector<native::Face> faces = faces_of_mesh(description, geometry, classes, name, control);
     description.n_faces = faces.size();
@@ -149,7 +164,7 @@ Arrays::Arrays(const elvis_arrays& arrays, const std::string& name, const TaskCo
         for (std::uint32_t step = 0; step < m_volume->description().times.size(); ++step) {
             for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
                 control.check();
-                update(field, step, index, values_of(fields[field], step * std::size_t{arrays.n_classes} + index, "values"));
+                update(field, step, index, values_of(fields[field], step * std::size_t{arrays.n_classes} + index));
             }
         }
     }

@@ -70,7 +70,7 @@ public:
         element_class = elvis::detail::sized<elvis_array_class>();
         element_class.shape = ELVIS_SHAPE_TETRAHEDRON;
         element_class.n_elements = 6;
-        element_class.geometry_space = space;
+        element_class.geometry_space = &space;
         element_class.geometry = geometry.data();
         field = elvis::detail::sized<elvis_array_field>();
         field.n_components = 1;
@@ -153,13 +153,17 @@ TEST_CASE("Arrays that make no volume are refused with the reason") {
     outside.space.nodes = nodes.data();
     refused(outside, "node 1 lies outside");
     Cube basis(zero);
-    basis.element_class.geometry_space.basis = ELVIS_BASIS_GLL_LAGRANGE;
+    elvis_space lagrange = basis.space;
+    lagrange.basis = ELVIS_BASIS_GLL_LAGRANGE;
+    basis.element_class.geometry_space = &lagrange;
     refused(basis, "class 0");
     Cube corners(zero);
     const std::vector<std::int64_t> ids(24, -7);
     corners.element_class.corners = ids.data();
     refused(corners, "corner id -7");
     Cube high(zero);
-    std::fill(high.element_class.geometry_space.order, high.element_class.geometry_space.order + 3, 40u);
+    elvis_space of_high_order = high.space;
+    std::fill(of_high_order.order, of_high_order.order + 3, 40u);
+    high.element_class.geometry_space = &of_high_order;
     refused(high, "class 0");
 }

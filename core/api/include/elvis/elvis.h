@@ -175,7 +175,7 @@ typedef struct elvis_array_class {
     uint32_t struct_size;
     elvis_shape shape;
     uint64_t n_elements;
-    elvis_space geometry_space;
+    const elvis_space* geometry_space;
     /** Positions or coefficients: n_elements, 3, modes. */
     const double* geometry;
     /** Corner ids, as many an element as its shape has corners: equal ids are one corner. NULL: corners at one place are. All
