@@ -126,10 +126,13 @@ TEST_CASE("Values of a field are replaced, in pictures, at points and in ranges"
     scene.set("/surfaces/-", R"({"type": "plane", "plane": [1, 1, 1, -1.2]})");
     data.render(scene);
     data.range("p");
+    // What only samples on the device tell.
+    CHECK(data.range("p + 1").maximum == Approx(2).epsilon(0.01));
     data.update_field(0, 0, 0, other.values.data());
     CHECK(data.render(scene).read<double>(ELVIS_CHANNEL_COLOR) == fresh.render(scene).read<double>(ELVIS_CHANNEL_COLOR));
     CHECK(data.probe({0.2, 0.3, 0.4}, {"p"}).values[0] == fresh.probe({0.2, 0.3, 0.4}, {"p"}).values[0]);
     CHECK(data.range("p").maximum == Approx(5).epsilon(1e-6));
+    CHECK(data.range("p + 1").maximum == Approx(6).epsilon(0.01));
     CHECK_THROWS_WITH(data.update_field(1, 0, 0, other.values.data()), Catch::Contains("1 field"));
 }
 

@@ -238,6 +238,39 @@ TEST_CASE("Several contexts work in several threads at once, and each hears its 
     CHECK(n_lines[1] == 1);
 }
 
+TEST_CASE("Kernels are kept where the host says, and the environment has no say where it is switched off") {
+    const TemporaryFolder folder;
+    const std::string own = folder.path("own"), of_environment = folder.path("environment");
+    std::string volume;
+    {
+        const elvis::context context(own_plugins());
+        volume = convert(context, folder);
+    }
+    const char* const before = std::getenv("ELVIS_CACHE_PATH");
+    const std::string kept = before != nullptr ? before : "";
+    ::setenv("ELVIS_CACHE_PATH", of_environment.c_str(), 1);
+    const auto draw_with_cache = [&](const char* cache, elvis_context_flags flags) {
+        auto options = own_plugins();
+        options.cache_folder = cache;
+        options.flags = flags;
+        const elvis::context context(options);
+        context.open(volume).render(some_scene(context));
+    };
+    draw_with_cache(own.c_str(), 0);
+    CHECK(std::filesystem::exists(own));
+    CHECK_FALSE(std::filesystem::exists(of_environment));
+    draw_with_cache("", 0);
+    CHECK_FALSE(std::filesystem::exists(of_environment));
+    draw_with_cache("", ELVIS_CONTEXT_NO_ENVIRONMENT);
+    ::setenv("ELVIS_DEVICE", "no such device", 1);
+    CHECK_NOTHROW(draw_with_cache(own.c_str(), ELVIS_CONTEXT_NO_ENVIRONMENT));
+    CHECK_THROWS_WITH(draw_with_cache(own.c_str(), 0), Contains("no such device"));
+    ::unsetenv("ELVIS_DEVICE");
+    draw_with_cache(nullptr, 0);
+    CHECK(std::filesystem::exists(of_environment));
+    before != nullptr ? ::setenv("ELVIS_CACHE_PATH", kept.c_str(), 1) : ::unsetenv("ELVIS_CACHE_PATH");
+}
+
 TEST_CASE("Threads share data, scene and context: all get the same picture and values") {
     const elvis::context context(own_plugins());
     const TemporaryFolder folder;

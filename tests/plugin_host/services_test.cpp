@@ -5,9 +5,11 @@
 
 #include <core/base/host.hpp>
 #include <core/plugin_host/current_call.hpp>
+#include <core/plugin_host/host_services.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -28,6 +30,19 @@ TEST_CASE("what a plugin logs appears under its id") {
     const HostScope scope(host);
     const RuntimeVolume volume(Plugin::load(fixture("good")), "a.cube");
     CHECK(warnings == std::vector<std::string>{"org.elvis.test.good: a cube is opened"});
+}
+
+TEST_CASE("what a plugin logs on a thread of its own reaches the host that opened the volume") {
+    Host host;
+    std::vector<std::string> lines;
+    host.log = [&](LogLevel, std::string_view line) { lines.emplace_back(line); };
+    std::optional<HostServices> services;
+    {
+        const HostScope scope(host);
+        services.emplace("org.elvis.test", nullptr);
+    }
+    std::thread([&] { services->table()->log(services->table(), ELVIS_LOG_ERROR, "alone"); }).join();
+    CHECK(lines == std::vector<std::string>{"org.elvis.test: alone"});
 }
 
 TEST_CASE("progress reaches whoever started the task") {
