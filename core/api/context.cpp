@@ -1,24 +1,8 @@
 #include "call.hpp"
 
-#include <core/base/log.hpp>
-
-#include <sstream>
-#include <vector>
-
 namespace elvis::library {
 
 namespace {
-
-std::vector<std::filesystem::path> split_folders(const std::string& list) {
-    std::vector<std::filesystem::path> folders;
-    std::istringstream text(list);
-    for (std::string folder; std::getline(text, folder, ':');) {
-        if (!folder.empty()) {
-            folders.emplace_back(folder);
-        }
-    }
-    return folders;
-}
 
 nlohmann::ordered_json plugin_json(const Plugin& plugin) {
     nlohmann::ordered_json kinds = nlohmann::ordered_json::array();

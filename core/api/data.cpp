@@ -6,8 +6,6 @@
 #include <core/session/open_volume.hpp>
 
 #include <algorithm>
-#include <limits>
-#include <vector>
 
 namespace elvis::library {
 
@@ -19,7 +17,6 @@ Data::~Data() {
     const HostScope scope(context->host);
     m_renderer.reset();
     m_prober.reset();
-    extrema.forget_fields();
 }
 
 Renderer& Data::renderer(Precision precision) {
@@ -39,28 +36,21 @@ Prober& Data::prober(ProbeOptions::Evaluation evaluation) {
     return *m_prober;
 }
 
-void Data::forget_fields() {
+void Data::forget_fields(std::optional<std::uint32_t> only) {
     extrema.forget_fields();
     if (m_renderer) {
-        m_renderer->forget_fields();
+        m_renderer->forget_fields(only);
     }
+}
+
+const std::array<double, 6>& Data::bounds() {
+    if (!m_bounds) {
+        m_bounds = bounds_of(volume).first;
+    }
+    return *m_bounds;
 }
 
 namespace {
-
-std::array<double, 6> bounds_of(const RuntimeVolume& volume) {
-    std::vector<double> boxes(6 * volume.n_elements());
-    volume.bounds(0, volume.n_elements(), boxes);
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<double, 6> bounds{infinity, infinity, infinity, -infinity, -infinity, -infinity};
-    for (std::size_t at = 0; at < boxes.size(); at += 6) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            bounds[axis] = std::min(bounds[axis], boxes[at + axis]);
-            bounds[axis + 3] = std::max(bounds[axis + 3], boxes[at + axis + 3]);
-        }
-    }
-    return bounds;
-}
 
 void check_step(const RuntimeVolume& volume, std::uint32_t time_step) {
     if (time_step >= volume.times().size()) {
@@ -157,14 +147,18 @@ elvis_result elvis_data_update_field(elvis_data* data, uint32_t field, uint32_t 
             throw InvalidArgument("data", "is not from arrays");
         }
         data->state->arrays->update(field, time_step, element_class, values);
-        data->state->forget_fields();
+        data->state->forget_fields(field);
     });
 }
 
-elvis_result elvis_data_fields_changed(elvis_data* data) {
+elvis_result elvis_data_fields_changed(elvis_data* data, uint32_t field) {
     return call(data, [&] {
         const DataTask task(*data->state, nullptr);
-        data->state->forget_fields();
+        const std::size_t n_fields = data->state->volume.fields().size();
+        if (field != ELVIS_ALL_FIELDS && field >= n_fields) {
+            throw InvalidArgument("field", "the volume has " + counted(n_fields, "field"));
+        }
+        data->state->forget_fields(field != ELVIS_ALL_FIELDS ? std::optional(field) : std::nullopt);
     });
 }
 
@@ -181,7 +175,7 @@ elvis_result elvis_data_get_info(elvis_data* data, elvis_data_info* info) {
         ours.n_fields = static_cast<std::uint32_t>(volume.fields().size());
         ours.n_time_steps = static_cast<std::uint32_t>(volume.times().size());
         ours.n_boundary_groups = static_cast<std::uint32_t>(volume.boundary_groups().size());
-        std::ranges::copy(bounds_of(volume), ours.bounds);
+        std::ranges::copy(data->state->bounds(), ours.bounds);
         give(ours, info, "info");
     });
 }

@@ -20,6 +20,7 @@
 #include <elvis/elvis.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -61,8 +62,10 @@ struct Data {
     Renderer& renderer(Precision precision);
     /** Evaluating that way; the one before is given up. */
     Prober& prober(ProbeOptions::Evaluation evaluation);
-    /** Values of fields have changed. */
-    void forget_fields();
+    /** Values of a field, or of all, have changed. */
+    void forget_fields(std::optional<std::uint32_t> only);
+    /** min x y z, max x y z. */
+    const std::array<double, 6>& bounds();
 
     const std::shared_ptr<Context> context;
     /** Follows the call that has the mutex: what volume and renderer were made with lives longer than a call. */
@@ -79,6 +82,7 @@ private:
     ProbeOptions::Evaluation m_evaluation = ProbeOptions::Evaluation::automatic;
     std::optional<Renderer> m_renderer;
     Precision m_precision = Precision::float32;
+    std::optional<std::array<double, 6>> m_bounds;
 };
 
 /** A scene: the document, what it says, and the file beside which it is. */

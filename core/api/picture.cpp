@@ -64,12 +64,6 @@ private:
     std::ptrdiff_t m_row_stride, m_pixel_stride;
 };
 
-/** Rounded as in PNG files. */
-template <class Level> Level level_of(double channel) {
-    constexpr auto largest = static_cast<double>(static_cast<Level>(-1));
-    return static_cast<Level>(std::lround(largest * std::clamp(channel, 0.0, 1.0)));
-}
-
 [[noreturn]] void refuse_number() { throw InvalidArgument("number", "the channel is not written in such numbers"); }
 
 void copy_reals(const Rows& rows, const std::vector<double>& from, std::size_t n_numbers, elvis_number number) {
@@ -84,9 +78,11 @@ void copy_reals(const Rows& rows, const std::vector<double>& from, std::size_t n
 
 void copy_colors(const Rows& rows, const Frame& frame, elvis_number number) {
     if (number == ELVIS_NUMBER_UINT8) {
-        rows.copy<std::uint8_t>(frame.color, 4, level_of<std::uint8_t>);
+        rows.copy<std::uint8_t>(frame.color, 4,
+                                [](double channel) { return static_cast<std::uint8_t>(level_of(channel, 255)); });
     } else if (number == ELVIS_NUMBER_UINT16) {
-        rows.copy<std::uint16_t>(frame.color, 4, level_of<std::uint16_t>);
+        rows.copy<std::uint16_t>(frame.color, 4,
+                                 [](double channel) { return static_cast<std::uint16_t>(level_of(channel, 65535)); });
     } else {
         copy_reals(rows, frame.color, 4, number);
     }

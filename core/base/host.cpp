@@ -1,5 +1,6 @@
 #include <core/base/host.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -10,6 +11,18 @@ namespace {
 thread_local const Host* of_this_thread = nullptr;
 
 } // namespace
+
+std::vector<std::filesystem::path> split_folders(std::string_view list) {
+    std::vector<std::filesystem::path> folders;
+    while (!list.empty()) {
+        const std::size_t end = std::min(list.find(':'), list.size());
+        if (end > 0) {
+            folders.emplace_back(list.substr(0, end));
+        }
+        list.remove_prefix(std::min(end + 1, list.size()));
+    }
+    return folders;
+}
 
 Host& program_host() {
     static Host host;

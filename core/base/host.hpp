@@ -27,6 +27,9 @@ struct Host {
     std::optional<std::vector<std::filesystem::path>> plugin_folders;
 };
 
+/** Folders of a list that ':' separates; empty ones are left out. */
+std::vector<std::filesystem::path> split_folders(std::string_view list);
+
 /** The one that this thread works for: that of the innermost HostScope, else the program's own. */
 const Host& host();
 

@@ -14,19 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<fs::path> split_path_list(const std::string& list) {
-    std::vector<fs::path> folders;
-    std::size_t begin = 0;
-    while (begin <= list.size()) {
-        const std::size_t end = std::min(list.find(':', begin), list.size());
-        if (end > begin) {
-            folders.emplace_back(list.substr(begin, end - begin));
-        }
-        begin = end + 1;
-    }
-    return folders;
-}
-
 /** Shared libraries of a folder, in the order of their names so that the result does not depend on the file system. */
 std::vector<fs::path> libraries_in(const fs::path& folder) {
     std::vector<fs::path> libraries;
@@ -101,7 +88,7 @@ std::vector<fs::path> PluginRegistry::search_path() {
     }
     std::vector<fs::path> folders;
     if (const auto list = environment_variable("ELVIS_PLUGIN_PATH")) {
-        folders = split_path_list(*list);
+        folders = split_folders(*list);
     }
     if (const auto data = environment_variable("XDG_DATA_HOME")) {
         folders.push_back(fs::path(*data) / "elvis/plugins");

@@ -179,6 +179,9 @@ struct Frame {
     double render_milliseconds = 0;
     /** What render_milliseconds would be on a machine with nothing else to do (DeviceTimer). */
     double device_milliseconds = 0;
+    /** How often work of this frame was handed to the device, and how often it was waited for: all that the device did
+     * meanwhile. */
+    std::uint64_t submissions = 0, host_waits = 0;
 };
 
 } // namespace elvis

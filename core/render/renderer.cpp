@@ -167,6 +167,7 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
         return background_frame(asked);
     }
     const DeviceTask task(impl.device, control);
+    const DeviceWork before = impl.device.work();
     const FrameRequest request = prepared(asked, impl.volume, impl.fields);
     Frame frame;
     frame.width = request.width;
@@ -193,13 +194,16 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
     }
     frame.is_met = met_as_asked(asked, std::move(frame.is_met));
     read_frame(impl.picture.drawn(), impl.data.precision(), facts, request.with_buffers, frame);
+    const DeviceWork after = impl.device.work();
+    frame.submissions = after.submissions - before.submissions;
+    frame.host_waits = after.host_waits - before.host_waits;
     return frame;
 }
 
-void Renderer::forget_fields() {
+void Renderer::forget_fields(std::optional<std::uint32_t> only) {
     m_impl->passes.forget_fields();
     m_impl->ranges.forget_fields();
-    m_impl->data.forget_fields();
+    m_impl->data.forget_fields(only);
 }
 
 const RendererTimes& Renderer::times() const { return m_impl->times; }

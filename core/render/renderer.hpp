@@ -11,6 +11,7 @@
 #include <core/vulkan/device.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace elvis {
 
@@ -49,8 +50,9 @@ public:
      */
     Frame render(const FrameRequest& request, const TaskControl* control = nullptr);
 
-    /** Values of fields have changed, at any time step: the next frame asks the plugin for all that rests on them. */
-    void forget_fields();
+    /** Values of a field, or of all, have changed, at any time step: the next frame asks the plugin for all that rests on them.
+     */
+    void forget_fields(std::optional<std::uint32_t> only = {});
 
     const RendererTimes& times() const;
     RendererMemory memory() const;

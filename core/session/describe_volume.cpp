@@ -181,23 +181,19 @@ ordered_json describe_fields(const RuntimeVolume& volume, const DescribeOptions&
     return fields;
 }
 
-void describe_bounds(const RuntimeVolume& volume, ordered_json& root) {
+} // namespace
+
+std::pair<std::array<double, 6>, elvis_certainty> bounds_of(const RuntimeVolume& volume) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<FieldRange, 3> bounds;
-    bounds.fill({infinity, -infinity});
+    std::array<double, 6> bounds{infinity, infinity, infinity, -infinity, -infinity, -infinity};
     std::vector<double> boxes(6 * volume.n_elements());
     const elvis_certainty certainty = volume.bounds(0, volume.n_elements(), boxes);
-    for (std::size_t at = 0; at < boxes.size(); at += 6) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            bounds[axis].lower = std::min(bounds[axis].lower, boxes[at + axis]);
-            bounds[axis].upper = std::max(bounds[axis].upper, boxes[at + 3 + axis]);
-        }
+    for (std::size_t at = 0; at < boxes.size(); ++at) {
+        const std::size_t axis = at % 6;
+        bounds[axis] = axis < 3 ? std::min(bounds[axis], boxes[at]) : std::max(bounds[axis], boxes[at]);
     }
-    root["bounds"] = {{bounds[0].lower, bounds[1].lower, bounds[2].lower}, {bounds[0].upper, bounds[1].upper, bounds[2].upper}};
-    root["bounds_certainty"] = certainty == ELVIS_CERTIFIED ? "certified" : "estimated";
+    return {bounds, certainty};
 }
-
-} // namespace
 
 ordered_json describe_volume(const RuntimeVolume& volume, const DescribeOptions& options, ExtremaFinder& extrema) {
     if (options.time_step >= volume.times().size()) {
@@ -216,7 +212,9 @@ ordered_json describe_volume(const RuntimeVolume& volume, const DescribeOptions&
                                    {"geometry_order", {info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]}},
                                    {"cut", volume.is_cut(index)}});
     }
-    describe_bounds(volume, root);
+    const auto [bounds, certainty] = bounds_of(volume);
+    root["bounds"] = {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
+    root["bounds_certainty"] = certainty == ELVIS_CERTIFIED ? "certified" : "estimated";
     root["fields"] = describe_fields(volume, options, extrema);
     root["times"] = volume.times();
     root["boundary_groups"] = volume.boundary_groups();

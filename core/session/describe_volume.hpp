@@ -10,7 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace elvis {
 
@@ -23,6 +25,9 @@ struct DescribeOptions {
     /** Without what takes long: ranges of fields, Jacobians, overlaps. */
     bool is_brief = false;
 };
+
+/** min x y z, max x y z of all elements, and how sure that is. */
+std::pair<std::array<double, 6>, elvis_certainty> bounds_of(const RuntimeVolume& volume);
 
 /** Ranges that cannot be found are told with the reason. An Error if there is no such time step. */
 nlohmann::ordered_json describe_volume(const RuntimeVolume& volume, const DescribeOptions& options, ExtremaFinder& extrema);

@@ -20,8 +20,10 @@ FieldExtrema ExtremaFinder::of(const FieldChoice& field, std::uint32_t time_step
 }
 
 void ExtremaFinder::forget_fields() {
-    m_ranges.reset();
-    m_data.reset();
+    if (m_ranges) {
+        m_ranges->forget_fields();
+        m_data->forget_fields();
+    }
 }
 
 } // namespace elvis

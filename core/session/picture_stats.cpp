@@ -72,6 +72,8 @@ nlohmann::ordered_json stats_json(const Device& device, Precision precision, con
                             {"render", frame.render_milliseconds},
                             {"device", frame.device_milliseconds},
                             {"total", total}};
+    root["submissions"] = frame.submissions;
+    root["host_waits"] = frame.host_waits;
     root["counts"] = counts_json(frame.counts);
     const RendererMemory memory = renderer.memory();
     root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};

@@ -157,8 +157,11 @@ void DeviceVolume::keep(std::span<const FieldSelection> selections) {
     m_selected.clear();
 }
 
-void DeviceVolume::forget_fields() {
+void DeviceVolume::forget_fields(std::optional<std::uint32_t> only) {
     for (const std::unique_ptr<Slot>& slot : m_slots) {
+        if (only && slot->field != *only) {
+            continue;
+        }
         for (PluginBuffer& buffer : slot->buffers) {
             buffer.is_filled = false;
         }

@@ -64,8 +64,8 @@ public:
      * and so do kernels composed with it.
      */
     void select(const FieldSelection& selection);
-    /** Values of fields have changed: the next selection fills their buffers anew. */
-    void forget_fields();
+    /** Values of a field have changed, or of all: the next selection fills its buffers anew. */
+    void forget_fields(std::optional<std::uint32_t> only = {});
     /** Drops what none of these needs. */
     void keep(std::span<const FieldSelection> selections);
     /**

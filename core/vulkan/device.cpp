@@ -2,6 +2,7 @@
 #include <core/base/host.hpp>
 #include <core/base/log.hpp>
 #include <core/vulkan/check.hpp>
+#include <core/vulkan/compute_device.hpp>
 #include <core/vulkan/device_choice.hpp>
 #include <core/vulkan/device_impl.hpp>
 #include <core/vulkan/device_summary.hpp>
@@ -93,39 +94,14 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
 }
 
 void Device::Impl::create_device() {
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue_info{};
-    queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue_info.queueFamilyIndex = compute_queue_family(physical);
-    queue_info.queueCount = 1;
-    queue_info.pQueuePriorities = &priority;
-
-    VkPhysicalDeviceFeatures present{};
-    vkGetPhysicalDeviceFeatures(physical, &present);
-    VkPhysicalDeviceVulkan13Features v13{};
-    v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-    v13.maintenance4 = VK_TRUE; // Every 1.3 driver has it; glslang writes work group sizes its way for SPIR-V 1.6.
-    v13.subgroupSizeControl = required_subgroup_size != 0 ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceFeatures2 features{};
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    features.pNext = &v13;
-    features.features.shaderFloat64 = present.shaderFloat64;
-    features.features.shaderInt64 = present.shaderInt64;
-    // A plugin's snippet that reads out of bounds must not take the device down.
-    features.features.robustBufferAccess = VK_TRUE;
-
-    VkDeviceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.pNext = &features;
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue_info;
-    check_vulkan(vkCreateDevice(physical, &info, nullptr, &device), place(), "creating the device");
-    vkGetDeviceQueue(device, queue_info.queueFamilyIndex, 0, &queue);
+    device = create_compute_device(physical, {.chooses_subgroup_size = required_subgroup_size != 0}, place());
+    const std::uint32_t family = compute_queue_family(physical);
+    vkGetDeviceQueue(device, family, 0, &queue);
 
     VkCommandPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-    pool_info.queueFamilyIndex = queue_info.queueFamilyIndex;
+    pool_info.queueFamilyIndex = family;
     check_vulkan(vkCreateCommandPool(device, &pool_info, nullptr, &pool), place(), "creating the command pool");
     VkCommandBufferAllocateInfo commands_info{};
     commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -218,7 +194,9 @@ void Device::Impl::submit(const std::function<void(VkCommandBuffer)>& record) {
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands;
+    ++n_submissions;
     check_vulkan(vkQueueSubmit(queue, 1, &info, fence), place(), "submitting work");
+    ++n_host_waits;
     check_vulkan(vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX), place(), "waiting for the device");
     check_vulkan(vkResetFences(device, 1, &fence), place(), "resetting a fence");
 }
@@ -259,6 +237,7 @@ bool Device::is_validated() const { return m_impl->options.validation; }
 std::string Device::cache_key() const { return m_impl->cache_key; }
 std::uint64_t Device::allocated_bytes() const { return m_impl->allocated_bytes; }
 std::uint64_t Device::n_buffers() const { return m_impl->n_buffers; }
+DeviceWork Device::work() const { return {m_impl->n_submissions, m_impl->n_host_waits}; }
 std::uint64_t Device::n_kernels() const { return m_impl->n_kernels; }
 
 Background& Device::background() const { return m_impl->background; }

@@ -64,6 +64,11 @@ struct KernelBuild {
     std::uint64_t code_bytes = 0;
 };
 
+/** How often work was handed to the device, and how often this side waited for it. */
+struct DeviceWork {
+    std::uint64_t submissions = 0, host_waits = 0;
+};
+
 /** What data buffers are for shaders. */
 enum class DataBuffers { automatic, texel, storage };
 
@@ -124,6 +129,9 @@ public:
     /** Buffers and kernels that exist now, to tell what grows. */
     std::uint64_t n_buffers() const;
     std::uint64_t n_kernels() const;
+
+    /** So far, by all threads. */
+    DeviceWork work() const;
 
     /** Records commands, submits them and waits. A lost device is an Error that says so. */
     void submit(const std::function<void(VkCommandBuffer)>& record) const;

@@ -73,7 +73,7 @@ struct Device::Impl {
     std::unique_ptr<PipelineCache> pipelines;
     Background background{std::max(1u, std::thread::hardware_concurrency())};
     std::atomic<std::uint64_t> allocated_bytes{0};
-    std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0};
+    std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0}, n_submissions{0}, n_host_waits{0};
 
     /** Guards queue, commands and fence. */
     std::mutex submit_mutex;

@@ -1,5 +1,7 @@
 #include <core/vulkan/device_summary.hpp>
 
+#include <core/vulkan/compute_device.hpp>
+
 #include <core/vulkan/instance.hpp>
 
 #include <algorithm>
@@ -70,25 +72,6 @@ bool has_extension(VkPhysicalDevice device, const char* name) {
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
     return std::ranges::any_of(
         extensions, [&](const VkExtensionProperties& extension) { return std::strcmp(extension.extensionName, name) == 0; });
-}
-
-std::uint32_t compute_queue_family(VkPhysicalDevice device) {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    std::uint32_t found = UINT32_MAX;
-    for (std::uint32_t family = 0; family < count; ++family) {
-        const VkQueueFlags flags = families[family].queueFlags;
-        if ((flags & VK_QUEUE_COMPUTE_BIT) == 0) {
-            continue;
-        }
-        if ((flags & VK_QUEUE_GRAPHICS_BIT) == 0) {
-            return family;
-        }
-        found = std::min(found, family);
-    }
-    return found;
 }
 
 DeviceSummary summarize(VkPhysicalDevice device, std::uint32_t index) {

@@ -13,7 +13,4 @@ DeviceSummary summarize(VkPhysicalDevice device, std::uint32_t index);
 
 bool has_extension(VkPhysicalDevice device, const char* name);
 
-/** The queue family with compute to use, preferring one without graphics (asynchronous compute); none: UINT32_MAX. */
-std::uint32_t compute_queue_family(VkPhysicalDevice device);
-
 } // namespace elvis

@@ -3,6 +3,7 @@
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
+#include <core/vulkan/compute_device.hpp>
 #include <core/vulkan/device_choice.hpp>
 #include <core/vulkan/device_summary.hpp>
 #include <core/vulkan/instance.hpp>
@@ -11,6 +12,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <span>
 #include <vector>
 
 namespace elvis {
@@ -78,38 +80,16 @@ struct KernelInspector::Impl {
 };
 
 void KernelInspector::Impl::create_device() {
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue_info{};
-    queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue_info.queueFamilyIndex = compute_queue_family(physical);
-    queue_info.queueCount = 1;
-    queue_info.pQueuePriorities = &priority;
-
-    VkPhysicalDeviceFeatures present{};
-    vkGetPhysicalDeviceFeatures(physical, &present);
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR executable{};
     executable.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
     executable.pipelineExecutableInfo = VK_TRUE;
-    VkPhysicalDeviceVulkan13Features v13{};
-    v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-    v13.pNext = tells ? &executable : nullptr;
-    v13.maintenance4 = VK_TRUE;
-    v13.subgroupSizeControl = subgroup.required != 0 ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceFeatures2 features{};
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    features.pNext = &v13;
-    features.features.shaderFloat64 = present.shaderFloat64;
-    features.features.shaderInt64 = present.shaderInt64;
-    features.features.robustBufferAccess = VK_TRUE; // As where it draws (device.cpp).
-
-    VkDeviceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.pNext = &features;
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue_info;
-    info.enabledExtensionCount = tells ? 1 : 0;
-    info.ppEnabledExtensionNames = &statistics_extension;
-    check_vulkan(vkCreateDevice(physical, &info, nullptr, &device), place(), "creating the device");
+    ComputeDeviceOptions options;
+    options.chooses_subgroup_size = subgroup.required != 0;
+    if (tells) {
+        options.extensions = std::span(&statistics_extension, 1);
+        options.features = &executable;
+    }
+    device = create_compute_device(physical, options, place());
 }
 
 void KernelInspector::Impl::read_statistics(VkPipeline pipeline, KernelStatistics& statistics) const {

@@ -5,7 +5,8 @@
 // The rule may agree with itself by chance: where the field bends both ways, or around a narrow peak between samples. So slopes count, too. The
 // field between two samples is taken to be the cubic through their values and slopes. What the rule misses of that is by how much it bends.
 // Where several pieces of the transfer function hold its control points, density and light at the ends of each piece are compared with
-// those of the rule.
+// those of the rule. No step is longer than CORE_FIRST_LEVEL halvings make it, by the field's degree: the cubics between fewer samples could
+// miss a peak whole.
 //
 // The kernel brings volume/volume_light.glsl and segments/ray_sample.glsl.
 
@@ -43,7 +44,8 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
     integral.from = from;
     integral.to = to;
     integral.wants = from < to ? CORE_WANTS_LEFT : CORE_WANTS_NOTHING;
-    integral.level = integral.index = integral.n_samples = 0u;
+    integral.level = CORE_FIRST_LEVEL;
+    integral.index = integral.n_samples = 0u;
     integral.left = integral.middle = integral.right = core_optics_sample(none, none, core_optics(none, none, none, none));
     integral.error = none;
     integral.n_steps = integral.n_breakpoints = 0u;
@@ -106,7 +108,7 @@ elvis_real core_hidden_error(core_optics_sample first, core_optics_sample second
 void core_choose_dyadic_step(inout core_integral integral, bool is_taken, bool may_be_longer) {
     const uint next = integral.index + 1u;
     const bool is_over = is_taken && next >= (1u << integral.level);
-    const bool is_longer = is_taken && !is_over && (next & 1u) == 0u && may_be_longer;
+    const bool is_longer = is_taken && !is_over && (next & 1u) == 0u && may_be_longer && integral.level > CORE_FIRST_LEVEL;
     if (is_taken) {
         integral.left = integral.right;
     } else {

@@ -79,6 +79,8 @@ TEST_CASE("Several scenes are drawn by one process, each as if alone") {
         CHECK(fs::exists(place.path("buffers/" + name + ".h5")));
         const nlohmann::json stats = nlohmann::json::parse(place.read("pictures/" + name + ".json"));
         CHECK(stats["counts"]["pixels"] == (name == "boundary" ? 256 : 384));
+        CHECK(stats["submissions"].get<int>() > 3);
+        CHECK(stats["host_waits"] == stats["submissions"]); // Each is waited for, as yet.
         // Of all kernels that the process has made so far, the one that took longest first.
         REQUIRE_FALSE(stats["kernels"].empty());
         for (const nlohmann::json& kernel : stats["kernels"]) {

@@ -1,14 +1,7 @@
 # As a newcomer: installs ElVis into an empty folder, builds the examples with what is there, and runs them and Python, without any
 # variable that leads to the build.
 #   -DBUILD=build tree (everything built) -DWORK=folder to work in -DPYTHON=interpreter, or empty
-function(run)
-  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT result EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "failed: ${command}\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
+include("${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake")
 
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}")

@@ -10,6 +10,9 @@
 
 #include <dlfcn.h>
 
+#include <array>
+#include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -54,14 +57,15 @@ public:
         table.get_field_ranges = nullptr;
         table.get_field_derivative_bounds = nullptr;
         table.fill_buffer = [](elvis_volume* volume, const elvis_fill_request* request, void* destination) {
+            elvis_buffer buffer{};
+            buffer.struct_size = sizeof buffer;
+            native.get_buffer(volume, request->buffer, request->field, &buffer);
+            ++(buffer.depends == 0 ? n_fills_of_mesh : n_fills[request->field]);
             // Its own offset is multiplied, too.
             const double offset = request->field_offset[0] / factor;
             elvis_fill_request unscaled = *request;
             unscaled.field_offset = &offset;
             const elvis_result result = native.fill_buffer(volume, &unscaled, destination);
-            elvis_buffer buffer{};
-            buffer.struct_size = sizeof buffer;
-            native.get_buffer(volume, request->buffer, request->field, &buffer);
             auto* numbers = static_cast<double*>(destination);
             for (std::uint64_t at = 0; buffer.depends != 0 && at < request->count * buffer.record_size; ++at) {
                 numbers[at] *= factor;
@@ -83,6 +87,9 @@ public:
     }
 
     static inline double factor = 1;
+    /** Calls of fill_buffer, by field and for what depends on none. */
+    static inline std::array<std::atomic<int>, 2> n_fills{};
+    static inline std::atomic<int> n_fills_of_mesh = 0;
 
 private:
     static inline elvis_runtime native{};
@@ -93,7 +100,7 @@ private:
 
 std::string make_volume(const elvis::context& context, const TemporaryFolder& folder) {
     std::ofstream(folder.path("input.json")) << R"({"generator": 1, "mesh": "waves", "elements": [3, 3, 3], "geometry_order": 2,
-        "fields": [{"field": "polynomial", "name": "p", "coefficients": [[2, 1, 0, 1], [0, 0, 1, 1]]}]})";
+        "fields": [{"field": "polynomial", "name": "p", "coefficients": [[2, 1, 0, 1], [0, 0, 1, 1]]}, "sphere"]})";
     const std::string input = folder.path("input.json"), output = folder.path("volume.h5");
     auto conversion = elvis::detail::sized<elvis_conversion>();
     const char* const inputs[] = {input.c_str()};
@@ -165,6 +172,31 @@ TEST_CASE("Values that the program has changed are drawn after it says so, with 
         CHECK(context.from_runtime(table, solver.volume()).render(scene).read<double>(ELVIS_CHANNEL_COLOR) ==
               after.read<double>(ELVIS_CHANNEL_COLOR));
     }
+}
+
+TEST_CASE("Of several fields only the one that has changed is asked for again, and nothing of the mesh") {
+    const elvis::context context(own_plugins());
+    const TemporaryFolder folder;
+    const std::string path = make_volume(context, folder);
+    Solver::factor = 1;
+    const Solver solver(path);
+    elvis::data own = context.from_runtime(Solver::table(), solver.volume());
+    elvis::scene scene = plane(context);
+    scene.set("/surfaces/-", R"({"type": "plane", "plane": [1, 0.2, 0.1, -0.3], "field": "sphere"})");
+    own.render(scene);
+    const auto fills = [&] {
+        Solver::n_fills[0] = Solver::n_fills[1] = Solver::n_fills_of_mesh = 0;
+        own.render(scene);
+        return std::array<bool, 3>{Solver::n_fills[0] > 0, Solver::n_fills[1] > 0, Solver::n_fills_of_mesh > 0};
+    };
+    CHECK(fills() == std::array{false, false, false});
+    own.fields_changed(1);
+    CHECK(fills() == std::array{false, true, false});
+    own.fields_changed(0);
+    CHECK(fills() == std::array{true, false, false});
+    own.fields_changed();
+    CHECK(fills() == std::array{true, true, false});
+    CHECK_THROWS_WITH(own.fields_changed(2), Catch::Contains("2 fields"));
 }
 
 TEST_CASE("A table that lacks a function is refused by its name") {

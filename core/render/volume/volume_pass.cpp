@@ -1,3 +1,4 @@
+#include <core/expression/expression.hpp>
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/volume/volume_pass.hpp>
@@ -85,8 +86,45 @@ struct VolumePass::Picture {
     bool only_live;
 };
 
+namespace {
+
+/** Of the field in the class, along a straight line in reference coordinates; what is no polynomial counts as one of order 8.
+ */
+int degree_along_line(const RuntimeVolume& volume, std::uint32_t element_class, std::uint32_t field) {
+    constexpr int otherwise = 8;
+    const elvis_shape shape = volume.classes()[element_class].shape;
+    const bool is_simplex = shape == ELVIS_SHAPE_TETRAHEDRON || shape == ELVIS_SHAPE_TRIANGLE;
+    int sum = 0, largest = 0;
+    for (const std::int32_t order : volume.class_field(element_class, field).order) {
+        const int known = order < 0 ? otherwise : order;
+        sum += known;
+        largest = std::max(largest, known);
+    }
+    return is_simplex ? largest : sum;
+}
+
+/**
+ * How often a segment is halved at least by the adaptive rule: so that values and slopes at its samples, two intervals a step,
+ * are as many numbers as the field has along a line. With fewer a peak between samples can be missed whole.
+ */
+std::uint32_t first_level(const RuntimeVolume& volume, std::uint32_t element_class, const FieldChoice& choice) {
+    const std::vector<std::uint32_t> fields = choice.expression ? choice.expression->fields() : std::vector{choice.field};
+    int degree = 1;
+    for (const std::uint32_t field : fields) {
+        degree = std::max(degree, degree_along_line(volume, element_class, field));
+    }
+    constexpr std::uint32_t most = 4;
+    std::uint32_t level = 0;
+    while (level < most && 2 * ((2 << level) + 1) < degree + 1) {
+        ++level;
+    }
+    return level;
+}
+
+} // namespace
+
 VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_device(device), m_data(data), m_precision(data.precision()), m_walk_data(device, volume, data),
+    : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()), m_walk_data(device, volume, data),
       m_search(device, data, m_walk_data, volume, {}, false), m_models(device, volume, data),
       m_begin(device, pixel_kernel("volume/volume_begin", data.precision(), {.storage = 1}, sizeof(PixelParameters))),
       m_transparent_layer(
@@ -146,6 +184,8 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
     request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
     request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
     request.defines.emplace_back("CORE_HAS_JUMPS", m_has_jumps ? "1" : "0");
+    request.defines.emplace_back("CORE_FIRST_LEVEL",
+                                 std::to_string(first_level(m_volume, range.element_class, m_wanted.field)) + "u");
     request.bindings = buffer_bindings({.uniform = 1, .storage = 7});
     request.push_constant_bytes = sizeof(MarchParameters);
     return m_march[index].try_emplace(key, m_device, request).first->second;

@@ -47,6 +47,7 @@ private:
     void march_all(const Picture& picture, FrameCounts& counts);
 
     const Device& m_device;
+    const RuntimeVolume& m_volume;
     const DeviceVolume& m_data;
     Precision m_precision;
     WalkData m_walk_data;

@@ -19,14 +19,13 @@ namespace {
 
 /** All rows, most significant byte first. */
 std::vector<unsigned char> quantised(const Frame& frame, int bits, std::size_t n_channels) {
-    const double largest = bits == 8 ? 255.0 : 65535.0;
+    const unsigned largest = bits == 8 ? 255 : 65535;
     const std::size_t n_pixels = std::size_t{frame.width} * frame.height;
     std::vector<unsigned char> bytes;
     bytes.reserve(n_pixels * n_channels * static_cast<std::size_t>(bits / 8));
     for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
         for (std::size_t channel = 0; channel < n_channels; ++channel) {
-            const auto level =
-                static_cast<unsigned>(std::lround(largest * std::clamp(frame.color[4 * pixel + channel], 0.0, 1.0)));
+            const unsigned level = level_of(frame.color[4 * pixel + channel], largest);
             if (bits == 16) {
                 bytes.push_back(static_cast<unsigned char>(level >> 8));
             }

@@ -6,9 +6,16 @@
 
 #include <core/render/frame.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace elvis {
+
+/** Of a channel, with the largest level that a file's bits allow: 255, 65535. */
+inline unsigned level_of(double channel, unsigned largest) {
+    return static_cast<unsigned>(std::lround(largest * std::clamp(channel, 0.0, 1.0)));
+}
 
 /**
  * Writes Frame::color with `bits` (8 or 16) a channel: round(c (2^bits - 1)) after clamping, no gamma; with alpha only if some

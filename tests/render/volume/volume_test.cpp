@@ -10,7 +10,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 namespace elvis::oracle {
 namespace {
@@ -258,6 +260,73 @@ TEST_CASE("trapezoids are halved where they agree by chance") {
         CHECK(error <= request.volume->tolerance);
         CHECK(frame.counts.inexact_volume_pixels == 0);
     }
+}
+
+TEST_CASE("a narrow peak between samples of trapezoids is found, or the pixel flagged") {
+    // In every row and column another polynomial of degree 7 along x: sum of (a + b y + c z) T_n(x), with the peak at some of
+    // its places.
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+    constexpr int degree = 7;
+    std::array<std::array<double, 3>, degree + 1> weights{};
+    // Of T_n by powers of x.
+    std::array<std::array<double, degree + 1>, degree + 1> chebyshev{};
+    chebyshev[0][0] = chebyshev[1][1] = 1;
+    for (std::size_t n = 2; n <= degree; ++n)
+        for (std::size_t i = 0; i <= degree; ++i)
+            chebyshev[n][i] = (i > 0 ? 2 * chebyshev[n - 1][i - 1] : 0) - chebyshev[n - 2][i];
+    std::string coefficients;
+    std::array<std::array<double, 3>, degree + 1> powers{};
+    for (std::size_t n = 0; n <= degree; ++n)
+        for (std::size_t part = 0; part < 3; ++part) {
+            weights[n][part] = uniform(random);
+            for (std::size_t i = 0; i <= degree; ++i)
+                powers[i][part] += weights[n][part] * chebyshev[n][i];
+        }
+    for (std::size_t i = 0; i <= degree; ++i)
+        for (std::size_t part = 0; part < 3; ++part)
+            coefficients += (coefficients.empty() ? "[" : ", [") + std::to_string(i) + (part == 1 ? ", 1" : ", 0") +
+                            (part == 2 ? ", 1, " : ", 0, ") + std::to_string(powers[i][part]) + "]";
+    const TemporaryFile file("peaks.h5");
+    generate(
+        R"({"generator": 1, "mesh": "box", "elements": [1, 1, 1], "geometry_order": 1, "field": "polynomial", "coefficients": [)" +
+            coefficients + "]}",
+        file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    const double peak = 0.4, half_width = 0.03, density = 30;
+    FrameRequest request =
+        request_of({{{peak - half_width, 0}, {peak, density}, {peak + half_width, 0}}, {{0, {1, 0.5, 0}}}}, 48);
+    request.camera.eye = {5, 0, 0};
+    request.camera.look_at = {0, 0, 0};
+    request.camera.orthographic = true;
+    request.camera.height = 1.9;
+    request.volume->integrator = Integrator::adaptive_trapezoid;
+    const Frame frame = Renderer(device(), volume, Precision::float64).render(request);
+    std::size_t n_silent = 0, n_seen = 0, n_flagged = 0;
+    for (std::size_t pixel = 0; pixel < frame.counts.pixels; ++pixel) {
+        const Line ray = ray_of(request, pixel);
+        double depth = 0;
+        constexpr int n = 20000;
+        for (int k = 0; k < n; ++k) {
+            const double x = (2 * k + 1.0) / n - 1;
+            double value = 0;
+            for (std::size_t i = degree + 1; i-- > 0;)
+                value = value * x + powers[i][0] + powers[i][1] * ray.origin[1] + powers[i][2] * ray.origin[2];
+            depth += 2.0 / n * density * std::max(0.0, 1 - std::abs(value - peak) / half_width);
+        }
+        const Color expected = over({1, 0.5, 0}, std::exp(-depth), request.background);
+        double off = 0;
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            off = std::max(off, std::abs(frame.color[4 * pixel + channel] - expected[channel]));
+        const bool is_flagged = (frame.flags[pixel] & pixel_flag::volume_tolerance) != 0;
+        n_seen += depth > 0.01;
+        n_flagged += is_flagged;
+        n_silent += off > 2 * request.volume->tolerance && !is_flagged;
+    }
+    WARN(n_seen << " pixels with peaks, " << n_flagged << " flagged, " << n_silent << " silent");
+    CHECK(n_seen > 1000);
+    CHECK(n_flagged < 23);
+    CHECK(n_silent == 0);
 }
 
 TEST_CASE("random volumes with random transfer functions are what the oracle says") { check_random(5); }

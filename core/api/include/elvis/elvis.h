@@ -27,8 +27,8 @@
  * Threads. Different contexts share nothing: their functions may be called at the same time. Functions of one context, or of
  * data, scenes and pictures made with it, may be called from several threads at the same time, too. Those that need data
  * (probing, rendering, describing) take turns for each data; the device of a context is one for all its data. A scene or a
- * picture must not be changed or released while another thread uses it. Callbacks must not call functions that take what the
- * running call has (the same data); they may call elvis_context_log from anywhere.
+ * picture must not be changed or released while another thread uses it. Callbacks must not call functions that need the data of
+ * the call that runs.
  *
  * Since 0.2. Until version 1 of the library functions may change; soname and elvis_library_version tell.
  */
@@ -36,6 +36,7 @@
 #define ELVIS_ELVIS_H
 
 #include <elvis/abi.h>
+#include <elvis/arrays.h>
 #include <elvis/host.h>
 #include <elvis/runtime.h>
 
@@ -144,79 +145,6 @@ ELVIS_EXPORT elvis_result elvis_data_open(elvis_context* context, elvis_string p
 ELVIS_EXPORT elvis_result elvis_data_from_runtime(elvis_context* context, const elvis_runtime* runtime, elvis_volume* volume,
                                                   elvis_string name, elvis_data** data);
 
-typedef uint32_t elvis_basis;
-/** Vertex, edge, face and interior modes of Karniadakis and Sherwin: Modified_A, _B, _C of Nektar++. */
-#define ELVIS_BASIS_MODIFIED 0u
-/** Ortho_A, _B, _C of Nektar++. */
-#define ELVIS_BASIS_ORTHOGONAL 1u
-/** Lagrange polynomials on Gauss-Lobatto-Legendre points; hexahedra and quadrilaterals. */
-#define ELVIS_BASIS_GLL_LAGRANGE 2u
-/** Lagrange polynomials on Gauss-Legendre points; hexahedra and quadrilaterals. */
-#define ELVIS_BASIS_GAUSS_LAGRANGE 3u
-/** Products of Modified_A; pyramids. */
-#define ELVIS_BASIS_TENSOR 4u
-
-/** A space of functions on a reference shape; format.md of the native volume has bases, orders and the order of modes. */
-typedef struct elvis_space {
-    uint32_t struct_size;
-    elvis_basis basis;
-    /** In each direction, up to 16; order[2] is 0 in two dimensions; 0 0 0 is a constant. */
-    uint32_t order[3];
-    uint32_t reserved;
-    /**
-     * NULL: arrays hold coefficients of the modes. Else reference coordinates (element.h) of as many nodes as there are modes,
-     * 3 each: arrays hold values at these, in this order. They must determine the functions of the space.
-     */
-    const double* nodes;
-} elvis_space;
-
-/** Elements with the same shape and spaces. */
-typedef struct elvis_array_class {
-    uint32_t struct_size;
-    elvis_shape shape;
-    uint64_t n_elements;
-    const elvis_space* geometry_space;
-    /** Positions or coefficients: n_elements, 3, modes. */
-    const double* geometry;
-    /** Corner ids, as many an element as its shape has corners: equal ids are one corner. NULL: corners at one place are. All
-     * classes have them or none. */
-    const int64_t* corners;
-    /** Boundary group of each local face, or ELVIS_GROUP_NONE: n_elements, faces of the shape. May be NULL. */
-    const int32_t* face_groups;
-} elvis_array_class;
-
-typedef struct elvis_array_field {
-    uint32_t struct_size;
-    uint32_t n_components;
-    elvis_string name;
-    /** May be NULL. */
-    elvis_string unit;
-    elvis_continuity continuity;
-    uint32_t reserved;
-    /** One for each class. */
-    const elvis_space* spaces;
-    /** By time step, then class: an array of n_elements, n_components, modes. */
-    const double* const* values;
-} elvis_array_field;
-
-/** A volume in arrays. */
-typedef struct elvis_arrays {
-    uint32_t struct_size;
-    /** 3, or 2 for surfaces in space. */
-    uint32_t dimension;
-    uint32_t n_classes;
-    uint32_t n_fields;
-    /** 0 is 1. */
-    uint32_t n_time_steps;
-    uint32_t n_boundary_groups;
-    const elvis_array_class* classes;
-    const elvis_array_field* fields;
-    /** Of the steps; may be NULL if there is one. */
-    const double* times;
-    /** Their names. */
-    const elvis_string* boundary_groups;
-} elvis_arrays;
-
 /** Modes of a space: numbers an element and component. ELVIS_ERROR_INVALID_ARGUMENT if there is no such space. */
 ELVIS_EXPORT elvis_result elvis_space_count_modes(elvis_context* context, elvis_shape shape, const elvis_space* space,
                                                   uint64_t* n_modes);
@@ -235,11 +163,15 @@ ELVIS_EXPORT elvis_result elvis_data_from_arrays(elvis_context* context, const e
 ELVIS_EXPORT elvis_result elvis_data_update_field(elvis_data* data, uint32_t field, uint32_t time_step, uint32_t element_class,
                                                   const double* values);
 
+/** Every field of the data. */
+#define ELVIS_ALL_FIELDS 0xffffffffu
+
 /**
- * Values of fields have changed, at any time step: what rests on them is asked again, what rests on the mesh is kept. Number,
- * names and orders of fields stay. For data of elvis_data_from_runtime, whose functions give the new values from now on.
+ * Values of a field, or of ELVIS_ALL_FIELDS, have changed, at any time step: what rests on them is asked again; other fields
+ * and the mesh stay on the device. Number, names and orders of fields stay. For data of elvis_data_from_runtime, whose
+ * functions give the new values from now on.
  */
-ELVIS_EXPORT elvis_result elvis_data_fields_changed(elvis_data* data);
+ELVIS_EXPORT elvis_result elvis_data_fields_changed(elvis_data* data, uint32_t field);
 
 ELVIS_EXPORT void elvis_data_release(elvis_data* data);
 
@@ -418,7 +350,7 @@ typedef struct elvis_picture_info {
     uint32_t width, height;
     /** Sentences about the picture: see elvis_picture_get_remark. */
     uint32_t n_remarks;
-    /** Pixels that show something; of them undecided ones, and such as any flag of doubt is set of. */
+    /** Pixels that show a surface; pixels of which it is undecided what they show (flag 256, see buffers.md). */
     uint64_t n_hit_pixels, n_undecided_pixels;
     /** Time of this frame, without upload and compilation; and what the device would need with nothing else to do. */
     double render_milliseconds, device_milliseconds;

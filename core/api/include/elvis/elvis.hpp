@@ -298,7 +298,8 @@ public:
     void update_field(std::uint32_t field, std::uint32_t time_step, std::uint32_t element_class, const double* values) {
         check(elvis_data_update_field(get(), field, time_step, element_class, values));
     }
-    void fields_changed() { check(elvis_data_fields_changed(get())); }
+    /** See elvis_data_fields_changed. */
+    void fields_changed(std::uint32_t field = ELVIS_ALL_FIELDS) { check(elvis_data_fields_changed(get(), field)); }
     elvis_data* get() const { return m_handle.get(); }
 
 private:
