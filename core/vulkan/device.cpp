@@ -112,6 +112,7 @@ void Device::Impl::create_device() {
     VkFenceCreateInfo fence_info{};
     fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     check_vulkan(vkCreateFence(device, &fence_info, nullptr, &fence), place(), "creating a fence");
+    clock = std::make_unique<DeviceClock>(physical, device, family, place());
     pipelines = std::make_unique<PipelineCache>(device, cache_key);
 }
 
@@ -121,6 +122,7 @@ void Device::Impl::release() noexcept {
     }
     vkDeviceWaitIdle(device);
     pipelines.reset();
+    clock.reset();
     vkDestroyBuffer(device, staging.buffer, nullptr);
     vkFreeMemory(device, staging.memory, nullptr);
     vkDestroyFence(device, fence, nullptr);
@@ -179,7 +181,9 @@ void Device::Impl::submit(const std::function<void(VkCommandBuffer)>& record) {
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check_vulkan(vkBeginCommandBuffer(commands, &begin), place(), "recording commands");
+    clock->start(commands);
     record(commands);
+    clock->stop(commands);
     // What was written becomes visible to everything that follows: later submissions and the host.
     VkMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
@@ -198,6 +202,7 @@ void Device::Impl::submit(const std::function<void(VkCommandBuffer)>& record) {
     check_vulkan(vkQueueSubmit(queue, 1, &info, fence), place(), "submitting work");
     ++n_host_waits;
     check_vulkan(vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX), place(), "waiting for the device");
+    busy_nanoseconds += clock->nanoseconds();
     check_vulkan(vkResetFences(device, 1, &fence), place(), "resetting a fence");
 }
 

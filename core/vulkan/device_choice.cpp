@@ -3,6 +3,7 @@
 #include <core/base/error.hpp>
 #include <core/base/host.hpp>
 #include <core/vulkan/instance.hpp>
+#include <core/vulkan/vulkan_library.hpp>
 
 #include <algorithm>
 #include <array>
@@ -92,8 +93,7 @@ const DeviceSummary* find_named(const std::vector<DeviceSummary>& devices, Devic
 
 DeviceSummary choose_among(const std::vector<DeviceSummary>& devices, const std::string& wanted, DeviceUse use) {
     if (devices.empty()) {
-        throw Error("Vulkan", "this machine has no Vulkan driver; without a GPU, install a driver for the CPU (Debian package "
-                              "mesa-vulkan-drivers)");
+        throw Error("Vulkan", why_no_devices());
     }
     std::string name = wanted;
     std::string place = "device '" + wanted + "'";

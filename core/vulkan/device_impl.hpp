@@ -6,6 +6,7 @@
 
 #include <core/base/background.hpp>
 #include <core/vulkan/device.hpp>
+#include <core/vulkan/device_clock.hpp>
 #include <core/vulkan/instance.hpp>
 
 #include <algorithm>
@@ -75,8 +76,10 @@ struct Device::Impl {
     std::atomic<std::uint64_t> allocated_bytes{0};
     std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0}, n_submissions{0}, n_host_waits{0};
 
-    /** Guards queue, commands and fence. */
+    /** Guards queue, commands, fence and clock. */
     std::mutex submit_mutex;
+    std::unique_ptr<DeviceClock> clock;
+    double busy_nanoseconds = 0;
     /** Guards the staging buffer; taken before submit_mutex. */
     std::mutex staging_mutex;
     Staging staging;
