@@ -98,6 +98,14 @@ if(NOT result EQUAL 1 OR NOT output MATCHES "^elvis: [^\n]*no Vulkan loader[^\n]
   message(FATAL_ERROR "drawing without a Vulkan loader gives ${result} and: ${output}")
 endif()
 
+# A machine without GLFW, or the X11 that it needs.
+file(WRITE "${WORK}/no_glfw/libglfw.so.3" "none")
+execute_process(COMMAND "${BY_ENV}" -i "PATH=/usr/bin:/bin" "HOME=${WORK}/home" "LD_LIBRARY_PATH=${WORK}/no_glfw" "${elvis}" view ball.h5
+                WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE result ERROR_VARIABLE output)
+if(NOT result EQUAL 1 OR NOT output MATCHES "^elvis: window: GLFW cannot be loaded[^\n]*libglfw.so.3[^\n]*\n$")
+  message(FATAL_ERROR "a window without GLFW gives ${result} and: ${output}")
+endif()
+
 run(${bare} "${bundle}/tests/gpu/run" --quick -o results.json)
 file(READ "${WORK}/results.json" results)
 string(JSON failed LENGTH "${results}" failed)
