@@ -120,6 +120,7 @@ void Device::Impl::release() noexcept {
         return;
     }
     vkDeviceWaitIdle(device);
+    kept_pipelines.clear();
     pipelines.reset();
     vkDestroyBuffer(device, staging.buffer, nullptr);
     vkFreeMemory(device, staging.memory, nullptr);

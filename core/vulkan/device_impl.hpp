@@ -7,6 +7,7 @@
 #include <core/base/background.hpp>
 #include <core/vulkan/device.hpp>
 #include <core/vulkan/instance.hpp>
+#include <core/vulkan/pipeline_pool.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -71,6 +72,7 @@ struct Device::Impl {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence fence = VK_NULL_HANDLE;
     std::unique_ptr<PipelineCache> pipelines;
+    PipelinePool kept_pipelines;
     Background background{std::max(1u, std::thread::hardware_concurrency())};
     std::atomic<std::uint64_t> allocated_bytes{0};
     std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0}, n_submissions{0}, n_host_waits{0};

@@ -1,5 +1,6 @@
 #include <core/vulkan/kernel.hpp>
 
+#include <core/base/cache.hpp>
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
@@ -12,7 +13,6 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <thread>
 
 namespace elvis {
@@ -30,6 +30,16 @@ std::uint64_t groups_at_once(const Device& device) {
     // Any real GPU has fewer than 256 processors, with room for some groups each.
     constexpr std::uint64_t of_gpu = 1024;
     return device.summary().type == "cpu" ? std::max(1u, std::thread::hardware_concurrency()) : of_gpu;
+}
+
+/** All that a pipeline of a device depends on. */
+std::string key_of(std::span<const std::uint32_t> spirv, std::span<const BindingLayout> layout, std::uint32_t push_bytes) {
+    const auto bytes = std::as_bytes(spirv);
+    std::string key = content_hash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    for (const BindingLayout& binding : layout) {
+        key += ' ' + std::to_string(binding.binding) + ':' + std::to_string(static_cast<int>(binding.type));
+    }
+    return key + ' ' + std::to_string(push_bytes);
 }
 
 using Groups = std::array<std::uint32_t, 3>;
@@ -67,7 +77,7 @@ struct Kernel::Impl {
     std::vector<BindingLayout> layout;
     std::uint32_t push_constant_bytes;
     std::string name, place;
-    std::optional<KernelPipeline> pipeline;
+    PipelinePool::Pipeline pipeline;
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;
     /** Guards the descriptor set until the dispatch that uses it is over, and the pace. */
@@ -94,10 +104,12 @@ struct Kernel::Impl {
 
     void check_limits() const;
     void create_pipeline(std::span<const std::uint32_t> spirv) {
-        const Device::Impl& on = device.impl();
-        pipeline.emplace(device.handle(), spirv, layout, push_constant_bytes,
-                         KernelPipeline::Options{.cache = on.pipelines->handle(), .subgroup_size = on.required_subgroup_size},
-                         place);
+        Device::Impl& on = device.impl();
+        pipeline = on.kept_pipelines.find_or_make(key_of(spirv, layout, push_constant_bytes), [&] {
+            return std::make_shared<const KernelPipeline>(
+                device.handle(), spirv, layout, push_constant_bytes,
+                KernelPipeline::Options{.cache = on.pipelines->handle(), .subgroup_size = on.required_subgroup_size}, place);
+        });
     }
     void create_set();
     void update_set(std::span<const BoundBuffer> bindings);
