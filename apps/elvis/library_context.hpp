@@ -11,6 +11,6 @@
 namespace elvis::commands {
 
 /** With the program's plugins, cache and log. `device`: as for --device; empty: what the environment says, else the best. */
-context library_context(const std::string& device = {});
+context library_context(const std::string& device = {}, elvis_context_flags flags = 0);
 
 } // namespace elvis::commands

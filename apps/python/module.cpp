@@ -74,6 +74,33 @@ private:
     elvis_picture_info m_info;
 };
 
+class Animation {
+public:
+    Animation(context with, animation made)
+        : m_context(std::move(with)), m_animation(std::move(made)), m_info(m_animation.info()) {}
+
+    std::unique_ptr<Picture> render(std::uint32_t frame, bool color_only, const py::object& progress) const {
+        std::optional<picture> drawn;
+        run(progress, [&](const task& watch) {
+            auto options = detail::sized<elvis_render_options>();
+            options.flags = color_only ? ELVIS_RENDER_COLOR_ONLY : 0;
+            drawn.emplace(m_animation.render(frame, options, watch));
+        });
+        return std::make_unique<Picture>(m_context, std::move(*drawn));
+    }
+    std::string remarks() const {
+        const py::gil_scoped_release unlocked;
+        return m_animation.remarks();
+    }
+    std::uint32_t time_step(std::uint32_t frame) const { return m_animation.time_step(frame); }
+    const elvis_animation_info& info() const { return m_info; }
+
+private:
+    context m_context;
+    animation m_animation;
+    elvis_animation_info m_info;
+};
+
 class Volume {
 public:
     Volume(context with, data opened) : m_context(std::move(with)), m_data(std::move(opened)) {}
@@ -154,6 +181,31 @@ public:
             drawn.emplace(m_data.render(shown, options, watch));
         });
         return std::make_unique<Picture>(m_context, std::move(*drawn));
+    }
+
+    std::unique_ptr<Animation> animate(const std::string& scene_text, const std::string& folder,
+                                       const py::object& progress) const {
+        std::optional<animation> made;
+        run(progress, [&](const task&) { made.emplace(m_data.animate(m_context.parse_scene(scene_text, folder))); });
+        return std::make_unique<Animation>(m_context, std::move(*made));
+    }
+    std::vector<double> percentiles(const std::string& scene_text, const std::string& folder, const std::vector<double>& parts,
+                                    const py::object& progress) const {
+        std::vector<double> values;
+        run(progress,
+            [&](const task& watch) { values = m_data.percentiles(m_context.parse_scene(scene_text, folder), parts, watch); });
+        return values;
+    }
+    std::string pick(const std::string& scene_text, const std::string& folder, double column, double row,
+                     const py::object& progress) const {
+        std::string picked;
+        run(progress,
+            [&](const task& watch) { picked = m_data.pick(m_context.parse_scene(scene_text, folder), column, row, watch); });
+        return picked;
+    }
+    std::string complete(const std::string& scene_text, const std::string& folder) const {
+        const py::gil_scoped_release unlocked;
+        return m_context.parse_scene(scene_text, folder).completed(m_data).json();
     }
 
     void update_field(std::uint32_t field, std::uint32_t time_step, std::uint32_t element_class, const Doubles& values) {
@@ -308,7 +360,18 @@ PYBIND11_MODULE(_elvis, module) {
         .def("count_values", &Volume::count_values, py::arg("field"))
         .def("probe", &Volume::probe, py::arg("points"), py::arg("fields"), py::arg("time_step"), py::arg("progress"))
         .def("render", &Volume::render, py::arg("scene"), py::arg("folder"), py::arg("width"), py::arg("height"),
-             py::arg("color_only"), py::arg("progress"));
+             py::arg("color_only"), py::arg("progress"))
+        .def("animate", &Volume::animate, py::arg("scene"), py::arg("folder"), py::arg("progress"))
+        .def("percentiles", &Volume::percentiles, py::arg("scene"), py::arg("folder"), py::arg("parts"), py::arg("progress"))
+        .def("pick", &Volume::pick, py::arg("scene"), py::arg("folder"), py::arg("column"), py::arg("row"), py::arg("progress"))
+        .def("complete", &Volume::complete, py::arg("scene"), py::arg("folder"));
+
+    py::class_<Animation>(module, "Animation")
+        .def("render", &Animation::render, py::arg("frame"), py::arg("color_only"), py::arg("progress"))
+        .def("remarks", &Animation::remarks)
+        .def("time_step", &Animation::time_step, py::arg("frame"))
+        .def_property_readonly("n_frames", [](const Animation& all) { return all.info().n_frames; })
+        .def_property_readonly("frames_a_second", [](const Animation& all) { return all.info().frames_a_second; });
 
     py::class_<Context>(module, "Context")
         .def(py::init<const std::string&, const std::optional<std::string>&, const std::optional<std::string>&>(),

@@ -44,6 +44,10 @@ inline Context* context_of(const elvis_picture* handle) {
     return handle != nullptr ? handle->state.data->context.get() : nullptr;
 }
 
+inline Context* context_of(const elvis_animation* handle) {
+    return handle != nullptr ? handle->state.data->context.get() : nullptr;
+}
+
 /** Does `what` for the context of the caller's handle. */
 template <class Handle, class What> elvis_result call(const Handle* handle, What what) noexcept {
     Context* const context = context_of(handle);

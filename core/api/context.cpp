@@ -1,5 +1,7 @@
 #include "call.hpp"
 
+#include <core/base/log.hpp>
+
 namespace elvis::library {
 
 namespace {
@@ -17,6 +19,21 @@ nlohmann::ordered_json plugin_json(const Plugin& plugin) {
             {"version", plugin.version()},
             {"library", plugin.library().string()},
             {"kinds", kinds}};
+}
+
+/** What elvis_context_describe_file says. */
+nlohmann::ordered_json file_json(const PluginRegistry& plugins, const std::string& path) {
+    if (is_scene(path)) {
+        return {{"kind", "scene"}, {"plugin", ""}};
+    }
+    std::shared_ptr<const Plugin> plugin;
+    try {
+        plugin = plugins.runtime_for(path);
+    } catch (const Error&) {
+        // Says what is wrong if it is nobody's file.
+        return {{"kind", "foreign"}, {"plugin", plugins.converter_for(path)->id()}};
+    }
+    return {{"kind", "volume"}, {"plugin", plugin->id()}};
 }
 
 } // namespace
@@ -50,6 +67,7 @@ const Device& Context::device() {
     const std::lock_guard lock(m_mutex);
     if (!m_device) {
         m_device.emplace(wanted_device, is_validated);
+        log_line(LogLevel::info, "device: {}", m_device->summary().name);
     }
     return *m_device;
 }
@@ -96,6 +114,29 @@ elvis_result elvis_context_list_devices(elvis_context* context, char** text) {
                             {"unusable_because", device.unusable_because}});
         }
         *text = text_for_caller(list.dump(2));
+    });
+}
+
+elvis_result elvis_context_describe_device(elvis_context* context, char** text) {
+    return call(context, [&] {
+        need(text, "text");
+        const Device& device = context->state->device();
+        const nlohmann::ordered_json root = {{"name", device.summary().name},
+                                             {"type", device.summary().type},
+                                             {"driver", device.summary().driver},
+                                             {"allocated_bytes", device.allocated_bytes()},
+                                             {"n_buffers", device.n_buffers()},
+                                             {"n_kernels", device.n_kernels()},
+                                             {"validation_messages", device.validation_messages()}};
+        *text = text_for_caller(root.dump(2));
+    });
+}
+
+elvis_result elvis_context_describe_file(elvis_context* context, elvis_string path, char** text) {
+    return call(context, [&] {
+        need(path, "path");
+        need(text, "text");
+        *text = text_for_caller(file_json(*context->state->plugins, path).dump());
     });
 }
 

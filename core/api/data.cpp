@@ -28,6 +28,10 @@ Renderer& Data::renderer(Precision precision) {
     return *m_renderer;
 }
 
+FieldExtrema Data::extrema_of(const FieldChoice& field, std::uint32_t time_step) {
+    return m_renderer && field.expression ? m_renderer->ranges().extrema(field, time_step) : extrema.of(field, time_step);
+}
+
 Prober& Data::prober(ProbeOptions::Evaluation evaluation) {
     if (!m_prober || m_evaluation != evaluation) {
         m_prober.emplace(volume, ProbeOptions{evaluation, context->wanted_device});
@@ -219,6 +223,7 @@ elvis_result elvis_data_describe(elvis_data* data, const elvis_describe_options*
         how.time_step = known.time_step;
         how.is_brief = (known.flags & ELVIS_DESCRIBE_BRIEF) != 0;
         how.lists_all = (known.flags & ELVIS_DESCRIBE_ALL) != 0;
+        how.with_outline = (known.flags & ELVIS_DESCRIBE_OUTLINE) != 0;
         if ((known.flags & ELVIS_DESCRIBE_JACOBIAN_TOLERANCE) != 0) {
             how.jacobian_tolerance = known.jacobian_tolerance;
         }
@@ -232,6 +237,6 @@ elvis_result elvis_data_get_range(elvis_data* data, elvis_string field, uint32_t
         const DataTask task(*data->state, nullptr);
         const RuntimeVolume& volume = data->state->volume;
         check_step(volume, time_step);
-        give(range_of(volume, data->state->extrema.of(choose_field(volume, std::string(field)), time_step)), range, "range");
+        give(range_of(volume, data->state->extrema_of(choose_field(volume, std::string(field)), time_step)), range, "range");
     });
 }

@@ -13,7 +13,10 @@
 #include <core/probe/probe.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/scene.hpp>
+#include <core/session/animation_pictures.hpp>
 #include <core/session/extrema_finder.hpp>
+#include <core/session/picture_stats.hpp>
+#include <core/session/screen_picture.hpp>
 #include <core/session/still_picture.hpp>
 #include <core/vulkan/device.hpp>
 
@@ -25,6 +28,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <variant>
 
 namespace elvis::library {
 
@@ -60,6 +64,8 @@ struct Data {
 
     /** Of that precision; the other precision's is given up: a volume is on the device once. */
     Renderer& renderer(Precision precision);
+    /** Those of expressions are sampled where the renderer has its data, if there is one. */
+    FieldExtrema extrema_of(const FieldChoice& field, std::uint32_t time_step);
     /** Evaluating that way; the one before is given up. */
     Prober& prober(ProbeOptions::Evaluation evaluation);
     /** Values of a field, or of all, have changed. */
@@ -96,9 +102,21 @@ struct SceneState {
 struct Picture {
     std::shared_ptr<Data> data;
     Precision precision = Precision::float32;
-    StillPicture still;
-    /** JSON. */
-    std::string stats;
+    std::variant<StillPicture, ScreenPicture> drawn;
+    PictureStats stats;
+
+    const Frame& frame() const {
+        return std::visit([](const auto& picture) -> const Frame& { return picture.frame; }, drawn);
+    }
+    const std::vector<FrameRemark>& remarks() const {
+        return std::visit([](const auto& picture) -> const std::vector<FrameRemark>& { return picture.remarks; }, drawn);
+    }
+};
+
+struct Animation {
+    std::shared_ptr<Data> data;
+    Precision precision = Precision::float32;
+    AnimationPictures pictures;
 };
 
 } // namespace elvis::library
@@ -114,4 +132,7 @@ struct elvis_scene {
 };
 struct elvis_picture {
     elvis::library::Picture state;
+};
+struct elvis_animation {
+    elvis::library::Animation state;
 };

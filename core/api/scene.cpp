@@ -1,7 +1,8 @@
-#include "call.hpp"
+#include "drawing.hpp"
 
 #include <core/scene/read/json_reader.hpp>
 #include <core/scene/write/write_scene.hpp>
+#include <core/session/complete_scene.hpp>
 
 #include <filesystem>
 
@@ -95,6 +96,21 @@ elvis_result elvis_scene_copy(const elvis_scene* scene, elvis_scene** copy) {
         need(copy, "copy");
         *copy = nullptr;
         *copy = new elvis_scene(*scene);
+    });
+}
+
+elvis_result elvis_scene_complete(const elvis_scene* scene, elvis_data* data, elvis_scene** complete) {
+    return call(scene, [&] {
+        need(complete, "complete");
+        *complete = nullptr;
+        need(data, "data");
+        Data& state = *data->state;
+        const DataTask running(state, nullptr);
+        const Scene& own = scene->state.scene;
+        Scene said = complete_scene(scene_for(state, own), state.volume, state.renderer(precision_of(own)).ranges());
+        said.volume = own.volume;
+        const std::string& file = scene->state.file;
+        *complete = new elvis_scene{{scene->state.context, nlohmann::json::parse(scene_json(said, file).dump()), file, said}};
     });
 }
 

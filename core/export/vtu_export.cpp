@@ -2,10 +2,10 @@
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
+#include <core/base/output_file.hpp>
 #include <core/export/appended_data.hpp>
 #include <core/export/lagrange_nodes.hpp>
 #include <core/plugin_host/plugin.hpp>
-#include <core/scene/output/output_file.hpp>
 
 #include <algorithm>
 #include <fstream>

@@ -205,7 +205,7 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
 
 void Renderer::forget_fields(std::optional<std::uint32_t> only) {
     m_impl->passes.forget_fields();
-    m_impl->ranges.forget_fields();
+    m_impl->ranges.forget_fields(only);
     m_impl->data.forget_fields(only);
 }
 

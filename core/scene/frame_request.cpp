@@ -146,17 +146,6 @@ struct GeometryCompletion {
     }
 };
 
-/** Those that are drawn. */
-std::vector<SceneSurface> surfaces_of(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges) {
-    if (scene.surfaces.empty() && (volume.dimension() == 2 || !scene.volume_rendering)) {
-        std::string label;
-        return default_surfaces(scene.camera, volume, ranges, choose_field(scene, volume, scene.field, label), scene.time_step);
-    }
-    std::vector<SceneSurface> shown = scene.surfaces;
-    std::erase_if(shown, [](const SceneSurface& surface) { return !surface.is_shown; });
-    return shown;
-}
-
 std::string text_of(double number) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.6g", number);
@@ -277,6 +266,16 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
     return choice;
 }
 
+std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges) {
+    if (scene.surfaces.empty() && (volume.dimension() == 2 || !scene.volume_rendering)) {
+        std::string label;
+        return default_surfaces(scene.camera, volume, ranges, choose_field(scene, volume, scene.field, label), scene.time_step);
+    }
+    std::vector<SceneSurface> shown = scene.surfaces;
+    std::erase_if(shown, [](const SceneSurface& surface) { return !surface.is_shown; });
+    return shown;
+}
+
 FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges) {
     if (scene.time_step >= volume.times().size()) {
         throw Error(scene.volume, "has " + counted(volume.times().size(), "time step") + ", counted from 0; there is no step " +
@@ -288,7 +287,7 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
     request.background = scene.background;
     request.lighting = scene.lighting;
     request.time_step = scene.time_step;
-    const std::vector<SceneSurface> surfaces = surfaces_of(scene, volume, ranges);
+    const std::vector<SceneSurface> surfaces = drawn_surfaces(scene, volume, ranges);
     const VolumeExtent extent{ranges.bounds(), is_placed(scene.camera) ? std::vector<Vector3>() : ranges.outline()};
     request.camera = resolve_camera(scene, extent, planes_looked_at(surfaces, volume, ranges));
     for (const SceneSurface& surface : surfaces) {

@@ -16,6 +16,9 @@ namespace elvis {
  */
 FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::string>& text);
 
+/** The scene's surfaces that are drawn; what default_surfaces.hpp says if it shows nothing. */
+std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges);
+
 /**
  * The frame with everything decided. Without surfaces and volume rendering, the scene shows what default_surfaces.hpp says.
  * Throws Error where the scene does not suit the volume.

@@ -105,6 +105,16 @@ Camera fitted(const Camera& camera, const VolumeExtent& extent, const PictureRoo
     return result;
 }
 
+void set_camera(SceneCamera& own, const Camera& camera) {
+    own.orthographic = camera.orthographic;
+    own.eye = camera.eye;
+    own.look_at = camera.look_at;
+    own.up = camera.up;
+    own.field_of_view = camera.field_of_view;
+    own.height = camera.height;
+    own.image_shift = camera.image_shift;
+}
+
 Camera resolve_camera(const Scene& scene, const VolumeExtent& extent, std::span<const CutPlane> planes) {
     const SceneCamera& own = scene.camera;
     Camera camera;

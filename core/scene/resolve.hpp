@@ -33,6 +33,9 @@ bool is_placed(const SceneCamera& camera);
  */
 Camera resolve_camera(const Scene& scene, const VolumeExtent& extent, std::span<const CutPlane> planes);
 
+/** Says all of a camera, but for `near`, which stays. */
+void set_camera(SceneCamera& own, const Camera& camera);
+
 /** From the same direction, the volume fills the room. */
 Camera fitted(const Camera& camera, const VolumeExtent& extent, const PictureRoom& room);
 

@@ -7,6 +7,7 @@
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/overlaps.hpp>
 #include <core/render/field/field_range.hpp>
+#include <core/volume/outline.hpp>
 
 #include <elvis/native/space.hpp>
 
@@ -215,6 +216,10 @@ ordered_json describe_volume(const RuntimeVolume& volume, const DescribeOptions&
     const auto [bounds, certainty] = bounds_of(volume);
     root["bounds"] = {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
     root["bounds_certainty"] = certainty == ELVIS_CERTIFIED ? "certified" : "estimated";
+    if (options.with_outline) {
+        Background background(std::max(1u, std::thread::hardware_concurrency()));
+        root["outline"] = outline_points(volume, background);
+    }
     root["fields"] = describe_fields(volume, options, extrema);
     root["times"] = volume.times();
     root["boundary_groups"] = volume.boundary_groups();

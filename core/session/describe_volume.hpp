@@ -24,6 +24,8 @@ struct DescribeOptions {
     bool lists_all = false;
     /** Without what takes long: ranges of fields, Jacobians, overlaps. */
     bool is_brief = false;
+    /** With points far out all around (core/volume/outline.hpp). */
+    bool with_outline = false;
 };
 
 /** min x y z, max x y z of all elements, and how sure that is. */

@@ -60,28 +60,27 @@ double quantile(std::span<const double> sorted, double part) {
     return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
 }
 
-std::array<double, 2> percentile_range(const Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
-                                       const std::array<double, 2>& parts) {
-    need_samples(volume);
-    Prober prober(volume);
+std::vector<double> percentiles(Prober& prober, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
+                                const Scene& scene, std::span<const double> parts, const TaskControl& control) {
     Scene at_step = scene;
     std::vector<double> values;
     for (const std::uint32_t step : scene.range_steps.empty() ? std::vector{scene.time_step} : scene.range_steps) {
         at_step.time_step = step;
         for (unsigned piece = 0; piece < n_pieces; ++piece) {
+            control.check();
             const std::vector<double> some = field_samples(prober, volume, bounds, at_step, scene.field, piece);
             values.insert(values.end(), some.begin(), some.end());
         }
     }
     if (values.empty()) {
-        throw Error("--range", "percentiles are of finite values at points in elements, and none was found");
+        throw Error("percentiles", "are of finite values at points in elements, and none was found");
     }
     std::ranges::sort(values);
-    const std::array<double, 2> range = {quantile(values, parts[0]), quantile(values, parts[1])};
-    if (!(range[0] < range[1])) {
-        throw Error("--range", "both percentiles are " + std::to_string(range[0]) + ": colours need a range of numbers here");
+    std::vector<double> result;
+    for (const double part : parts) {
+        result.push_back(quantile(values, part));
     }
-    return range;
+    return result;
 }
 
 } // namespace elvis

@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include <core/base/cancel.hpp>
 #include <core/probe/probe.hpp>
 #include <core/scene/scene.hpp>
 
@@ -36,9 +37,9 @@ double quantile(std::span<const double> sorted, double part);
 
 /**
  * Values of the scene's field below which these parts of the volume lie, over the scene's range steps. Throws Error where
- * nothing of it could be sampled, or both are one value.
+ * nothing of it could be sampled.
  */
-std::array<double, 2> percentile_range(const Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
-                                       const std::array<double, 2>& parts);
+std::vector<double> percentiles(Prober& prober, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
+                                const Scene& scene, std::span<const double> parts, const TaskControl& control);
 
 } // namespace elvis

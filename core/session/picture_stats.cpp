@@ -1,9 +1,13 @@
 #include <core/session/picture_stats.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <functional>
 
 namespace elvis {
+
+namespace {
 
 nlohmann::ordered_json counts_json(const FrameCounts& counts) {
     return {{"pixels", counts.pixels},
@@ -57,31 +61,29 @@ nlohmann::ordered_json kernels_json(std::vector<KernelBuild> builds) {
     return list;
 }
 
-nlohmann::ordered_json stats_json(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer,
-                                  double load, double total, const std::vector<double>& repeated) {
+} // namespace
+
+PictureStats::PictureStats(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer)
+    : m_device(device.summary().name), m_driver(device.summary().driver), m_precision(precision), m_times(renderer.times()),
+      m_memory(renderer.memory()), m_render_milliseconds(frame.render_milliseconds),
+      m_device_milliseconds(frame.device_milliseconds), m_submissions(frame.submissions), m_host_waits(frame.host_waits),
+      m_counts(frame.counts), m_kernels(device.kernel_builds()) {}
+
+std::string PictureStats::json() const {
     nlohmann::ordered_json root;
-    root["device"] = device.summary().name;
-    root["driver"] = device.summary().driver;
-    root["precision"] = name_of(precision);
-    const RendererTimes& times = renderer.times();
-    root["milliseconds"] = {{"load", load},
-                            {"upload", times.upload_milliseconds},
-                            {"hierarchy", times.hierarchy_milliseconds},
-                            {"overlaps", times.overlaps_milliseconds},
-                            {"compile", times.compile_milliseconds},
-                            {"render", frame.render_milliseconds},
-                            {"device", frame.device_milliseconds},
-                            {"total", total}};
-    root["submissions"] = frame.submissions;
-    root["host_waits"] = frame.host_waits;
-    root["counts"] = counts_json(frame.counts);
-    const RendererMemory memory = renderer.memory();
-    root["bytes"] = {{"field", memory.field_bytes}, {"geometry", memory.geometry_bytes}, {"hierarchy", memory.hierarchy_bytes}};
-    root["kernels"] = kernels_json(device.kernel_builds());
-    if (!repeated.empty()) {
-        root["frame_milliseconds"] = repeated;
-    }
-    return root;
+    root["device"] = m_device;
+    root["driver"] = m_driver;
+    root["precision"] = name_of(m_precision);
+    root["milliseconds"] = {{"upload", m_times.upload_milliseconds},     {"hierarchy", m_times.hierarchy_milliseconds},
+                            {"overlaps", m_times.overlaps_milliseconds}, {"compile", m_times.compile_milliseconds},
+                            {"render", m_render_milliseconds},           {"device", m_device_milliseconds}};
+    root["submissions"] = m_submissions;
+    root["host_waits"] = m_host_waits;
+    root["counts"] = counts_json(m_counts);
+    root["bytes"] = {
+        {"field", m_memory.field_bytes}, {"geometry", m_memory.geometry_bytes}, {"hierarchy", m_memory.hierarchy_bytes}};
+    root["kernels"] = kernels_json(m_kernels);
+    return root.dump(2);
 }
 
 } // namespace elvis

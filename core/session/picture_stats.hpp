@@ -1,22 +1,36 @@
 /**
  * @file picture_stats.hpp
- * What `elvis render` says of the pictures that it has drawn.
+ * What a picture took.
  */
 #pragma once
 
 #include <core/render/renderer.hpp>
 #include <core/vulkan/device.hpp>
 
-#include <nlohmann/json.hpp>
-
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace elvis {
 
-nlohmann::ordered_json counts_json(const FrameCounts& counts);
+/** What is known of a picture once it is drawn. */
+class PictureStats {
+public:
+    PictureStats() = default;
+    PictureStats(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer);
 
-/** Of --stats; times of loading and of the whole in milliseconds, and those of repeated frames. */
-nlohmann::ordered_json stats_json(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer,
-                                  double load, double total, const std::vector<double>& repeated);
+    /** Device, times in milliseconds, counts, memory, kernels. */
+    std::string json() const;
+
+private:
+    std::string m_device, m_driver;
+    Precision m_precision = Precision::float32;
+    RendererTimes m_times;
+    RendererMemory m_memory;
+    double m_render_milliseconds = 0, m_device_milliseconds = 0;
+    std::uint64_t m_submissions = 0, m_host_waits = 0;
+    FrameCounts m_counts;
+    std::vector<KernelBuild> m_kernels;
+};
 
 } // namespace elvis

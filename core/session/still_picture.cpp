@@ -9,9 +9,6 @@
 
 namespace elvis {
 
-namespace {
-
-/** Of the request: what its makers say, and the density that people did not choose. */
 std::vector<FrameRemark> remarks_on(const Scene& scene, const FrameRequest& request) {
     std::vector<FrameRemark> remarks;
     for (const std::string& text : request.remarks) {
@@ -26,13 +23,10 @@ std::vector<FrameRemark> remarks_on(const Scene& scene, const FrameRequest& requ
     return remarks;
 }
 
-} // namespace
-
-StillPicture draw_still(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options,
-                        const TaskControl* control) {
+StillPicture draw_request(const Scene& scene, FrameRequest request, const RuntimeVolume& volume, Renderer& renderer,
+                          const StillOptions& options, const TaskControl* control) {
     StillPicture still;
-    still.request = make_frame_request(scene, volume, renderer.ranges());
-    still.remarks = remarks_on(scene, still.request);
+    still.request = std::move(request);
     still.request.with_buffers = options.with_buffers;
     still.request.sharing = options.sharing;
     still.frame = renderer.render(still.request, control);
@@ -42,13 +36,22 @@ StillPicture draw_still(const Scene& scene, const RuntimeVolume& volume, Rendere
             still.remarks.push_back({true, "annotation: there is no room for the " + name});
         }
     }
+    for (FrameRemark& remark : remarks_on(still.frame.counts)) {
+        still.remarks.push_back(std::move(remark));
+    }
+    return still;
+}
+
+StillPicture draw_still(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options,
+                        const TaskControl* control) {
+    const FrameRequest request = make_frame_request(scene, volume, renderer.ranges());
+    std::vector<FrameRemark> remarks = remarks_on(scene, request);
+    StillPicture still = draw_request(scene, request, volume, renderer, options, control);
+    still.remarks.insert(still.remarks.begin(), remarks.begin(), remarks.end());
     MissedSurfaces missed;
     missed.add(still.request, still.frame);
     for (const std::string& text : missed.remarks(scene, still.request, renderer.ranges())) {
         still.remarks.push_back({true, text});
-    }
-    for (FrameRemark& remark : remarks_on(still.frame.counts)) {
-        still.remarks.push_back(std::move(remark));
     }
     return still;
 }

@@ -31,4 +31,11 @@ struct StillPicture {
 StillPicture draw_still(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options,
                         const TaskControl* control = nullptr);
 
+/** The picture of a request that was made of the scene. Remarks are those on this frame alone. */
+StillPicture draw_request(const Scene& scene, FrameRequest request, const RuntimeVolume& volume, Renderer& renderer,
+                          const StillOptions& options, const TaskControl* control);
+
+/** What people should know of a request: what its makers say, and the density that people did not choose. */
+std::vector<FrameRemark> remarks_on(const Scene& scene, const FrameRequest& request);
+
 } // namespace elvis

@@ -86,8 +86,10 @@ Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageF
 void Allocation::release() noexcept {
     if (m_buffer != VK_NULL_HANDLE) {
         Device::Impl& impl = m_device->impl();
-        vkDestroyBuffer(impl.device, m_buffer, nullptr);
-        vkFreeMemory(impl.device, m_memory, nullptr); // Also unmaps.
+        impl.queue->when_done([device = impl.device, buffer = m_buffer, memory = m_memory] {
+            vkDestroyBuffer(device, buffer, nullptr);
+            vkFreeMemory(device, memory, nullptr); // Also unmaps.
+        });
         impl.allocated_bytes -= m_allocated;
         --impl.n_buffers;
     }
@@ -119,11 +121,15 @@ void Allocation::write(std::uint64_t offset, std::uint64_t bytes, std::uint64_t 
     if (bytes == 0) {
         return;
     }
+    Device::Impl& impl = m_device->impl();
+    if (impl.queue->is_pending() && write_in_turn(offset, bytes, produce)) {
+        return;
+    }
     if (m_mapped != nullptr) {
+        impl.queue->finish(); // It may read what is replaced.
         produce(0, {m_mapped + offset, static_cast<std::size_t>(bytes)});
         return;
     }
-    Device::Impl& impl = m_device->impl();
     const std::uint64_t piece = Device::Impl::staging_bytes / granularity * granularity;
     assert(piece > 0);
     const std::lock_guard lock(impl.staging_mutex);
@@ -131,8 +137,21 @@ void Allocation::write(std::uint64_t offset, std::uint64_t bytes, std::uint64_t 
     for (std::uint64_t done = 0; done < bytes; done += piece) {
         const VkBufferCopy region{0, offset + done, std::min(piece, bytes - done)};
         produce(done, {staging.mapped, static_cast<std::size_t>(region.size)});
-        impl.submit([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, staging.buffer, m_buffer, 1, &region); });
+        impl.queue->record([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, staging.buffer, m_buffer, 1, &region); });
+        impl.queue->finish(); // The staging buffer is used again.
     }
+}
+
+bool Allocation::write_in_turn(std::uint64_t offset, std::uint64_t bytes, const Producer& produce) const {
+    constexpr std::uint64_t most = 65536; // Of vkCmdUpdateBuffer, as that all are multiples of 4.
+    if (bytes > most || offset % 4 != 0 || bytes % 4 != 0) {
+        return false;
+    }
+    std::vector<std::byte> data(static_cast<std::size_t>(bytes));
+    produce(0, data);
+    m_device->record(
+        [&](VkCommandBuffer commands) { vkCmdUpdateBuffer(commands, m_buffer, offset, bytes, data.data()); });
+    return true;
 }
 
 void Allocation::read(std::uint64_t offset, std::span<std::byte> data) const {
@@ -140,22 +159,24 @@ void Allocation::read(std::uint64_t offset, std::span<std::byte> data) const {
     if (data.empty()) {
         return;
     }
+    Device::Impl& impl = m_device->impl();
     if (m_mapped != nullptr) {
+        impl.queue->finish();
         std::memcpy(data.data(), m_mapped + offset, data.size());
         return;
     }
-    Device::Impl& impl = m_device->impl();
     const std::lock_guard lock(impl.staging_mutex);
     const Staging& staging = impl.use_staging();
     for (std::uint64_t done = 0; done < data.size(); done += Device::Impl::staging_bytes) {
         const VkBufferCopy region{offset + done, 0, std::min<std::uint64_t>(Device::Impl::staging_bytes, data.size() - done)};
-        impl.submit([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, m_buffer, staging.buffer, 1, &region); });
+        impl.queue->record([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, m_buffer, staging.buffer, 1, &region); });
+        impl.queue->finish();
         std::memcpy(data.data() + done, staging.mapped, static_cast<std::size_t>(region.size));
     }
 }
 
 void Allocation::fill(std::uint32_t word) const {
-    m_device->submit([&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, m_buffer, 0, VK_WHOLE_SIZE, word); });
+    m_device->record([&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, m_buffer, 0, VK_WHOLE_SIZE, word); });
 }
 
 } // namespace elvis

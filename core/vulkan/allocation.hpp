@@ -39,6 +39,8 @@ public:
 
 private:
     void release() noexcept;
+    /** Among the commands that are pending, if it is small. */
+    bool write_in_turn(std::uint64_t offset, std::uint64_t bytes, const Producer& produce) const;
 
     const Device* m_device = nullptr;
     std::uint64_t m_bytes = 0;

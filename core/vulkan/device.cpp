@@ -45,6 +45,15 @@ DeviceOptions DeviceOptions::from_environment(std::string wanted) {
         throw Error("$ELVIS_DATA_BUFFERS", "'" + buffers + "' is neither 'texel' nor 'storage'");
     }
 
+    const std::string submissions = variable("ELVIS_SUBMISSIONS");
+    if (submissions == "single") {
+        options.submissions = Submissions::single;
+    } else if (submissions == "collected") {
+        options.submissions = Submissions::collected;
+    } else if (!submissions.empty()) {
+        throw Error("$ELVIS_SUBMISSIONS", "'" + submissions + "' is neither 'single' nor 'collected'");
+    }
+
     const std::string bytes = variable("ELVIS_MAX_BINDING_BYTES");
     const auto [end, failure] = std::from_chars(bytes.data(), bytes.data() + bytes.size(), options.max_binding_bytes);
     if (!bytes.empty() && (failure != std::errc() || end != bytes.data() + bytes.size())) {
@@ -96,23 +105,9 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
 void Device::Impl::create_device() {
     device = create_compute_device(physical, {.chooses_subgroup_size = required_subgroup_size != 0}, place());
     const std::uint32_t family = compute_queue_family(physical);
-    vkGetDeviceQueue(device, family, 0, &queue);
-
-    VkCommandPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-    pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-    pool_info.queueFamilyIndex = family;
-    check_vulkan(vkCreateCommandPool(device, &pool_info, nullptr, &pool), place(), "creating the command pool");
-    VkCommandBufferAllocateInfo commands_info{};
-    commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-    commands_info.commandPool = pool;
-    commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    commands_info.commandBufferCount = 1;
-    check_vulkan(vkAllocateCommandBuffers(device, &commands_info, &commands), place(), "allocating commands");
-    VkFenceCreateInfo fence_info{};
-    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    check_vulkan(vkCreateFence(device, &fence_info, nullptr, &fence), place(), "creating a fence");
-    clock = std::make_unique<DeviceClock>(physical, device, family, place());
+    const bool collects =
+        options.submissions == Submissions::automatic ? summary.type == "discrete" : options.submissions == Submissions::collected;
+    queue = std::make_unique<CommandQueue>(physical, device, family, collects, place());
     pipelines = std::make_unique<PipelineCache>(device, cache_key);
 }
 
@@ -121,12 +116,11 @@ void Device::Impl::release() noexcept {
         return;
     }
     vkDeviceWaitIdle(device);
+    queue.reset();
+    kept_pipelines.clear();
     pipelines.reset();
-    clock.reset();
     vkDestroyBuffer(device, staging.buffer, nullptr);
     vkFreeMemory(device, staging.memory, nullptr);
-    vkDestroyFence(device, fence, nullptr);
-    vkDestroyCommandPool(device, pool, nullptr);
     vkDestroyDevice(device, nullptr);
     device = VK_NULL_HANDLE;
 }
@@ -174,38 +168,6 @@ Staging& Device::Impl::use_staging() {
     return staging;
 }
 
-void Device::Impl::submit(const std::function<void(VkCommandBuffer)>& record) {
-    const std::lock_guard lock(submit_mutex);
-    check_vulkan(vkResetCommandPool(device, pool, 0), place(), "resetting commands");
-    VkCommandBufferBeginInfo begin{};
-    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check_vulkan(vkBeginCommandBuffer(commands, &begin), place(), "recording commands");
-    clock->start(commands);
-    record(commands);
-    clock->stop(commands);
-    // What was written becomes visible to everything that follows: later submissions and the host.
-    VkMemoryBarrier barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
-                         nullptr);
-    check_vulkan(vkEndCommandBuffer(commands), place(), "recording commands");
-
-    VkSubmitInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-    info.commandBufferCount = 1;
-    info.pCommandBuffers = &commands;
-    ++n_submissions;
-    check_vulkan(vkQueueSubmit(queue, 1, &info, fence), place(), "submitting work");
-    ++n_host_waits;
-    check_vulkan(vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX), place(), "waiting for the device");
-    busy_nanoseconds += clock->nanoseconds();
-    check_vulkan(vkResetFences(device, 1, &fence), place(), "resetting a fence");
-}
-
 const TaskControl* Device::Impl::task() {
     const std::lock_guard lock(tasks_mutex);
     const auto found = tasks.find(std::this_thread::get_id());
@@ -242,7 +204,7 @@ bool Device::is_validated() const { return m_impl->options.validation; }
 std::string Device::cache_key() const { return m_impl->cache_key; }
 std::uint64_t Device::allocated_bytes() const { return m_impl->allocated_bytes; }
 std::uint64_t Device::n_buffers() const { return m_impl->n_buffers; }
-DeviceWork Device::work() const { return {m_impl->n_submissions, m_impl->n_host_waits}; }
+DeviceWork Device::work() const { return {m_impl->queue->n_submissions, m_impl->queue->n_host_waits}; }
 std::uint64_t Device::n_kernels() const { return m_impl->n_kernels; }
 
 Background& Device::background() const { return m_impl->background; }
@@ -278,7 +240,9 @@ std::vector<std::string> Device::validation_messages() const {
     return log.messages;
 }
 
-void Device::submit(const std::function<void(VkCommandBuffer)>& record) const { m_impl->submit(record); }
+void Device::record(const std::function<void(VkCommandBuffer)>& record) const { m_impl->queue->record(record); }
+
+void Device::finish() const { m_impl->queue->finish(); }
 
 void Device::check_task() const {
     if (const TaskControl* control = m_impl->task()) {

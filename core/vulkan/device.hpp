@@ -72,6 +72,12 @@ struct DeviceWork {
 /** What data buffers are for shaders. */
 enum class DataBuffers { automatic, texel, storage };
 
+/**
+ * When the device is given what it is to do. single: each kernel alone, in parts of bounded time, so that drivers' time limits
+ * are kept, a window's work comes in between, and a task can be stopped. collected: all until a result is wanted.
+ */
+enum class Submissions { automatic, single, collected };
+
 struct DeviceOptions {
     /** As for choose_device. */
     std::string wanted;
@@ -85,12 +91,14 @@ struct DeviceOptions {
     std::uint32_t subgroup_size = 0;
     /** Called with every kernel that is composed, from several threads at once; may be empty. */
     std::function<void(const KernelCode&)> on_kernel;
+    /** automatic: collected on graphics cards, single elsewhere. */
+    Submissions submissions = Submissions::automatic;
     /** Copy through a staging buffer even where the device's memory can be mapped. */
     bool always_stage = false;
 
     /**
-     * The options of $ELVIS_VALIDATION (1), $ELVIS_DATA_BUFFERS (texel, storage), $ELVIS_MAX_BINDING_BYTES (a number) and
-     * $ELVIS_STAGING (1). An Error if one has no meaning.
+     * The options of $ELVIS_VALIDATION (1), $ELVIS_DATA_BUFFERS (texel, storage), $ELVIS_MAX_BINDING_BYTES (a number),
+     * $ELVIS_STAGING (1), and $ELVIS_SUBMISSIONS (single, collected). An Error if one has no meaning.
      */
     static DeviceOptions from_environment(std::string wanted = {});
 };
@@ -133,8 +141,10 @@ public:
     /** So far, by all threads. */
     DeviceWork work() const;
 
-    /** Records commands, submits them and waits. A lost device is an Error that says so. */
-    void submit(const std::function<void(VkCommandBuffer)>& record) const;
+    /** Records commands, which see what those before have written, and are done at the latest when finish() returns. */
+    void record(const std::function<void(VkCommandBuffer)>& record) const;
+    /** Waits until all that was recorded has been done. Buffers that are read do so by themselves. A lost device is an Error. */
+    void finish() const;
 
     /** Throws Cancelled if this thread's task is to stop (DeviceTask). Kernels ask before each part of their work. */
     void check_task() const;

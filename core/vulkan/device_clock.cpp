@@ -54,9 +54,7 @@ double DeviceClock::nanoseconds() const {
 }
 
 std::optional<double> busy_milliseconds(const Device& device) {
-    Device::Impl& impl = device.impl();
-    const std::lock_guard lock(impl.submit_mutex);
-    return impl.clock->is_there() ? std::optional(1e-6 * impl.busy_nanoseconds) : std::nullopt;
+    return device.impl().queue->busy_milliseconds();
 }
 
 } // namespace elvis

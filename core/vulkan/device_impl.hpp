@@ -5,9 +5,10 @@
 #pragma once
 
 #include <core/base/background.hpp>
+#include <core/vulkan/command_queue.hpp>
 #include <core/vulkan/device.hpp>
-#include <core/vulkan/device_clock.hpp>
 #include <core/vulkan/instance.hpp>
+#include <core/vulkan/pipeline_pool.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -67,20 +68,14 @@ struct Device::Impl {
     std::string cache_key;
 
     VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkFence fence = VK_NULL_HANDLE;
+    std::unique_ptr<CommandQueue> queue;
     std::unique_ptr<PipelineCache> pipelines;
+    PipelinePool kept_pipelines;
     Background background{std::max(1u, std::thread::hardware_concurrency())};
     std::atomic<std::uint64_t> allocated_bytes{0};
-    std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0}, n_submissions{0}, n_host_waits{0};
+    std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0};
 
-    /** Guards queue, commands, fence and clock. */
-    std::mutex submit_mutex;
-    std::unique_ptr<DeviceClock> clock;
-    double busy_nanoseconds = 0;
-    /** Guards the staging buffer; taken before submit_mutex. */
+    /** Guards the staging buffer; taken before the queue's. */
     std::mutex staging_mutex;
     Staging staging;
     /** Guards the builds. */
@@ -101,7 +96,6 @@ struct Device::Impl {
     std::uint32_t memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
     /** Needs staging_mutex. Makes the staging buffer when it is first needed. */
     Staging& use_staging();
-    void submit(const std::function<void(VkCommandBuffer)>& record);
     /** Of this thread; null if there is none. */
     const TaskControl* task();
     void set_task(const TaskControl* control);

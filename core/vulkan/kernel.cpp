@@ -1,8 +1,10 @@
 #include <core/vulkan/kernel.hpp>
 
+#include <core/base/cache.hpp>
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
+#include <core/vulkan/descriptor_sets.hpp>
 #include <core/vulkan/device_impl.hpp>
 #include <core/vulkan/dispatch_pace.hpp>
 
@@ -12,7 +14,6 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <thread>
 
 namespace elvis {
@@ -30,6 +31,16 @@ std::uint64_t groups_at_once(const Device& device) {
     // Any real GPU has fewer than 256 processors, with room for some groups each.
     constexpr std::uint64_t of_gpu = 1024;
     return device.summary().type == "cpu" ? std::max(1u, std::thread::hardware_concurrency()) : of_gpu;
+}
+
+/** All that a pipeline of a device depends on. */
+std::string key_of(std::span<const std::uint32_t> spirv, std::span<const BindingLayout> layout, std::uint32_t push_bytes) {
+    const auto bytes = std::as_bytes(spirv);
+    std::string key = content_hash({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    for (const BindingLayout& binding : layout) {
+        key += ' ' + std::to_string(binding.binding) + ':' + std::to_string(static_cast<int>(binding.type));
+    }
+    return key + ' ' + std::to_string(push_bytes);
 }
 
 using Groups = std::array<std::uint32_t, 3>;
@@ -60,6 +71,12 @@ DispatchPart next_part(const Groups& all, std::uint64_t done, std::uint64_t n_wa
     return part;
 }
 
+const BoundBuffer& bound_at(std::span<const BoundBuffer> bindings, std::uint32_t binding) {
+    const auto found = std::ranges::find(bindings, binding, &BoundBuffer::binding);
+    assert(found != bindings.end() && (found->buffer != nullptr) != (found->records != nullptr));
+    return *found;
+}
+
 } // namespace
 
 struct Kernel::Impl {
@@ -67,10 +84,10 @@ struct Kernel::Impl {
     std::vector<BindingLayout> layout;
     std::uint32_t push_constant_bytes;
     std::string name, place;
-    std::optional<KernelPipeline> pipeline;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    /** Guards the descriptor set until the dispatch that uses it is over, and the pace. */
+    PipelinePool::Pipeline pipeline;
+    /** With the pipeline, whose layout they have; none if there is nothing to bind. */
+    std::shared_ptr<DescriptorSets> sets;
+    /** Guards the pace, and the order of a dispatch's parts. */
     std::mutex mutex;
     DispatchPace pace;
 
@@ -82,7 +99,7 @@ struct Kernel::Impl {
 
     ~Impl() {
         --device.impl().n_kernels;
-        vkDestroyDescriptorPool(device.handle(), pool, nullptr);
+        device.impl().queue->when_done([held = std::pair(std::move(sets), std::move(pipeline))]() mutable { held = {}; });
     }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -94,14 +111,19 @@ struct Kernel::Impl {
 
     void check_limits() const;
     void create_pipeline(std::span<const std::uint32_t> spirv) {
-        const Device::Impl& on = device.impl();
-        pipeline.emplace(device.handle(), spirv, layout, push_constant_bytes,
-                         KernelPipeline::Options{.cache = on.pipelines->handle(), .subgroup_size = on.required_subgroup_size},
-                         place);
+        Device::Impl& on = device.impl();
+        pipeline = on.kept_pipelines.find_or_make(key_of(spirv, layout, push_constant_bytes), [&] {
+            return std::make_shared<const KernelPipeline>(
+                device.handle(), spirv, layout, push_constant_bytes,
+                KernelPipeline::Options{.cache = on.pipelines->handle(), .subgroup_size = on.required_subgroup_size}, place);
+        });
     }
-    void create_set();
-    void update_set(std::span<const BoundBuffer> bindings);
-    void run(const DispatchPart& part, std::span<const std::byte> push_constants);
+    void check_bindings(std::span<const BoundBuffer> bindings) const;
+    /** Bound in a set of its own. */
+    VkDescriptorSet bound(std::span<const BoundBuffer> bindings);
+    void run(const DispatchPart& part, std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants);
+    void run_in_parts(const Groups& first, const Groups& groups, std::span<const BoundBuffer> bindings,
+                      std::span<const std::byte> push_constants);
 };
 
 void Kernel::Impl::check_limits() const {
@@ -113,54 +135,34 @@ void Kernel::Impl::check_limits() const {
     check_limit(push_constant_bytes, limits.maxPushConstantsSize, place, "bytes of push constants");
 }
 
-void Kernel::Impl::create_set() {
-    if (layout.empty()) {
-        return;
-    }
-    std::vector<VkDescriptorPoolSize> sizes;
-    for (const BindingType type : {BindingType::storage_buffer, BindingType::uniform_buffer, BindingType::texel_buffer}) {
-        if (const std::uint32_t n = count(type); n > 0) {
-            sizes.push_back({descriptor_type(type), n});
+void Kernel::Impl::check_bindings(std::span<const BoundBuffer> bindings) const {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    for (const BindingLayout& binding : layout) {
+        const Buffer* const buffer = bound_at(bindings, binding.binding).buffer;
+        const std::uint64_t limit =
+            binding.type == BindingType::uniform_buffer ? limits.maxUniformBufferRange : limits.maxStorageBufferRange;
+        if (buffer != nullptr && buffer->bytes() > limit) {
+            throw Error(place, "a buffer of " + std::to_string(buffer->bytes()) + " bytes at binding " +
+                                   std::to_string(binding.binding) + ", the device binds at most " + std::to_string(limit));
         }
     }
-    VkDescriptorPoolCreateInfo pool_info{};
-    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    pool_info.maxSets = 1;
-    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    pool_info.pPoolSizes = sizes.data();
-    check_vulkan(vkCreateDescriptorPool(device.handle(), &pool_info, nullptr, &pool), place, "creating its descriptors");
-    VkDescriptorSetAllocateInfo set_info{};
-    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    set_info.descriptorPool = pool;
-    set_info.descriptorSetCount = 1;
-    const VkDescriptorSetLayout set_layout = pipeline->set_layout();
-    set_info.pSetLayouts = &set_layout;
-    check_vulkan(vkAllocateDescriptorSets(device.handle(), &set_info, &set), place, "creating its descriptors");
 }
 
 // The set is written anew for each dispatch (about a microsecond): comparing handles would not tell a buffer from a later one
 // whose handle happens to be the same.
-void Kernel::Impl::update_set(std::span<const BoundBuffer> bindings) {
+VkDescriptorSet Kernel::Impl::bound(std::span<const BoundBuffer> bindings) {
+    const VkDescriptorSet set = sets->next(device.impl().queue->submission());
     std::vector<VkDescriptorBufferInfo> buffers(layout.size());
     std::vector<VkBufferView> views(layout.size(), VK_NULL_HANDLE);
     std::vector<VkWriteDescriptorSet> writes(layout.size());
     for (std::size_t i = 0; i < layout.size(); ++i) {
         const BindingLayout& binding = layout[i];
-        const auto bound = std::find_if(bindings.begin(), bindings.end(),
-                                        [&](const BoundBuffer& candidate) { return candidate.binding == binding.binding; });
-        assert(bound != bindings.end() && (bound->buffer != nullptr) != (bound->records != nullptr));
-        if (bound->records != nullptr) {
-            buffers[i] = {bound->records->part(bound->part), 0, VK_WHOLE_SIZE};
-            views[i] = bound->records->part_view(bound->part);
+        const BoundBuffer& bound = bound_at(bindings, binding.binding);
+        if (bound.records != nullptr) {
+            buffers[i] = {bound.records->part(bound.part), 0, VK_WHOLE_SIZE};
+            views[i] = bound.records->part_view(bound.part);
         } else {
-            buffers[i] = {bound->buffer->handle(), 0, VK_WHOLE_SIZE};
-            const VkPhysicalDeviceLimits& limits = device.limits();
-            const std::uint64_t limit =
-                binding.type == BindingType::uniform_buffer ? limits.maxUniformBufferRange : limits.maxStorageBufferRange;
-            if (bound->buffer->bytes() > limit) {
-                throw Error(place, "a buffer of " + std::to_string(bound->buffer->bytes()) + " bytes at binding " +
-                                       std::to_string(binding.binding) + ", the device binds at most " + std::to_string(limit));
-            }
+            buffers[i] = {bound.buffer->handle(), 0, VK_WHOLE_SIZE};
         }
         writes[i] = {};
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
@@ -172,12 +174,15 @@ void Kernel::Impl::update_set(std::span<const BoundBuffer> bindings) {
         writes[i].pTexelBufferView = &views[i];
     }
     vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+    return set;
 }
 
-void Kernel::Impl::run(const DispatchPart& part, std::span<const std::byte> push_constants) {
-    device.submit([&](VkCommandBuffer commands) {
+void Kernel::Impl::run(const DispatchPart& part, std::span<const BoundBuffer> bindings,
+                       std::span<const std::byte> push_constants) {
+    device.record([&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle());
-        if (set != VK_NULL_HANDLE) {
+        if (sets) {
+            const VkDescriptorSet set = bound(bindings);
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout(), 0, 1, &set, 0, nullptr);
         }
         if (!push_constants.empty()) {
@@ -186,6 +191,25 @@ void Kernel::Impl::run(const DispatchPart& part, std::span<const std::byte> push
         }
         vkCmdDispatchBase(commands, part.first[0], part.first[1], part.first[2], part.count[0], part.count[1], part.count[2]);
     });
+}
+
+void Kernel::Impl::run_in_parts(const Groups& first, const Groups& groups, std::span<const BoundBuffer> bindings,
+                                std::span<const std::byte> push_constants) {
+    const std::uint64_t n_groups = std::uint64_t{groups[0]} * groups[1] * groups[2];
+    double all_milliseconds = 0;
+    for (std::uint64_t done = 0; done < n_groups;) {
+        device.check_task();
+        DispatchPart part = next_part(groups, done, pace.next(n_groups - done));
+        std::transform(first.begin(), first.end(), part.first.begin(), part.first.begin(), std::plus<>());
+        const auto start = std::chrono::steady_clock::now();
+        run(part, bindings, push_constants);
+        const double milliseconds = milliseconds_since(start);
+        pace.took(part.n_groups(), milliseconds);
+        all_milliseconds += milliseconds;
+        done += part.n_groups();
+    }
+    const std::lock_guard times_lock(device.impl().times_mutex);
+    device.impl().times[name] += all_milliseconds;
 }
 
 std::vector<BindingLayout> buffer_bindings(const BufferCounts& counts) {
@@ -201,7 +225,10 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::
     : m_impl(std::make_unique<Impl>(device, std::move(layout), push_constant_bytes, std::move(name))) {
     m_impl->check_limits();
     m_impl->create_pipeline(spirv);
-    m_impl->create_set();
+    if (!m_impl->layout.empty()) {
+        m_impl->sets = std::make_shared<DescriptorSets>(device.handle(), m_impl->pipeline->set_layout(), m_impl->layout,
+                                                        m_impl->place);
+    }
 }
 
 Kernel::~Kernel() = default;
@@ -224,23 +251,14 @@ void Kernel::dispatch_from(const Groups& first, std::span<const BoundBuffer> bin
         check_limit(std::size_t{first[axis]} + groups[axis], impl.device.limits().maxComputeWorkGroupCount[axis], impl.place,
                     "work groups in one direction");
     }
+    impl.check_bindings(bindings);
     const std::lock_guard lock(impl.mutex);
-    impl.update_set(bindings);
-    const std::uint64_t n_groups = std::uint64_t{groups[0]} * groups[1] * groups[2];
-    double all_milliseconds = 0;
-    for (std::uint64_t done = 0; done < n_groups;) {
+    if (impl.device.impl().queue->collects()) {
         impl.device.check_task();
-        DispatchPart part = next_part(groups, done, impl.pace.next(n_groups - done));
-        std::transform(first.begin(), first.end(), part.first.begin(), part.first.begin(), std::plus<>());
-        const auto start = std::chrono::steady_clock::now();
-        impl.run(part, push_constants);
-        const double milliseconds = milliseconds_since(start);
-        impl.pace.took(part.n_groups(), milliseconds);
-        all_milliseconds += milliseconds;
-        done += part.n_groups();
+        impl.run({first, groups}, bindings, push_constants);
+    } else {
+        impl.run_in_parts(first, groups, bindings, push_constants);
     }
-    const std::lock_guard times_lock(impl.device.impl().times_mutex);
-    impl.device.impl().times[impl.name] += all_milliseconds;
 }
 
 } // namespace elvis

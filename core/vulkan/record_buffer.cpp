@@ -13,22 +13,25 @@ namespace {
 
 class BufferView {
 public:
-    BufferView(const Device& device, VkBuffer buffer, VkFormat format) : m_device(device.handle()) {
+    BufferView(const Device& device, VkBuffer buffer, VkFormat format) : m_device(device) {
         VkBufferViewCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
         info.buffer = buffer;
         info.format = format;
         info.range = VK_WHOLE_SIZE;
-        check_vulkan(vkCreateBufferView(m_device, &info, nullptr, &m_view), device.impl().place(), "creating a buffer view");
+        check_vulkan(vkCreateBufferView(device.handle(), &info, nullptr, &m_view), device.impl().place(), "creating a buffer view");
     }
-    ~BufferView() { vkDestroyBufferView(m_device, m_view, nullptr); }
+    ~BufferView() {
+        m_device.impl().queue->when_done(
+            [device = m_device.handle(), view = m_view] { vkDestroyBufferView(device, view, nullptr); });
+    }
     BufferView(const BufferView&) = delete;
     BufferView& operator=(const BufferView&) = delete;
 
     VkBufferView handle() const { return m_view; }
 
 private:
-    VkDevice m_device;
+    const Device& m_device;
     VkBufferView m_view = VK_NULL_HANDLE;
 };
 

@@ -1,7 +1,7 @@
 /*
  * libelvis as programs see it: through elvis.hpp, from the shared library.
  */
-#include <elvis/elvis.hpp>
+#include "some_volume.hpp"
 
 #include <tests/support/files.hpp>
 
@@ -21,31 +21,10 @@ extern "C" int elvis_is_usable_from_c(void);
 namespace {
 
 using Catch::Contains;
+using elvis::test::convert;
+using elvis::test::own_plugins;
 using elvis::test::read_file;
 using elvis::test::TemporaryFolder;
-
-elvis_context_options own_plugins() {
-    auto options = elvis::detail::sized<elvis_context_options>();
-    options.plugin_path = ELVIS_TEST_PLUGINS;
-    return options;
-}
-
-/** 27 bent hexahedra with the field x^2 y + z. */
-constexpr const char* description = R"({"generator": 1, "mesh": "waves", "elements": [3, 3, 3], "geometry_order": 2,
-    "fields": [{"field": "polynomial", "name": "p", "coefficients": [[2, 1, 0, 1], [0, 0, 1, 1]]}]})";
-
-std::string convert(const elvis::context& context, const TemporaryFolder& folder) {
-    const std::string input = folder.path("input.json"), output = folder.path("volume.h5");
-    std::ofstream(input) << description;
-    auto conversion = elvis::detail::sized<elvis_conversion>();
-    const char* const inputs[] = {input.c_str()};
-    conversion.n_inputs = 1;
-    conversion.inputs = inputs;
-    conversion.output = output.c_str();
-    conversion.order = -1;
-    CHECK_THAT(context.convert(conversion), Contains("\"exact\": true"));
-    return output;
-}
 
 /** A small lit picture with all kinds of surfaces. */
 elvis::scene some_scene(const elvis::context& context) {

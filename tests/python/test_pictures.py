@@ -56,6 +56,30 @@ class Pictures(WithVolume):
         with self.assertRaisesRegex(elvis.Error, "COLOR_ONLY"):
             colors.depth
 
+    def test_an_animation_is_a_sequence_of_pictures(self):
+        scene = self.scene()
+        scene.animation.turntable = elvis.Turntable(frames=3)
+        animation = self.volume.animate(scene)
+        self.assertEqual(len(animation), 3)
+        pictures = [picture.color for picture in animation]
+        np.testing.assert_array_equal(pictures[0], scene.render().color)
+        np.testing.assert_array_equal(pictures[2], animation[-1].color)
+        self.assertFalse(np.array_equal(pictures[0], pictures[1]))
+        self.assertEqual(animation.remarks, [])
+        with self.assertRaises(IndexError):
+            animation[3]
+
+    def test_points_are_picked_and_scenes_completed(self):
+        scene = self.scene()
+        picked = self.volume.pick(scene, 32, 24)
+        x, y, z = picked["position"]
+        self.assertAlmostEqual(picked["fields"][0]["values"][0], x * x * y + z, places=9)
+        complete = self.volume.complete(scene)
+        self.assertEqual(len(complete.camera.eye), 3)
+        np.testing.assert_array_equal(complete.render().color, scene.render().color)
+        low, high = self.volume.percentiles([0.1, 0.9], "p")
+        self.assertLess(low, high)
+
     def test_the_first_picture_of_all_is_that_of_the_launcher(self):
         subprocess.run([os.environ["ELVIS_PROGRAM"], "render", self.path("volume.h5"), "--size", "64x48", "-o", self.path("l.png")],
                        check=True)

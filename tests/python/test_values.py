@@ -86,7 +86,8 @@ class Values(WithVolume):
         things = [None, -1, 0, 10**12, 1.5, float("nan"), "", "p", "p+", "norm(", b"p", [], [[]], [["p"]], {}, object(), np.zeros(3),
                   np.zeros((2, 2)), np.zeros((1, 3)), np.full((2, 3), np.inf), np.zeros((2, 3), dtype=complex)]
         calls = [self.volume.probe, self.volume.range, self.volume.info, self.volume.scene, self.volume.render, elvis.open,
-                 elvis.convert, elvis.Scene.read, elvis.Surface, elvis.from_arrays, elvis.Space, self.volume.update_field]
+                 elvis.convert, elvis.Scene.read, elvis.Surface, elvis.from_arrays, elvis.Space, self.volume.update_field, self.volume.animate, self.volume.pick, self.volume.percentiles,
+                 self.volume.complete]
         n_errors = 0
         for _ in range(200):
             arguments = [rng.choice(things) for _ in range(rng.randint(0, 3))]

@@ -22,7 +22,7 @@ DeviceOptions validated(bool always_stage) {
 template <class T>
 std::vector<T> read_part(const Device& device, const RecordBuffer& records, std::uint32_t part, std::size_t n) {
     const Buffer copy(device, n * sizeof(T));
-    device.submit([&](VkCommandBuffer commands) {
+    device.record([&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, n * sizeof(T)};
         vkCmdCopyBuffer(commands, records.part(part), copy.handle(), 1, &region);
     });

@@ -4,7 +4,7 @@
 #include <apps/elvis/commands.hpp>
 #include <apps/elvis/unknown_word.hpp>
 
-#include <core/scene/output/output_file.hpp>
+#include <core/base/output_file.hpp>
 
 #include <algorithm>
 #include <cctype>

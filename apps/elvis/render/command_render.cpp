@@ -3,7 +3,8 @@
 #include <apps/elvis/commands.hpp>
 
 #include <core/base/error.hpp>
-#include <core/scene/color/color_map.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -15,13 +16,19 @@ namespace {
 
 void run(const RenderArguments& arguments) {
     if (arguments.schema) {
-        std::printf("%s", std::string(scene_schema_text()).c_str());
+        std::printf("%s", elvis_scene_schema());
         return;
     }
     if (arguments.inputs.empty() || arguments.output.empty()) {
         throw UsageError("render", "needs a scene or volume, and -o OUT.png; see elvis render --help");
     }
     render_scenes(arguments);
+}
+
+/** What the schema of scenes allows there. */
+std::vector<std::string> words_of(const char* pointer) {
+    static const nlohmann::json schema = nlohmann::json::parse(elvis_scene_schema());
+    return schema.at(nlohmann::json::json_pointer(pointer)).at("enum").get<std::vector<std::string>>();
 }
 
 /** The option's library takes nan and inf for numbers, and nan for one in any range. */
@@ -55,12 +62,8 @@ void add_volume(CLI::App& command, RenderArguments& a) {
     command.add_option("--volume", a.volume,
                        "File of a transfer function (JSON, own or ParaView's) for the volume itself; default: the colour map, "
                        "with density from its lower to its upper end; none");
-    std::vector<std::string> integrators;
-    for (const auto& [name, integrator] : integrator_names()) {
-        integrators.push_back(name);
-    }
     command.add_option("--integrator", a.integrator, "Along rays through the volume; exact by default")
-        ->check(CLI::IsMember(integrators));
+        ->check(CLI::IsMember(words_of("/properties/volume_rendering/properties/integrator")));
     command.add_option("--volume-step", a.volume_step, "World length of steps, of riemann, trapezoid and categories")
         ->check(CLI::PositiveNumber)
         ->check(finite_number());
@@ -76,7 +79,7 @@ void add_lines_and_colors(CLI::App& command, RenderArguments& a) {
         ->expected(0, 1);
     command.add_flag("--mesh-lines", a.mesh_lines, "Draw where boundaries of elements meet the surfaces");
     std::string maps;
-    for (const std::string& name : color_map_names()) {
+    for (const std::string& name : words_of("/$defs/color_map/properties/name")) {
         maps += (maps.empty() ? "" : ", ") + name;
     }
     command.add_option("--color-map", a.color_map,
@@ -111,10 +114,8 @@ void add_picture(CLI::App& command, RenderArguments& a) {
     command.add_option("--annotation", a.annotation, "none, or default: color bars, axes and a title")
         ->check(CLI::IsMember({"none", "default"}));
     command.add_option("--size", a.size, "WIDTHxHEIGHT");
-    command
-        .add_option_function<std::string>(
-            "--precision", [&a](const std::string& name) { a.precision = precision_named(name); }, "float32 or float64")
-        ->check(CLI::IsMember({name_of(Precision::float32), name_of(Precision::float64)}));
+    command.add_option("--precision", a.precision, "float32 or float64")
+        ->check(CLI::IsMember(words_of("/properties/precision")));
     command.add_option("--device", a.device, "Name (or part of it), index, PCI bus id or UUID of the Vulkan device");
 }
 

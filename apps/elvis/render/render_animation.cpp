@@ -6,70 +6,89 @@
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
-#include <core/scene/frame_request.hpp>
-#include <core/scene/output/output_file.hpp>
-#include <core/scene/output/png_file.hpp>
-#include <core/session/missed_surfaces.hpp>
-#include <core/session/picture_stats.hpp>
+#include <core/base/output_file.hpp>
 
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 
 namespace elvis::commands {
 
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::ordered_json;
 
 /** The same for one run and the next, however many pictures there are. */
 constexpr const char* name_pattern = "frame_%04d.png";
 
-fs::path name_of(std::size_t frame) {
+fs::path name_of(std::uint32_t frame) {
     char name[32];
-    std::snprintf(name, sizeof name, "frame_%04zu.png", frame);
+    std::snprintf(name, sizeof name, "frame_%04u.png", frame);
     return name;
 }
 
-/** Of each time step; the colours stay the same over all of them. */
-class Requests {
+/** One entry of --stats. */
+ordered_json entry_of(std::uint32_t frame, const fs::path& file, std::uint32_t time_step, const picture& drawn) {
+    const auto stats = ordered_json::parse(drawn.stats());
+    return {{"frame", frame},
+            {"file", file.string()},
+            {"time_step", time_step},
+            {"render_milliseconds", stats["milliseconds"]["render"]},
+            {"device_milliseconds", stats["milliseconds"]["device"]},
+            {"counts", stats["counts"]}};
+}
+
+/** Draws pictures into a folder. */
+class Pictures {
 public:
-    Requests(const Scene& scene, const std::vector<std::uint32_t>& steps, const RuntimeVolume& volume, VolumeRanges& ranges)
-        : m_scene(scene), m_volume(volume), m_ranges(ranges) {
-        m_scene.range_steps = steps;
-        m_scene.time_step = steps.empty() ? scene.time_step : steps.front();
+    Pictures(const RenderArguments& arguments, const animation& of)
+        : m_arguments(arguments), m_animation(of), m_n_frames(of.info().n_frames), m_folder(arguments.output) {
+        m_options.flags = sharing_of(arguments) | ELVIS_RENDER_COLOR_ONLY;
     }
 
-    const FrameRequest& of(std::uint32_t time_step) {
-        auto found = m_requests.find(time_step);
-        if (found == m_requests.end()) {
-            m_scene.time_step = time_step;
-            found = m_requests.try_emplace(time_step, make_frame_request(m_scene, m_volume, m_ranges)).first;
-            found->second.with_buffers = false;
-            for (const std::string& remark : found->second.remarks) {
-                spdlog::warn("time step {}: {}", time_step, remark);
+    void draw_all() {
+        fs::create_directories(m_folder);
+        TaskControl control;
+        const InterruptGuard interrupts(control);
+        const ProgressBar progress(control);
+        for (std::uint32_t frame = 0; frame < m_n_frames; ++frame) {
+            if (m_arguments.resume && fs::exists(m_folder / name_of(frame))) {
+                ++m_n_kept;
+                continue;
             }
+            control.progress(static_cast<double>(frame) / m_n_frames, name_of(frame).string());
+            draw(frame, control);
         }
-        return found->second;
+        spdlog::info("{} in {}, {} of them kept", counted(m_n_frames, "picture"), m_folder.string(), m_n_kept);
     }
-    std::uint32_t first_step() const { return m_scene.range_steps.empty() ? m_scene.time_step : m_scene.range_steps.front(); }
+
+    std::uint32_t n_frames() const { return m_n_frames; }
+    std::uint32_t n_kept() const { return m_n_kept; }
+    /** Those that were drawn, as --stats has them. */
+    const ordered_json& entries() const { return m_entries; }
 
 private:
-    Scene m_scene;
-    const RuntimeVolume& m_volume;
-    VolumeRanges& m_ranges;
-    std::map<std::uint32_t, FrameRequest> m_requests;
+    void draw(std::uint32_t frame, TaskControl& control) {
+        const picture drawn = m_animation.render(frame, m_options, {{}, [&] { return control.is_cancelled(); }});
+        drawn.write_png((m_folder / name_of(frame)).string(), static_cast<std::uint32_t>(m_arguments.bits));
+        say(drawn.remarks(), name_of(frame).string() + ": ");
+        m_entries.push_back(entry_of(frame, name_of(frame), m_animation.time_step(frame), drawn));
+    }
+
+    const RenderArguments& m_arguments;
+    const animation& m_animation;
+    elvis_render_options m_options = detail::sized<elvis_render_options>();
+    std::uint32_t m_n_frames, m_n_kept = 0;
+    fs::path m_folder;
+    ordered_json m_entries = ordered_json::array();
 };
 
 } // namespace
 
-void check_animation(const RenderArguments& arguments, const Scene& scene) {
-    if (!scene.animation) {
-        return;
-    }
+void check_animation(const RenderArguments& arguments) {
     for (const auto& [option, is_given] :
          {std::pair{"--buffers", !arguments.buffers.empty()}, std::pair{"--repeat", arguments.repeat > 0}}) {
         if (is_given) {
@@ -88,66 +107,23 @@ void check_animation(const RenderArguments& arguments, const Scene& scene) {
     }
 }
 
-std::vector<std::uint32_t> drawn_steps(const Scene& scene, const RuntimeVolume& volume) {
-    const auto& wanted = scene.animation->time_steps;
-    return wanted ? steps_of(*wanted, volume.times().size(), scene.volume) : std::vector<std::uint32_t>{};
-}
-
-void render_animation(const RenderArguments& arguments, const Scene& scene, const Device& device, const RuntimeVolume& volume,
-                      Renderer& renderer) {
-    const SceneAnimation& animation = *scene.animation;
-    const std::vector<std::uint32_t> steps = drawn_steps(scene, volume);
-    Requests requests(scene, steps, volume, renderer.ranges());
-    const std::vector<AnimationFrame> frames =
-        animation_frames(animation, steps, scene.time_step, requests.of(requests.first_step()).camera);
-    const fs::path folder = arguments.output;
-    fs::create_directories(folder);
-    TaskControl control;
-    const InterruptGuard interrupts(control);
-    const ProgressBar progress(control);
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    std::size_t n_kept = 0;
-    MissedSurfaces missed;
-    for (std::size_t number = 0; number < frames.size(); ++number) {
-        const fs::path path = folder / name_of(number);
-        if (arguments.resume && fs::exists(path)) {
-            ++n_kept;
-            continue;
-        }
-        control.progress(static_cast<double>(number) / static_cast<double>(frames.size()), path.filename().string());
-        FrameRequest request = requests.of(frames[number].time_step);
-        request.camera = frames[number].camera;
-        request.sharing = sharing_of(arguments);
-        Frame frame = renderer.render(request, &control);
-        if (scene.annotation) {
-            const AnnotationRequest annotation = make_annotation_request(*scene.annotation, request, frame, volume);
-            for (const std::string& name : annotate(frame, annotation)) {
-                spdlog::warn("annotation of {}: there is no room for the {}", path.filename().string(), name);
-            }
-        }
-        write_png(frame, path.string(), arguments.bits);
-        missed.add(request, frame);
-        say(remarks_on(frame.counts));
-        list.push_back({{"frame", number},
-                        {"file", path.filename().string()},
-                        {"time_step", request.time_step},
-                        {"render_milliseconds", frame.render_milliseconds},
-                        {"device_milliseconds", frame.device_milliseconds},
-                        {"counts", counts_json(frame.counts)}});
-    }
+void render_animation(const RenderArguments& arguments, const scene& shown, const data& volume, const context& library) {
+    const animation frames = volume.animate(shown);
+    Pictures pictures(arguments, frames);
+    pictures.draw_all();
     // Pictures that were kept may show anything.
-    if (n_kept == 0) {
-        for (const std::string& remark : missed.remarks(scene, requests.of(requests.first_step()), renderer.ranges())) {
+    if (pictures.n_kept() == 0) {
+        for (const std::string remark : ordered_json::parse(frames.remarks())) {
             spdlog::warn("in all pictures, {}", remark);
         }
     }
-    spdlog::info("{} in {}, {} of them kept", counted(frames.size(), "picture"), folder.string(), n_kept);
     if (!arguments.stats.empty()) {
-        const nlohmann::ordered_json root = {{"device", device.summary().name}, {"n_frames", frames.size()}, {"frames", list}};
+        const std::string device = ordered_json::parse(library.describe_device())["name"];
+        const ordered_json root = {{"device", device}, {"n_frames", pictures.n_frames()}, {"frames", pictures.entries()}};
         write_text_file(arguments.stats, root.dump(2) + "\n");
     }
     if (!arguments.film.empty()) {
-        make_film(folder / name_pattern, animation.frames_a_second, arguments.film);
+        make_film(fs::path(arguments.output) / name_pattern, frames.info().frames_a_second, arguments.film);
     }
 }
 

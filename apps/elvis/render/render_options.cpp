@@ -1,7 +1,8 @@
 #include "render_options.hpp"
 
 #include <core/base/error.hpp>
-#include <core/scene/line_width.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,8 @@
 namespace elvis::commands {
 
 namespace {
+
+using nlohmann::json;
 
 /** "1,0,0,-0.5" as that many finite numbers. */
 std::vector<double> numbers(const char* option, const std::string& text, std::size_t least, std::size_t most) {
@@ -41,139 +44,173 @@ std::vector<double> numbers(const char* option, const std::string& text, std::si
     return list;
 }
 
-Vector3 vector3(const char* option, const std::string& text) {
-    const std::vector<double> list = numbers(option, text, 3, 3);
-    return {list[0], list[1], list[2]};
-}
+std::vector<double> vector3(const char* option, const std::string& text) { return numbers(option, text, 3, 3); }
+
+/** What a scene says, and may be told. */
+class Document {
+public:
+    explicit Document(scene& of) : m_scene(of) {}
+
+    bool has(const char* pointer) const { return json::parse(m_scene.json()).contains(json::json_pointer(pointer)); }
+    json at(const char* pointer) const { return json::parse(m_scene.json(pointer)); }
+    void set(const std::string& pointer, const json& value) { m_scene.set(pointer, value.dump()); }
+    void remove(const char* pointer) {
+        if (has(pointer)) {
+            m_scene.remove(pointer);
+        }
+    }
+
+private:
+    scene& m_scene;
+};
+
+/** Of the command line, seen from the working directory, whatever folder the scene is in. */
+std::string whole_path(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
 
 /** Surfaces of the command line stand instead of those of the file. */
-void apply_surfaces(const RenderArguments& arguments, Scene& scene) {
+void apply_surfaces(const RenderArguments& arguments, Document& scene) {
     if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty()) {
-        scene.surfaces.clear();
+        scene.remove("/surfaces");
+        scene.remove("/isosurfaces");
     }
     for (const std::string& text : arguments.cut_planes) {
-        const std::vector<double> list = numbers("--cut-plane", text, 4, 4);
-        if (list[0] == 0 && list[1] == 0 && list[2] == 0) {
+        const std::vector<double> plane = numbers("--cut-plane", text, 4, 4);
+        if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0) {
             throw UsageError("--cut-plane", "'" + text + "' has a normal of length zero");
         }
-        scene.surfaces.push_back({CutPlane{{list[0], list[1], list[2], list[3]}}});
+        scene.set("/surfaces/-", {{"type", "plane"}, {"plane", plane}});
     }
     if (arguments.boundary) {
-        scene.surfaces.push_back({BoundaryFaces{arguments.boundary_groups}});
+        json boundary = {{"type", "boundary"}};
+        if (!arguments.boundary_groups.empty()) {
+            boundary["groups"] = arguments.boundary_groups;
+        }
+        scene.set("/surfaces/-", boundary);
     }
     if (!arguments.isovalues.empty()) {
-        Isosurfaces isosurfaces;
-        isosurfaces.values = arguments.isovalues;
-        std::sort(isosurfaces.values.begin(), isosurfaces.values.end());
-        scene.surfaces.push_back({std::move(isosurfaces)});
+        std::vector<double> values = arguments.isovalues;
+        std::sort(values.begin(), values.end());
+        scene.set("/surfaces/-", {{"type", "isosurface"}, {"values", values}});
     }
+}
+
+void apply_lines(const RenderArguments& arguments, Document& scene) {
     if (arguments.has_contours) {
-        scene.contours = SceneContours{};
-        scene.contours->style.width = width_by_size;
-        scene.contours->is_round = arguments.contours.empty();
+        json contours = json::object();
         if (!arguments.contours.empty()) {
-            scene.contours->values = numbers("--contours", arguments.contours, 1, 1000);
-            std::sort(scene.contours->values.begin(), scene.contours->values.end());
+            std::vector<double> values = numbers("--contours", arguments.contours, 1, 1000);
+            std::sort(values.begin(), values.end());
+            contours["values"] = values;
         }
+        scene.set("/contours", contours);
     }
     if (arguments.mesh_lines) {
-        scene.mesh_lines = SceneLineStyle{};
+        scene.set("/mesh_lines", json::object());
     }
 }
 
 /** A volume rendering of the command line stands instead of that of the file; how it is integrated, beside. */
-void apply_volume(const RenderArguments& arguments, Scene& scene) {
+void apply_volume(const RenderArguments& arguments, Document& scene) {
     if (arguments.volume == "none") {
-        scene.volume_rendering.reset();
+        scene.remove("/volume_rendering");
+    } else if (arguments.volume == "default") {
+        scene.set("/volume_rendering", json::object());
     } else if (!arguments.volume.empty()) {
-        scene.volume_rendering = SceneVolumeRendering{};
-        scene.volume_rendering->transfer_file = arguments.volume == "default" ? "" : arguments.volume;
+        scene.set("/volume_rendering", {{"transfer", whole_path(arguments.volume)}});
     }
     for (const auto& [option, is_given] :
          {std::pair{"--integrator", !arguments.integrator.empty()}, std::pair{"--volume-step", arguments.volume_step > 0},
           std::pair{"--volume-tolerance", arguments.volume_tolerance > 0}}) {
-        if (is_given && !scene.volume_rendering) {
+        if (is_given && !scene.has("/volume_rendering")) {
             throw UsageError(option, "means nothing without --volume, or a scene with volume_rendering");
         }
     }
     if (!arguments.integrator.empty()) {
-        scene.volume_rendering->integrator = integrator_named(arguments.integrator).value();
+        scene.set("/volume_rendering/integrator", arguments.integrator);
     }
+    const bool has_tolerance = !scene.has("/volume_rendering/integrator") ||
+                               scene.at("/volume_rendering/integrator") == "exact" ||
+                               scene.at("/volume_rendering/integrator") == "adaptive-trapezoid";
     if (arguments.volume_step > 0) {
-        if (!has_steps(scene.volume_rendering->integrator)) {
+        if (has_tolerance) {
             throw UsageError("--volume-step", "is of the integrators riemann, trapezoid and categories only");
         }
-        scene.volume_rendering->step = arguments.volume_step;
+        scene.set("/volume_rendering/step", arguments.volume_step);
     }
     if (arguments.volume_tolerance > 0) {
-        if (has_steps(scene.volume_rendering->integrator)) {
+        if (!has_tolerance) {
             throw UsageError("--volume-tolerance", "is of the integrators exact and adaptive-trapezoid only");
         }
-        scene.volume_rendering->tolerance = arguments.volume_tolerance;
+        scene.set("/volume_rendering/tolerance", arguments.volume_tolerance);
     }
 }
 
-/** Pictures over time or around the volume; a path of the file stays beside the command line's steps, and the other way round.
- */
-void apply_animation(const RenderArguments& arguments, Scene& scene) {
-    if (arguments.time_steps.empty() && arguments.turntable == 0 && !scene.animation) {
-        for (const auto& [option, is_given] :
-             {std::pair{"--film", !arguments.film.empty()}, std::pair{"--frames-a-second", arguments.frames_a_second > 0},
-              std::pair{"--turntable-axis", !arguments.turntable_axis.empty()}, std::pair{"--resume", arguments.resume}}) {
-            if (is_given) {
-                throw UsageError(option, "means nothing without --time-steps, --turntable, or a scene with animation");
-            }
+/** Options of animations where there is none. */
+void refuse_animation_options(const RenderArguments& arguments) {
+    for (const auto& [option, is_given] :
+         {std::pair{"--film", !arguments.film.empty()}, std::pair{"--frames-a-second", arguments.frames_a_second > 0},
+          std::pair{"--turntable-axis", !arguments.turntable_axis.empty()}, std::pair{"--resume", arguments.resume}}) {
+        if (is_given) {
+            throw UsageError(option, "means nothing without --time-steps, --turntable, or a scene with animation");
         }
-        return;
     }
-    SceneAnimation animation = scene.animation.value_or(SceneAnimation{});
+}
+
+/**
+ * Pictures over time or around the volume; a path of the file stays beside the command line's steps, and the other way round.
+ */
+void apply_animation(const RenderArguments& arguments, Document& scene) {
+    const bool has_animation = scene.has("/animation");
+    if (arguments.time_steps.empty() && arguments.turntable == 0 && !has_animation) {
+        return refuse_animation_options(arguments);
+    }
+    json animation = has_animation ? scene.at("/animation") : json::object();
     if (!arguments.time_steps.empty()) {
-        animation.time_steps = parse_time_steps(arguments.time_steps);
-        if (!animation.time_steps) {
+        try {
+            scene.set("/animation/time_steps", arguments.time_steps);
+        } catch (const error&) {
             throw UsageError("--time-steps", "'" + arguments.time_steps + "' is neither all, FIRST:LAST nor FIRST:LAST:STRIDE");
         }
+        animation["time_steps"] = arguments.time_steps;
     }
     if (arguments.turntable > 0) {
-        animation.turntable = Turntable{static_cast<std::uint32_t>(arguments.turntable), std::nullopt, 360};
-        animation.key_frames.clear();
+        animation["turntable"] = {{"frames", arguments.turntable}};
+        animation.erase("key_frames");
     }
     if (!arguments.turntable_axis.empty()) {
-        if (!animation.turntable) {
+        if (!animation.contains("turntable")) {
             throw UsageError("--turntable-axis", "means nothing without --turntable");
         }
-        animation.turntable->axis = vector3("--turntable-axis", arguments.turntable_axis);
-        if (*animation.turntable->axis == Vector3{}) {
+        const std::vector<double> axis = vector3("--turntable-axis", arguments.turntable_axis);
+        if (axis == std::vector<double>(3, 0.0)) {
             throw UsageError("--turntable-axis", "'" + arguments.turntable_axis + "' has length zero");
         }
+        animation["turntable"]["axis"] = axis;
     }
     if (arguments.frames_a_second > 0) {
-        animation.frames_a_second = arguments.frames_a_second;
+        animation["frames_a_second"] = arguments.frames_a_second;
     }
-    scene.animation = std::move(animation);
+    scene.set("/animation", animation);
 }
 
 } // namespace
 
-Sharing sharing_of(const RenderArguments& arguments) {
-    if (arguments.share.empty()) {
-        return {};
-    }
-    if (arguments.share == "all") {
-        return Sharing::all();
-    }
-    if (arguments.share == "none") {
-        return Sharing::none();
-    }
+elvis_render_flags sharing_of(const RenderArguments& arguments) {
     // Versions before 0.2 called the rows parts.
-    const std::string wanted = arguments.share == "parts" ? "rows" : arguments.share;
-    std::string names;
-    for (const auto& [name, sharing] : Sharing::each()) {
-        if (name == wanted) {
-            return sharing;
-        }
-        names += ", " + name;
+    const std::string& wanted = arguments.share == "parts" ? "rows" : arguments.share;
+    if (wanted.empty() || wanted == "rows") {
+        return 0;
     }
-    throw UsageError("--share", "'" + arguments.share + "' is none of all, none" + names);
+    if (wanted == "all") {
+        return ELVIS_RENDER_SHARE_DEPTHS;
+    }
+    if (wanted == "none") {
+        return ELVIS_RENDER_ALL_ROWS;
+    }
+    if (wanted == "depths") {
+        return ELVIS_RENDER_SHARE_DEPTHS | ELVIS_RENDER_ALL_ROWS;
+    }
+    throw UsageError("--share", "'" + arguments.share + "' is none of all, none, depths, rows");
 }
 
 std::optional<std::array<double, 2>> percentiles_of(const RenderArguments& arguments) {
@@ -195,99 +232,109 @@ std::optional<std::array<double, 2>> percentiles_of(const RenderArguments& argum
 
 namespace {
 
-void apply_color_map(const RenderArguments& arguments, Scene& scene) {
+void apply_color_map(const RenderArguments& arguments, Document& scene) {
     if (!arguments.color_map.empty()) {
-        const bool is_file = std::filesystem::exists(arguments.color_map);
-        scene.color_map.name = is_file ? "" : arguments.color_map;
-        scene.color_map.file = is_file ? arguments.color_map : "";
-        scene.color_map.points.clear();
+        for (const char* pointer : {"/color_map/name", "/color_map/file", "/color_map/points"}) {
+            scene.remove(pointer);
+        }
+        if (std::filesystem::exists(arguments.color_map)) {
+            scene.set("/color_map/file", whole_path(arguments.color_map));
+        } else {
+            scene.set("/color_map/name", arguments.color_map);
+        }
     }
     if (percentiles_of(arguments)) {
-        scene.color_map.range.reset(); // Until there is a volume to take them of.
+        scene.remove("/color_map/range"); // Until there is a volume to take them of.
     } else if (!arguments.range.empty()) {
-        const std::vector<double> list = numbers("--range", arguments.range, 2, 2);
-        if (!(list[0] < list[1])) {
+        const std::vector<double> range = numbers("--range", arguments.range, 2, 2);
+        if (!(range[0] < range[1])) {
             throw UsageError("--range", "'" + arguments.range + "' must go from a smaller to a larger value");
         }
-        scene.color_map.range = {list[0], list[1]};
+        if (arguments.log_scale && !(range[0] > 0)) {
+            throw UsageError("--range", "the range must be above 0 on a logarithmic scale");
+        }
+        scene.set("/color_map/range", range);
     }
-    scene.color_map.is_logarithmic = scene.color_map.is_logarithmic || arguments.log_scale;
-    if (scene.color_map.is_logarithmic && scene.color_map.range && !((*scene.color_map.range)[0] > 0)) {
-        throw UsageError(arguments.range.empty() ? "--log-scale" : "--range",
-                         "the range must be above 0 on a logarithmic scale");
+    if (arguments.log_scale) {
+        if (scene.has("/color_map/range") && !(scene.at("/color_map/range/0") > 0)) {
+            throw UsageError("--log-scale", "the range must be above 0 on a logarithmic scale");
+        }
+        scene.set("/color_map/scale", "logarithmic");
     }
 }
 
-void apply_camera(const RenderArguments& arguments, Scene& scene) {
+void apply_camera(const RenderArguments& arguments, Document& scene) {
     if (!arguments.eye.empty()) {
-        scene.camera.eye = vector3("--eye", arguments.eye);
+        scene.set("/camera/eye", vector3("--eye", arguments.eye));
     }
     if (!arguments.look_at.empty()) {
-        scene.camera.look_at = vector3("--look-at", arguments.look_at);
+        scene.set("/camera/look_at", vector3("--look-at", arguments.look_at));
     }
     if (!arguments.up.empty()) {
-        scene.camera.up = vector3("--up", arguments.up);
+        scene.set("/camera/up", vector3("--up", arguments.up));
     }
     if (arguments.field_of_view > 0) {
-        scene.camera.field_of_view = arguments.field_of_view;
+        scene.set("/camera/field_of_view", arguments.field_of_view);
     }
     if (arguments.orthographic > 0) {
-        scene.camera.orthographic = true;
-        scene.camera.height = arguments.orthographic;
+        scene.set("/camera/type", "orthographic");
+        scene.set("/camera/height", arguments.orthographic);
     }
 }
 
-void apply_image(const RenderArguments& arguments, Scene& scene) {
+std::array<unsigned, 2> size_of(const std::string& text) {
+    unsigned width = 0, height = 0;
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%ux%u%n", &width, &height, &used) != 2 || static_cast<std::size_t>(used) != text.size() ||
+        width == 0 || height == 0 || width > 32768 || height > 32768) {
+        throw UsageError("--size", "'" + text + "' is not WIDTHxHEIGHT with both from 1 to 32768");
+    }
+    return {width, height};
+}
+
+void apply_image(const RenderArguments& arguments, Document& scene) {
     if (!arguments.background.empty()) {
-        const std::vector<double> list = numbers("--background", arguments.background, 3, 4);
-        scene.background = {list[0], list[1], list[2], list.size() > 3 ? list[3] : 1.0};
-        for (const double channel : scene.background) {
-            if (channel < 0 || channel > 1) {
-                throw UsageError("--background", "'" + arguments.background + "' has a number outside 0 to 1");
-            }
+        const std::vector<double> color = numbers("--background", arguments.background, 3, 4);
+        if (!std::ranges::all_of(color, [](double channel) { return 0 <= channel && channel <= 1; })) {
+            throw UsageError("--background", "'" + arguments.background + "' has a number outside 0 to 1");
         }
+        scene.set("/image/background", color);
     }
     if (!arguments.annotation.empty()) {
-        scene.annotation = arguments.annotation == "default" ? std::optional(SceneAnnotation{}) : std::nullopt;
+        scene.set("/image/annotation", arguments.annotation);
     }
     if (!arguments.lighting.empty()) {
-        scene.lighting = arguments.lighting == "default" ? std::optional(Lighting{}) : std::nullopt;
-    } else if (!is_scene(arguments.input) && !arguments.isovalues.empty() && arguments.cut_planes.empty() &&
-               !arguments.boundary) {
+        scene.set("/lighting", arguments.lighting);
+    } else if (!arguments.is_scene && !arguments.isovalues.empty() && arguments.cut_planes.empty() && !arguments.boundary) {
         // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read. A scene says what
         // it wants.
-        scene.lighting = Lighting{};
+        scene.set("/lighting", "default");
     }
     if (!arguments.size.empty()) {
-        unsigned width = 0, height = 0;
-        int used = 0;
-        if (std::sscanf(arguments.size.c_str(), "%ux%u%n", &width, &height, &used) != 2 ||
-            static_cast<std::size_t>(used) != arguments.size.size() || width == 0 || height == 0 || width > 32768 ||
-            height > 32768) {
-            throw UsageError("--size", "'" + arguments.size + "' is not WIDTHxHEIGHT with both from 1 to 32768");
-        }
-        scene.size = {width, height};
+        scene.set("/image/size", size_of(arguments.size));
     }
 }
 
 } // namespace
 
-void apply_options(const RenderArguments& arguments, Scene& scene) {
+void apply_options(const RenderArguments& arguments, scene& shown) {
+    Document document(shown);
     if (!arguments.field.empty()) {
-        scene.field = arguments.field;
+        document.set("/field", arguments.field);
     }
-    apply_surfaces(arguments, scene);
-    apply_volume(arguments, scene);
-    apply_color_map(arguments, scene);
-    apply_camera(arguments, scene);
-    apply_image(arguments, scene);
-    if (arguments.precision) {
-        scene.precision = arguments.precision;
+    apply_surfaces(arguments, document);
+    apply_lines(arguments, document);
+    apply_volume(arguments, document);
+    apply_color_map(arguments, document);
+    apply_camera(arguments, document);
+    apply_image(arguments, document);
+    if (!arguments.precision.empty()) {
+        document.set("/precision", arguments.precision);
     }
-    if (arguments.time_step >= 0) {
-        scene.time_step = static_cast<std::uint32_t>(arguments.time_step);
+    if (arguments.time_step >= 0 && document.has("/volume")) {
+        document.set("/volume/time_step", arguments.time_step);
     }
-    apply_animation(arguments, scene);
+    apply_animation(arguments, document);
 }
 
 } // namespace elvis::commands

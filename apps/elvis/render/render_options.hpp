@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/scene/scene.hpp>
+#include <elvis/elvis.hpp>
 
 #include <array>
 #include <optional>
@@ -18,6 +18,8 @@ struct RenderArguments {
     /** As given; and the one that is drawn. */
     std::vector<std::string> inputs;
     std::string input;
+    /** What is drawn is a scene file, not a volume. */
+    bool is_scene = false;
     std::string output;
     std::string time_steps;
     int turntable = 0;
@@ -47,7 +49,7 @@ struct RenderArguments {
     std::string annotation;
     std::string lighting;
     std::string size;
-    std::optional<Precision> precision;
+    std::string precision;
     std::string device;
     std::string buffers;
     std::string stats;
@@ -60,12 +62,12 @@ struct RenderArguments {
 };
 
 /** What the command line says goes before what the file says. */
-void apply_options(const RenderArguments& arguments, Scene& scene);
+void apply_options(const RenderArguments& arguments, scene& shown);
 
 /** Parts of the volume, of --range 2%,98%: 0.02 and 0.98; nothing if it is not given in percent. */
 std::optional<std::array<double, 2>> percentiles_of(const RenderArguments& arguments);
 
-/** What passes share, by --share. */
-Sharing sharing_of(const RenderArguments& arguments);
+/** What passes share, by --share, of elvis_render_options.flags. */
+elvis_render_flags sharing_of(const RenderArguments& arguments);
 
 } // namespace elvis::commands

@@ -3,17 +3,14 @@
 #include "render_animation.hpp"
 #include "render_session.hpp"
 #include "say_remarks.hpp"
+#include <apps/elvis/library_context.hpp>
+#include <apps/elvis/long_task.hpp>
 
-#include <core/annotation/font.hpp>
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
-#include <core/scene/output/buffers_file.hpp>
-#include <core/scene/output/output_file.hpp>
-#include <core/scene/output/png_file.hpp>
-#include <core/session/field_samples.hpp>
-#include <core/session/picture_stats.hpp>
-#include <core/session/still_picture.hpp>
+#include <core/base/output_file.hpp>
 
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -25,17 +22,20 @@ namespace elvis::commands {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 /** A scene, and what is wanted of it. */
-struct Task {
+struct Wanted {
     RenderArguments arguments;
-    Scene scene;
+    scene shown;
+    bool is_animation = false;
 };
 
 /** Before the work is done: whether the files can be what their names say. */
-void check_names(const RenderArguments& arguments, const Scene& scene) {
-    if (!scene.animation) {
+void check_names(const Wanted& wanted) {
+    const RenderArguments& arguments = wanted.arguments;
+    if (!wanted.is_animation) {
         need_picture_ending("--output", arguments.output);
     }
     if (!arguments.buffers.empty()) {
@@ -58,43 +58,54 @@ std::string in_folder(const char* option, const std::string& folder, const fs::p
 }
 
 /** What each of several scenes writes has its name. */
-void choose_names(Task& task) {
-    const std::string name = fs::path(task.arguments.input).stem().string();
-    RenderArguments& own = task.arguments;
-    own.output = in_folder("--output", own.output, task.scene.animation ? name : name + ".png");
+void choose_names(Wanted& wanted) {
+    RenderArguments& own = wanted.arguments;
+    const std::string name = fs::path(own.input).stem().string();
+    own.output = in_folder("--output", own.output, wanted.is_animation ? name : name + ".png");
     own.buffers = in_folder("--buffers", own.buffers, name + ".h5");
     own.stats = in_folder("--stats", own.stats, name + ".json");
 }
 
-Task read_task(const RenderArguments& arguments, const std::string& input) {
-    Task task{arguments, {}};
-    task.arguments.input = input;
-    if (is_scene(input)) {
-        task.scene = read_scene(input);
-    } else {
-        task.scene.volume = input;
+/** A scene file's scene, or one that says nothing but the volume. */
+scene scene_of(const context& library, const RenderArguments& arguments) {
+    if (arguments.is_scene) {
+        return library.read_scene(arguments.input);
     }
-    apply_options(task.arguments, task.scene);
-    if (arguments.inputs.size() > 1) {
-        choose_names(task);
+    scene made = library.make_scene();
+    made.set("/volume/path", json(arguments.input).dump());
+    return made;
+}
+
+bool is_scene(const context& library, const std::string& input) {
+    return fs::exists(input) && json::parse(library.describe_file(input))["kind"] == "scene";
+}
+
+Wanted read_wanted(const context& library, const RenderArguments& all, const std::string& input) {
+    RenderArguments arguments = all;
+    arguments.input = input;
+    arguments.is_scene = is_scene(library, input);
+    scene shown = scene_of(library, arguments);
+    apply_options(arguments, shown);
+    const bool is_animation = json::parse(shown.json()).contains("animation");
+    Wanted wanted{std::move(arguments), std::move(shown), is_animation};
+    if (all.inputs.size() > 1) {
+        choose_names(wanted);
     }
-    check_animation(task.arguments, task.scene);
-    check_names(task.arguments, task.scene);
-    if (task.scene.volume.empty()) {
+    if (is_animation) {
+        check_animation(wanted.arguments);
+    }
+    check_names(wanted);
+    if (wanted.shown.volume().empty()) {
         throw Error(input, "'volume' is missing");
     }
-    if (task.scene.annotation) {
-        // Before the work is done: is there a font?
-        const Font font(task.scene.annotation->style.font);
-    }
-    return task;
+    return wanted;
 }
 
 /** Throws unless all are scenes whose files are not each other's. */
-void check_inputs(const RenderArguments& arguments) {
+void check_inputs(const context& library, const RenderArguments& arguments) {
     std::set<fs::path> names;
     for (const std::string& input : arguments.inputs) {
-        if (!is_scene(input)) {
+        if (!is_scene(library, input)) {
             throw UsageError("render", "'" + input + "' is one of several inputs, and no scene file (.json)");
         }
         if (!names.insert(fs::path(input).stem()).second) {
@@ -106,61 +117,75 @@ void check_inputs(const RenderArguments& arguments) {
     }
 }
 
-std::vector<Task> read_tasks(const RenderArguments& arguments) {
+std::vector<Wanted> read_all(const context& library, const RenderArguments& arguments) {
     if (arguments.inputs.size() > 1) {
-        check_inputs(arguments);
+        check_inputs(library, arguments);
     }
-    std::vector<Task> tasks;
+    std::vector<Wanted> all;
     for (const std::string& input : arguments.inputs) {
-        tasks.push_back(read_task(arguments, input));
+        all.push_back(read_wanted(library, arguments, input));
     }
-    return tasks;
+    return all;
 }
 
 /** The colour map's range by --range 2%,98%. */
-void choose_range(const RenderArguments& arguments, Scene& scene, RenderSession& session) {
-    const auto percentiles = percentiles_of(arguments);
-    if (!percentiles) {
+void choose_range(Wanted& wanted, const data& volume, const task& watch) {
+    const auto parts = percentiles_of(wanted.arguments);
+    if (!parts) {
         return;
     }
-    scene.range_steps = scene.animation ? drawn_steps(scene, session.volume()) : std::vector<std::uint32_t>{};
-    scene.color_map.range = percentile_range(scene, session.volume(), session.renderer().ranges().bounds(), *percentiles);
-    if (scene.color_map.is_logarithmic && !((*scene.color_map.range)[0] > 0)) {
+    const std::vector<double> range = volume.percentiles(wanted.shown, {(*parts)[0], (*parts)[1]}, watch);
+    if (!(range[0] < range[1])) {
+        throw Error("--range", "both percentiles are " + std::to_string(range[0]) + ": colours need a range of numbers here");
+    }
+    if (!(range[0] > 0) &&
+        json::parse(wanted.shown.json()).value(json::json_pointer("/color_map/scale"), "") == "logarithmic") {
         throw Error("--range", "the lower percentile is not above 0, as it must be on a logarithmic scale");
     }
-    spdlog::info("range: {:.6g} to {:.6g}", (*scene.color_map.range)[0], (*scene.color_map.range)[1]);
+    wanted.shown.set("/color_map/range", json(range).dump());
+    spdlog::info("range: {:.6g} to {:.6g}", range[0], range[1]);
 }
 
-void render_picture(const RenderArguments& arguments, const Scene& scene, RenderSession& session, Clock::time_point start) {
-    Renderer& renderer = session.renderer();
-    const Precision precision = scene.precision.value_or(Precision::float32);
-    const bool with_buffers = !arguments.buffers.empty();
-    const StillPicture still = draw_still(scene, session.volume(), renderer, {with_buffers, sharing_of(arguments)});
-    say(still.remarks);
+/** What the picture took, and what only the program knows. */
+std::string stats_of(const picture& drawn, double load, double total, const std::vector<double>& repeated) {
+    auto stats = nlohmann::ordered_json::parse(drawn.stats());
+    stats["milliseconds"]["load"] = load;
+    stats["milliseconds"]["total"] = total;
+    if (!repeated.empty()) {
+        stats["frame_milliseconds"] = repeated;
+    }
+    return stats.dump(2) + "\n";
+}
+
+void render_picture(const Wanted& wanted, const data& volume, double load_milliseconds, const task& watch,
+                    Clock::time_point start) {
+    const RenderArguments& arguments = wanted.arguments;
+    auto options = detail::sized<elvis_render_options>();
+    options.flags = sharing_of(arguments) | (arguments.buffers.empty() ? ELVIS_RENDER_COLOR_ONLY : 0u);
+    const picture drawn = volume.render(wanted.shown, options, watch);
+    say(drawn.remarks());
     std::vector<double> repeated;
     for (int repetition = 0; repetition < arguments.repeat; ++repetition) {
         const Clock::time_point frame_start = Clock::now();
-        renderer.render(still.request);
+        volume.render(wanted.shown, options, watch);
         repeated.push_back(milliseconds_since(frame_start));
     }
-    write_png(still.frame, arguments.output, arguments.bits);
-    if (with_buffers) {
-        write_buffers(still.frame, still.request, session.volume(), arguments.buffers, precision);
+    drawn.write_png(arguments.output, static_cast<std::uint32_t>(arguments.bits));
+    if (!arguments.buffers.empty()) {
+        drawn.write_buffers(arguments.buffers);
     }
     if (!arguments.stats.empty()) {
-        const auto stats = stats_json(session.device(), precision, still.frame, renderer, session.load_milliseconds(),
-                                      milliseconds_since(start), repeated);
-        write_text_file(arguments.stats, stats.dump(2) + "\n");
+        write_text_file(arguments.stats, stats_of(drawn, load_milliseconds, milliseconds_since(start), repeated));
     }
 }
 
-void render_task(Task& task, RenderSession& session, Clock::time_point start) {
-    session.open(task.scene);
-    choose_range(task.arguments, task.scene, session);
-    if (task.scene.animation) {
-        render_animation(task.arguments, task.scene, session.device(), session.volume(), session.renderer());
+void render_one(Wanted& wanted, RenderSession& session, const task& watch, Clock::time_point start) {
+    const data& volume = session.open(wanted.shown, watch);
+    choose_range(wanted, volume, watch);
+    if (wanted.is_animation) {
+        render_animation(wanted.arguments, wanted.shown, volume, session.library());
     } else {
-        render_picture(task.arguments, task.scene, session, start);
+        render_picture(wanted, volume, session.load_milliseconds(), watch, start);
     }
 }
 
@@ -168,24 +193,28 @@ void render_task(Task& task, RenderSession& session, Clock::time_point start) {
 
 void render_scenes(const RenderArguments& arguments) {
     Clock::time_point start = Clock::now();
-    std::vector<Task> tasks = read_tasks(arguments);
-    if (tasks.size() > 1) {
+    const context library = library_context(arguments.device, arguments.validation ? ELVIS_CONTEXT_VALIDATION : 0u);
+    std::vector<Wanted> all = read_all(library, arguments);
+    if (all.size() > 1) {
         for (const std::string& folder : {arguments.output, arguments.buffers, arguments.stats}) {
             if (!folder.empty()) {
                 fs::create_directories(folder);
             }
         }
     }
-    RenderSession session(arguments);
-    for (Task& task : tasks) {
-        if (tasks.size() > 1) {
-            spdlog::info("scene: {}", task.arguments.input);
+    RenderSession session(library);
+    for (Wanted& wanted : all) {
+        if (all.size() > 1) {
+            spdlog::info("scene: {}", wanted.arguments.input);
         }
-        render_task(task, session, start);
+        render_one(wanted, session, {}, start);
         start = Clock::now();
     }
-    if (arguments.validation && !session.device().validation_messages().empty()) {
-        throw Error("validation layer", session.device().validation_messages().front());
+    if (arguments.validation) {
+        const json messages = json::parse(library.describe_device())["validation_messages"];
+        if (!messages.empty()) {
+            throw Error("validation layer", messages[0].get<std::string>());
+        }
     }
 }
 

@@ -4,17 +4,18 @@
  */
 #pragma once
 
-#include <core/session/frame_remarks.hpp>
-
+#include <elvis/elvis.hpp>
 #include <spdlog/spdlog.h>
 
+#include <string>
 #include <vector>
 
 namespace elvis::commands {
 
-inline void say(const std::vector<FrameRemark>& remarks) {
-    for (const FrameRemark& remark : remarks) {
-        spdlog::log(remark.is_warning ? spdlog::level::warn : spdlog::level::info, "{}", remark.text);
+/** `of`: what stands before each. */
+inline void say(const std::vector<picture::remark>& remarks, const std::string& of = {}) {
+    for (const picture::remark& remark : remarks) {
+        spdlog::log(remark.is_warning ? spdlog::level::warn : spdlog::level::info, "{}{}", of, remark.text);
     }
 }
 

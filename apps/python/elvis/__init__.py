@@ -8,6 +8,7 @@
 
 from ._arrays import Elements, Space, from_arrays
 from ._elvis import Error
+from ._frames import Frames
 from ._library import context, convert, devices, plugins, set_up
 from ._picture import Picture
 from ._probe import Samples
@@ -16,5 +17,5 @@ from ._volume import Field, Range, Volume, open
 from .scene_objects import *  # noqa: F403: the objects of scenes, by their names in the scene file.
 from .scene_objects import __all__ as _objects
 
-__all__ = ["Elements", "Error", "Field", "Picture", "Range", "Samples", "Scene", "Space", "Volume", "context", "convert", "devices",
+__all__ = ["Elements", "Error", "Field", "Frames", "Picture", "Range", "Samples", "Scene", "Space", "Volume", "context", "convert", "devices",
            "from_arrays", "open", "plugins", "set_up", *_objects]

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from ._library import context
 from ._progress import progress_for
-from ._volume import Progress, Volume
+from ._progress import Progress
+from ._volume import Volume
 
 Shape = Literal["hexahedron", "prism", "pyramid", "tetrahedron", "quadrilateral", "triangle"]
 Basis = Literal["modified", "orthogonal", "gll_lagrange", "gauss_lagrange", "tensor"]

@@ -5,6 +5,9 @@ import time
 from collections.abc import Callable
 from types import TracebackType
 
+#: What a call is told of: a function of fraction and activity, True for a bar, False for nothing.
+Progress = Callable[[float, str], None] | bool
+
 #: Seconds after which a call is long enough to be shown.
 _PATIENCE = 1.0
 _WIDTH = 30

@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,15 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _elvis
+from ._frames import Frames
 from ._library import context
 from ._picture import Picture
 from ._probe import Samples
-from ._progress import progress_for
+from ._progress import Progress, progress_for
 from ._scene import Scene
 from .scene_objects import Surface
-
-Progress = Callable[[float, str], None] | bool
-
 
 @dataclass(frozen=True)
 class Field:
@@ -151,6 +149,40 @@ class Volume:
         with progress_for(progress) as report:
             drawn = self._handle.render(scene.to_json(), scene._folder, int(width), int(height), color_only, report)
         return Picture(drawn)
+
+    def animate(self, scene: Scene, *, color_only: bool = True, progress: Progress = True) -> Frames:
+        """The pictures of a scene's animation, over time steps or along a path of the camera: a sequence.
+
+        Colours mean the same in all pictures: where the scene gives no range, they span that of all time steps.
+        """
+        with progress_for(progress) as report:
+            return Frames(self._handle.animate(scene.to_json(), scene._folder, report), color_only, progress)
+
+    def percentiles(self, parts: Sequence[float], field: str | None = None, *, time_step: int = 0,
+                    progress: Progress = True) -> np.ndarray:
+        """Values of a field or expression below which these parts of the volume lie, from samples; of the first field if None.
+
+        parts: numbers in [0, 1]. Only of volumes of three dimensions.
+        """
+        scene = self.scene(field=field, time_step=time_step)
+        with progress_for(progress) as report:
+            return np.array(self._handle.percentiles(scene.to_json(), scene._folder, [float(part) for part in parts], report))
+
+    def pick(self, scene: Scene, column: float, row: float, *, progress: Progress = False) -> dict[str, Any]:
+        """What is known of the point that a place of the scene's picture shows: position, element, reference coordinates, fields.
+
+        column, row: pixels from the upper left corner; middles of pixels end in a half. `hit` is False where nothing is seen.
+        """
+        with progress_for(progress) as report:
+            return json.loads(self._handle.pick(scene.to_json(), scene._folder, float(column), float(row), report))
+
+    def complete(self, scene: Scene | None = None) -> Scene:
+        """The scene with what it leaves open: the camera, and surfaces if it shows nothing, as its picture has them."""
+        scene = self.scene() if scene is None else scene
+        complete = Scene.from_dict(json.loads(self._handle.complete(scene.to_json(), scene._folder)))
+        object.__setattr__(complete, "_folder", scene._folder)
+        object.__setattr__(complete, "_shown", self)
+        return complete
 
     def update_field(self, field: str, values: ArrayLike, *, time_step: int = 0, kind: int = 0) -> None:
         """Replaces a field's values, laid out as for elvis.from_arrays: (n, m), of a vector (n, m, components).

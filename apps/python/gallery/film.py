@@ -15,15 +15,18 @@ text = {"generator": 1, "mesh": "box", "box": [[0, 0, 0], [3.2, 3.2, 3.2]], "ele
 elvis.convert(out / "vortex.json", out / "vortex.h5")
 vortex = elvis.open(out / "vortex.h5")
 
-ranges = [vortex.range("pressure", step) for step in range(len(vortex.time_steps))]
+scene = vortex.scene(field="pressure", cut_planes=[[0, 0, 1, -1.1], [1, 0, 0, -1.6]])
+scene.camera.eye, scene.camera.up = [7, 5, 6], [0, 0, 1]
+scene.image.size = [320, 240]
+scene.animation.time_steps = "all"
+animation = vortex.animate(scene)
 frames = out / "film"
 frames.mkdir(exist_ok=True)
-for step, time in enumerate(vortex.time_steps):
-    scene = vortex.scene(field="pressure", cut_planes=[[0, 0, 1, -1.1], [1, 0, 0, -1.6]], time_step=step)
-    scene.color_map.range = [min(r.minimum for r in ranges), max(r.maximum for r in ranges)]
-    scene.camera.eye, scene.camera.up = [7, 5, 6], [0, 0, 1]
-    scene.render(320, 240).save(frames / f"frame_{step:04}.png")
-    print(f"time {time:g}: pressure in [{ranges[step].minimum:.3f}, {ranges[step].maximum:.3f}]")
+for number, picture in enumerate(animation):
+    picture.save(frames / f"frame_{number:04}.png")
+    step = animation.time_step(number)
+    span = vortex.range("pressure", step)
+    print(f"time {vortex.time_steps[step]:g}: pressure in [{span.minimum:.3f}, {span.maximum:.3f}]")
 if shutil.which("ffmpeg"):
     subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-framerate", "5", "-i", frames / "frame_%04d.png", "-pix_fmt", "yuv420p",
                     out / "film.mp4"], check=True)

@@ -21,14 +21,20 @@ namespace elvis {
  */
 class DeviceTimer {
 public:
-    explicit DeviceTimer(const Device& device) : m_is_processor(device.summary().type == "cpu") {
+    explicit DeviceTimer(const Device& device) : m_device(device), m_is_processor(device.summary().type == "cpu") {
         device.background().finish();
+        device.finish();
         m_processor = processor();
         m_wall = std::chrono::steady_clock::now();
     }
 
-    double milliseconds() const { return m_is_processor ? (processor() - m_processor) / n_processors() : wall_milliseconds(); }
+    /** Both wait for the device. */
+    double milliseconds() const {
+        m_device.finish();
+        return m_is_processor ? (processor() - m_processor) / n_processors() : wall_milliseconds();
+    }
     double wall_milliseconds() const {
+        m_device.finish();
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_wall).count();
     }
     /** By which times were divided; 1 where the device is not the processor. */
@@ -41,6 +47,7 @@ private:
         return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
     }
 
+    const Device& m_device;
     bool m_is_processor;
     double m_processor;
     std::chrono::steady_clock::time_point m_wall;

@@ -14,11 +14,19 @@ namespace {
 /** Rounding of a float32 field value, relative to the largest: what evaluations of orders up to 10 show (5e-7), doubled. */
 constexpr double float32_value_error = 1e-6;
 
+std::string name_of(const FieldChoice& field) {
+    return field.expression ? "= " + field.expression->text()
+                            : std::to_string(field.field) + "." + std::to_string(field.component);
+}
+
 } // namespace
 
-void VolumeRanges::forget_fields() {
-    m_of_components.clear();
-    m_extrema.clear();
+void VolumeRanges::forget_fields(std::optional<std::uint32_t> only) {
+    std::erase_if(m_of_components, [&](const auto& known) { return !only || known.first.first == *only; });
+    std::erase_if(m_extrema, [&](const auto& known) {
+        const std::string& name = known.first.first;
+        return !only || name.starts_with('=') || name.starts_with(std::to_string(*only) + ".");
+    });
     m_of_expressions.clear();
     m_errors.clear();
 }
@@ -83,8 +91,7 @@ std::vector<FieldRange> VolumeRanges::sampled(std::uint32_t field, std::uint32_t
 }
 
 const FieldExtrema& VolumeRanges::extrema(const FieldChoice& field, std::uint32_t time_step) {
-    const std::string name = field.expression ? "= " + field.expression->text()
-                                              : std::to_string(field.field) + "." + std::to_string(field.component);
+    const std::string name = name_of(field);
     auto known = m_extrema.find({name, time_step});
     if (known == m_extrema.end()) {
         known = m_extrema.try_emplace({name, time_step}, found_extrema(field, time_step)).first;

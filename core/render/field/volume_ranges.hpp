@@ -10,6 +10,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,8 +24,8 @@ public:
     VolumeRanges(const Device& device, const RuntimeVolume& volume, DeviceVolume& data)
         : m_device(device), m_volume(volume), m_data(data) {}
 
-    /** Values of fields have changed: what is known of them goes. */
-    void forget_fields();
+    /** Values of a field, or of all, have changed: what is known of them goes, and of all expressions. */
+    void forget_fields(std::optional<std::uint32_t> only = {});
 
     /** Bounds of the whole volume: min x y z, max x y z. */
     const std::array<double, 6>& bounds() const { return m_data.bounds(); }
@@ -69,6 +70,7 @@ private:
     DeviceVolume& m_data;
     std::vector<Vector3> m_outline;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Ranges> m_of_components;
+    /** By field and component, or expression, and time step. */
     std::map<std::pair<std::string, std::uint32_t>, FieldExtrema> m_extrema;
     std::map<std::pair<std::string, std::uint32_t>, FieldRange> m_of_expressions;
     std::map<std::pair<std::string, std::uint32_t>, double> m_errors;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
+#include <mutex>
 
 namespace elvis {
 
@@ -111,7 +113,9 @@ ColorMap built_in_color_map(const std::string& name) {
     throw Error("no colour map is named '" + name + "'; there are " + list + ", and files");
 }
 
-std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map, double tolerance) {
+namespace {
+
+std::vector<SceneColorMap::Point> refined(const ColorMap& map, double tolerance) {
     std::vector<SceneColorMap::Point> out = {map.points.front()};
     for (std::size_t index = 1; index < map.points.size(); ++index) {
         const SceneColorMap::Point& from = map.points[index - 1];
@@ -124,6 +128,48 @@ std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map, double t
         out.push_back(to);
     }
     return out;
+}
+
+bool is_same(const ColorMap& one, const ColorMap& other) {
+    const auto is_same_point = [](const SceneColorMap::Point& a, const SceneColorMap::Point& b) {
+        return a.position == b.position && a.rgb == b.rgb;
+    };
+    return one.space == other.space && std::ranges::equal(one.points, other.points, is_same_point);
+}
+
+/** Maps that were refined last: each picture asks for the same few again, and the roots in them take a millisecond. */
+class RefinedMaps {
+public:
+    std::vector<SceneColorMap::Point> of(const ColorMap& map, double tolerance) {
+        const std::lock_guard lock(m_mutex);
+        for (const Entry& entry : m_entries) {
+            if (entry.tolerance == tolerance && is_same(entry.map, map)) {
+                return entry.points;
+            }
+        }
+        constexpr std::size_t most = 16;
+        if (m_entries.size() == most) {
+            m_entries.pop_back();
+        }
+        m_entries.push_front({map, tolerance, refined(map, tolerance)});
+        return m_entries.front().points;
+    }
+
+private:
+    struct Entry {
+        ColorMap map;
+        double tolerance;
+        std::vector<SceneColorMap::Point> points;
+    };
+    std::mutex m_mutex;
+    std::deque<Entry> m_entries;
+};
+
+} // namespace
+
+std::vector<SceneColorMap::Point> piecewise_linear(const ColorMap& map, double tolerance) {
+    static RefinedMaps maps;
+    return maps.of(map, tolerance);
 }
 
 ColorScale::ColorScale(const std::array<double, 2>& range, bool is_logarithmic)

@@ -1,7 +1,7 @@
 #include <core/base/error.hpp>
+#include <core/base/output_file.hpp>
 #include <core/scene/output/buffers_file.hpp>
 #include <core/scene/output/hdf5_attribute.hpp>
-#include <core/scene/output/output_file.hpp>
 #include <core/scene/output/pixel_flags.hpp>
 #include <core/scene/scene_annotation.hpp>
 

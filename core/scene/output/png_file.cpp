@@ -1,5 +1,5 @@
 #include <core/base/error.hpp>
-#include <core/scene/output/output_file.hpp>
+#include <core/base/output_file.hpp>
 #include <core/scene/output/png_file.hpp>
 
 #include <png.h>

@@ -1,7 +1,7 @@
 #include <core/scene/write/write_scene.hpp>
 
 #include <core/base/error.hpp>
-#include <core/scene/output/output_file.hpp>
+#include <core/base/output_file.hpp>
 #include <core/scene/write/write_parts.hpp>
 
 #include <filesystem>

@@ -13,19 +13,11 @@ Vector3 turned(const Vector3& a, const Vector3& axis, double angle) {
     return plus(plus(scaled(a, c), scaled(cross(axis, a), std::sin(angle))), scaled(axis, dot(axis, a) * (1 - c)));
 }
 
-double slope(const Camera& camera) { return std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180); }
-
 double distance_of(const Camera& camera) { return length(minus(camera.look_at, camera.eye)); }
 
 /** World height of the picture where the camera looks at. */
 double focal_height(const Camera& camera) {
-    return camera.orthographic ? camera.height : 2 * slope(camera) * distance_of(camera);
-}
-
-/** s and v of the formulas. */
-std::array<double, 2> picture_coordinates(const Camera& camera, const PictureSize& size, const PicturePoint& place) {
-    return {(2 * (place[0] + camera.image_shift[0]) / size.width - 1) * size.aspect(),
-            1 - 2 * (place[1] + camera.image_shift[1]) / size.height};
+    return camera.orthographic ? camera.height : 2 * slope_of(camera) * distance_of(camera);
 }
 
 Camera moved(const Camera& camera, const Vector3& by) {
@@ -37,24 +29,6 @@ Camera moved(const Camera& camera, const Vector3& by) {
 
 } // namespace
 
-ViewAxes axes_of(const Camera& camera) {
-    ViewAxes axes{};
-    axes.forward = unit(minus(camera.look_at, camera.eye));
-    axes.right = unit(cross(axes.forward, camera.up));
-    axes.top = cross(axes.right, axes.forward);
-    return axes;
-}
-
-Ray ray_through(const Camera& camera, const PictureSize& size, const PicturePoint& place) {
-    const auto [s, v] = picture_coordinates(camera, size, place);
-    const ViewAxes axes = axes_of(camera);
-    const Vector3 across = plus(scaled(axes.right, s), scaled(axes.top, v));
-    if (camera.orthographic) {
-        return {plus(camera.eye, scaled(across, 0.5 * camera.height)), axes.forward};
-    }
-    return {camera.eye, unit(plus(axes.forward, scaled(across, slope(camera))))};
-}
-
 std::optional<PicturePoint> project(const Camera& camera, const PictureSize& size, const Vector3& point) {
     const ViewAxes axes = axes_of(camera);
     const Vector3 relative = minus(point, camera.eye);
@@ -62,7 +36,7 @@ std::optional<PicturePoint> project(const Camera& camera, const PictureSize& siz
     if (!camera.orthographic && along <= 1e-9 * distance_of(camera)) {
         return std::nullopt;
     }
-    const double half = camera.orthographic ? 0.5 * camera.height : along * slope(camera);
+    const double half = camera.orthographic ? 0.5 * camera.height : along * slope_of(camera);
     const double s = dot(relative, axes.right) / half;
     const double v = dot(relative, axes.top) / half;
     return PicturePoint{0.5 * size.width * (s / size.aspect() + 1) - camera.image_shift[0],
@@ -71,7 +45,7 @@ std::optional<PicturePoint> project(const Camera& camera, const PictureSize& siz
 
 double pixel_length(const Camera& camera, const PictureSize& size, const Vector3& point) {
     const double along = dot(minus(point, camera.eye), axes_of(camera).forward);
-    const double height = camera.orthographic ? camera.height : 2 * slope(camera) * std::abs(along);
+    const double height = camera.orthographic ? camera.height : 2 * slope_of(camera) * std::abs(along);
     return height / size.height;
 }
 
@@ -112,7 +86,7 @@ Camera zoomed(const Camera& camera, const PictureSize& size, const PicturePoint&
         result.height = camera.height * factor;
     } else {
         result.eye = plus(fixed, scaled(minus(camera.eye, fixed), factor));
-        result.height = 2 * slope(result) * distance_of(result);
+        result.height = 2 * slope_of(result) * distance_of(result);
     }
     return result;
 }
@@ -127,7 +101,7 @@ Camera with_projection(const Camera& camera, bool orthographic) {
         result.height = focal_height(camera);
     } else {
         const Vector3 to_eye = scaled(axes_of(camera).forward, -1);
-        result.eye = plus(camera.look_at, scaled(to_eye, 0.5 * camera.height / slope(camera)));
+        result.eye = plus(camera.look_at, scaled(to_eye, 0.5 * camera.height / slope_of(camera)));
     }
     return result;
 }

@@ -6,6 +6,7 @@
 
 #include <core/base/vector3.hpp>
 #include <core/render/frame.hpp>
+#include <core/scene/camera_ray.hpp>
 #include <core/scene/resolve.hpp>
 
 #include <array>
@@ -14,32 +15,6 @@
 #include <vector>
 
 namespace elvis::view {
-
-/** Pixels of the picture. */
-struct PictureSize {
-    double width = 1, height = 1;
-
-    double aspect() const { return width / height; }
-};
-
-/** A place on the picture in pixels from its upper left corner; centres of pixels end in a half. */
-using PicturePoint = std::array<double, 2>;
-
-/** Unit vectors: along the view, to the right, to the top of the picture. */
-struct ViewAxes {
-    Vector3 forward, right, top;
-};
-
-ViewAxes axes_of(const Camera& camera);
-
-struct Ray {
-    Vector3 origin, direction; ///< the latter of unit length
-
-    Vector3 at(double depth) const { return plus(origin, scaled(direction, depth)); }
-};
-
-/** Through a place of the picture, by the formulas of the scene file. */
-Ray ray_through(const Camera& camera, const PictureSize& size, const PicturePoint& place);
 
 /** Where a point is seen; nothing for what lies behind the eye. */
 std::optional<PicturePoint> project(const Camera& camera, const PictureSize& size, const Vector3& point);

@@ -1,4 +1,5 @@
 #include "frame_worker.hpp"
+#include "model.hpp"
 
 #include <core/base/error.hpp>
 #include <core/base/memory.hpp>
@@ -92,7 +93,8 @@ DrawAnswer FrameWorker::drawn(const DrawRequest& request) {
     answer.revision = request.revision;
     try {
         answer.picture = m_session->draw(request.scene, request.step);
-    } catch (const Cancelled&) {
+        answer.picture.camera = camera_of(request.scene.camera);
+    } catch (const cancelled&) {
         throw;
     } catch (const std::exception& error) {
         answer.error = error.what();
@@ -128,7 +130,7 @@ void FrameWorker::draw_wanted(std::unique_lock<std::mutex>& lock) {
     std::optional<DrawAnswer> answer;
     try {
         answer = drawn(request);
-    } catch (const Cancelled&) {
+    } catch (const cancelled&) {
         // Another picture is wanted.
     }
     lock.lock();

@@ -57,13 +57,7 @@ void Model::edit(const std::string& what, Scene&& scene) {
 }
 
 void Model::set_camera(const Camera& camera) {
-    m_scene.camera.orthographic = camera.orthographic;
-    m_scene.camera.eye = camera.eye;
-    m_scene.camera.look_at = camera.look_at;
-    m_scene.camera.up = camera.up;
-    m_scene.camera.field_of_view = camera.field_of_view;
-    m_scene.camera.height = camera.height;
-    m_scene.camera.image_shift = camera.image_shift;
+    elvis::set_camera(m_scene.camera, camera);
     ++m_revision;
 }
 

@@ -1,6 +1,6 @@
 #include "settings.hpp"
 
-#include <core/scene/output/output_file.hpp>
+#include <core/base/output_file.hpp>
 
 #include <nlohmann/json.hpp>
 

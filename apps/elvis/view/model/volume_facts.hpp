@@ -5,8 +5,9 @@
 #pragma once
 
 #include <core/plugin_host/runtime_volume.hpp>
-#include <core/render/field/volume_ranges.hpp>
 #include <core/scene/resolve.hpp>
+
+#include <elvis/elvis.hpp>
 
 #include <array>
 #include <cstdint>
@@ -21,7 +22,7 @@ struct VolumeFacts {
     std::uint32_t dimension = 3;
     std::uint64_t n_elements = 0;
     std::array<double, 6> bounds{}; ///< min x y z, max x y z
-    std::vector<Vector3> outline;   ///< core/volume/outline.hpp
+    std::vector<Vector3> outline;   ///< ELVIS_DESCRIBE_OUTLINE
     std::vector<FieldInfo> fields;
     std::vector<double> times;
     std::vector<std::string> boundary_groups;
@@ -32,6 +33,6 @@ struct VolumeFacts {
     VolumeExtent extent() const { return {bounds, outline}; }
 };
 
-VolumeFacts facts_of(const RuntimeVolume& volume, VolumeRanges& ranges);
+VolumeFacts facts_of(const data& volume, const context& library);
 
 } // namespace elvis::view

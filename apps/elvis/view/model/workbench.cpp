@@ -5,8 +5,6 @@
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/scene/write/write_scene.hpp>
-#include <core/session/field_samples.hpp>
-#include <core/session/frame_remarks.hpp>
 
 #include <filesystem>
 #include <numeric>
@@ -31,7 +29,7 @@ double MotionStatistics::frames_per_second() const {
     return sum > 0 ? static_cast<double>(frame_seconds.size()) / sum : 0;
 }
 
-Workbench::Workbench(std::unique_ptr<Session> session) : m_device(&session->device()), m_worker(std::move(session)) {}
+Workbench::Workbench(std::unique_ptr<Session> session) : m_session(session.get()), m_worker(std::move(session)) {}
 
 void Workbench::say(Message::Kind kind, std::string text) {
     constexpr std::size_t most_messages = 500;
@@ -62,17 +60,8 @@ void Workbench::open(const std::string& path) {
 void Workbench::open_scene(Scene scene, const std::string& file, const std::string& path) {
     scene.size = file.empty() ? m_model.scene().size : scene.size;
     const auto job = [this, scene = std::move(scene), file, path](Session& session) mutable -> FrameWorker::Answer {
-        if (file.empty()) {
-            bool is_foreign = false;
-            try {
-                session.registry().runtime_for(path);
-            } catch (const Error&) {
-                session.registry().converter_for(path); // Says what is wrong if it is nobody's file.
-                is_foreign = true;
-            }
-            if (is_foreign) {
-                return [this, path] { foreign_file = path; };
-            }
+        if (file.empty() && session.is_foreign(path)) {
+            return [this, path] { foreign_file = path; };
         }
         VolumeFacts facts = session.open(scene);
         if (file.empty()) {
@@ -226,7 +215,7 @@ void Workbench::sample(const std::optional<std::string>& field, const std::strin
                     return;
                 }
                 found->second->add(values);
-                if (piece + 1 < n_pieces) {
+                if (piece + 1 < ELVIS_SAMPLE_PIECES) {
                     sample(field, key, piece + 1);
                 }
             };
@@ -369,11 +358,8 @@ std::vector<Message> Workbench::picture_messages() const {
     if (m_stage != FrameStage::exact) {
         return messages;
     }
-    for (const FrameRemark& remark : remarks_on(m_picture.counts)) {
+    for (const elvis::picture::remark& remark : m_picture.remarks) {
         messages.push_back({remark.is_warning ? Message::Kind::warning : Message::Kind::info, remark.text});
-    }
-    for (const std::string& remark : m_picture.remarks) {
-        messages.push_back({Message::Kind::warning, remark});
     }
     return messages;
 }

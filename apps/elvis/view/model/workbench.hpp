@@ -36,10 +36,6 @@ struct MotionStatistics {
     double frames_per_second() const;
 };
 
-struct DeviceUse {
-    std::uint64_t bytes = 0, n_buffers = 0, n_kernels = 0;
-};
-
 class Workbench {
 public:
     using Clock = std::chrono::steady_clock;
@@ -92,9 +88,9 @@ public:
     void say(Message::Kind kind, std::string text);
     /** The same to be told of the picture, from its counts. */
     std::vector<Message> picture_messages() const;
-    std::vector<std::string> validation_messages() const { return m_device->validation_messages(); }
+    std::vector<std::string> validation_messages() const { return m_session->validation_messages(); }
     /** What the device that draws holds now. */
-    DeviceUse device_use() const { return {m_device->allocated_bytes(), m_device->n_buffers(), m_device->n_kernels()}; }
+    DeviceUse device_use() const { return m_session->device_use(); }
 
     /** Called with each volume and scene that was opened or saved. */
     std::function<void(const std::string& path)> on_file;
@@ -115,8 +111,8 @@ private:
     std::uint64_t m_scheduled_revision = 0;
     Clock::time_point m_last_change{};
     bool m_was_moving = false;
-    /** Of the session, which is the worker's. */
-    const Device* m_device;
+    /** The worker's, asked only what any thread may ask. */
+    const Session* m_session;
     std::optional<Picked> m_picked;
     std::map<std::string, std::optional<FieldRange>> m_ranges;
     std::map<std::string, std::optional<Histogram>> m_histograms;

@@ -148,10 +148,11 @@ void draw_list(const std::vector<Message>& messages) {
     }
 }
 
-void draw_counts(const FrameCounts& counts) {
+void draw_counts(const nlohmann::json& counts) {
     ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("count", ImGuiTableColumnFlags_WidthFixed);
-    const auto row = [](const char* name, std::uint64_t count, bool is_always = true) {
+    const auto row = [&counts](const char* name, const char* of, bool is_always = true) {
+        const auto count = counts.at(of).get<std::uint64_t>();
         if (is_always || count > 0) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
@@ -160,24 +161,24 @@ void draw_counts(const FrameCounts& counts) {
             ImGui::Text("%llu", static_cast<unsigned long long>(count));
         }
     };
-    row("pixels", counts.pixels);
-    row("pixels of surfaces", counts.hit_pixels);
-    row("field evaluations", counts.field_evaluations);
-    row("Newton iterations", counts.newton_iterations);
-    row("Newton failures", counts.newton_failures);
-    row("undecided pixels", counts.undecided_pixels);
-    row("pixels of overlaps", counts.overlap_pixels);
-    row("pixels that are not a number", counts.nan_pixels);
-    row("pixels at the work limit", counts.work_limit_pixels);
-    row("pixels that rest on estimates", counts.estimated_pixels, false);
-    row("pixels of contours", counts.contour_pixels, false);
-    row("undecided, of contours", counts.undecided_contour_pixels, false);
-    row("pixels of mesh lines", counts.mesh_line_pixels, false);
-    row("undecided, of mesh lines", counts.undecided_mesh_line_pixels, false);
-    row("pixels of isosurfaces", counts.isosurface_pixels, false);
-    row("undecided, of isosurfaces", counts.undecided_isosurface_pixels, false);
-    row("pixels of the volume", counts.volume_pixels, false);
-    row("beyond its tolerance", counts.inexact_volume_pixels, false);
+    row("pixels", "pixels");
+    row("pixels of surfaces", "hit_pixels");
+    row("field evaluations", "field_evaluations");
+    row("Newton iterations", "newton_iterations");
+    row("Newton failures", "newton_failures");
+    row("undecided pixels", "undecided_pixels");
+    row("pixels of overlaps", "overlap_pixels");
+    row("pixels that are not a number", "nan_pixels");
+    row("pixels at the work limit", "work_limit_pixels");
+    row("pixels that rest on estimates", "estimated_pixels", false);
+    row("pixels of contours", "contour_pixels", false);
+    row("undecided, of contours", "undecided_contour_pixels", false);
+    row("pixels of mesh lines", "mesh_line_pixels", false);
+    row("undecided, of mesh lines", "undecided_mesh_line_pixels", false);
+    row("pixels of isosurfaces", "isosurface_pixels", false);
+    row("undecided, of isosurfaces", "undecided_isosurface_pixels", false);
+    row("pixels of the volume", "volume_pixels", false);
+    row("beyond its tolerance", "inexact_volume_pixels", false);
 }
 
 } // namespace

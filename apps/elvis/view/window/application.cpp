@@ -3,10 +3,11 @@
 #include "describe.hpp"
 #include "view_area.hpp"
 #include "window.hpp"
+#include <apps/elvis/library_context.hpp>
 #include <apps/elvis/view/panels/panels.hpp>
 
 #include <core/base/error.hpp>
-#include <core/scene/output/output_file.hpp>
+#include <core/base/output_file.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -33,7 +34,9 @@ public:
     explicit Application(const Options& options)
         : m_options(options), m_settings(read_settings(settings_file())),
           m_window(with_options(m_settings, options), options.device, options.validation),
-          m_bench(std::make_unique<Session>(options.device, options.validation)), m_ui{m_bench, m_settings, m_window.scale()} {
+          m_bench(std::make_unique<Session>(
+              commands::library_context(options.device, options.validation ? ELVIS_CONTEXT_VALIDATION : 0u))),
+          m_ui{m_bench, m_settings, m_window.scale()} {
         m_bench.on_file = [this](const std::string& path) {
             m_settings.add_recent(path);
             write_settings(m_settings, settings_file());

@@ -121,6 +121,18 @@ ELVIS_EXPORT elvis_string elvis_context_error(const elvis_context* context);
 /** JSON list of this machine's devices: index, name, type, driver, memory, and why one cannot be used. */
 ELVIS_EXPORT elvis_result elvis_context_list_devices(elvis_context* context, char** text);
 
+/**
+ * JSON object about the device that the context draws with, which is opened if it is not: name, type, driver, allocated_bytes,
+ * n_buffers, n_kernels, and with ELVIS_CONTEXT_VALIDATION the layer's messages in validation_messages.
+ */
+ELVIS_EXPORT elvis_result elvis_context_describe_device(elvis_context* context, char** text);
+
+/**
+ * What a file is: JSON object with `kind` ("scene"; "volume", which a runtime plugin opens; "foreign", which a conversion
+ * plugin reads) and `plugin`, its id, or "" of a scene. A file that is none of these is an error that says why.
+ */
+ELVIS_EXPORT elvis_result elvis_context_describe_file(elvis_context* context, elvis_string path, char** text);
+
 /** JSON object with `plugins` (id, name, version, library, kinds) and `refused` (library, reason). */
 ELVIS_EXPORT elvis_result elvis_context_list_plugins(elvis_context* context, char** text);
 
@@ -201,6 +213,8 @@ typedef uint32_t elvis_describe_flags;
 #define ELVIS_DESCRIBE_ALL 2u
 /** The options' jacobian_tolerance counts; else it is 1e-9. */
 #define ELVIS_DESCRIBE_JACOBIAN_TOLERANCE 4u
+/** With `outline`: points far out in directions all around; what shows them shows the volume. */
+#define ELVIS_DESCRIBE_OUTLINE 8u
 
 typedef struct elvis_describe_options {
     uint32_t struct_size;
@@ -233,7 +247,10 @@ typedef struct elvis_range {
     double minimum_xi[3], maximum_xi[3];
 } elvis_range;
 
-/** `field`: as the key "field" of scenes: a name, a component, or an expression. May need the device. */
+/**
+ * `field`: as the key "field" of scenes: a name, a component, or an expression. Those of expressions are sampled on the device,
+ * in the precision of the last picture, if there was one.
+ */
 ELVIS_EXPORT elvis_result elvis_data_get_range(elvis_data* data, elvis_string field, uint32_t time_step, elvis_range* range);
 
 typedef uint32_t elvis_evaluation;
@@ -317,6 +334,11 @@ ELVIS_EXPORT elvis_result elvis_scene_get(const elvis_scene* scene, elvis_string
 ELVIS_EXPORT elvis_result elvis_scene_write(const elvis_scene* scene, elvis_string path);
 /** Path of the scene's volume as seen from the working directory; "" if it names none. */
 ELVIS_EXPORT elvis_result elvis_scene_get_volume(const elvis_scene* scene, char** path);
+/**
+ * Another scene, in which what this one leaves open is said: the camera, and the surfaces if it shows nothing; as it is drawn
+ * of the data. Released by elvis_scene_release.
+ */
+ELVIS_EXPORT elvis_result elvis_scene_complete(const elvis_scene* scene, elvis_data* data, elvis_scene** complete);
 /** The JSON Schema of scenes. */
 ELVIS_EXPORT elvis_string elvis_scene_schema(void);
 
@@ -328,6 +350,10 @@ typedef struct elvis_picture elvis_picture;
 typedef uint32_t elvis_render_flags;
 /** Colours alone: value, depth, normal, element and flags are not read from the device, which saves time. */
 #define ELVIS_RENDER_COLOR_ONLY 1u
+/** To compare times: what opaque surfaces hide is not evaluated. Changes crossings with isosurfaces by rounding. */
+#define ELVIS_RENDER_SHARE_DEPTHS 2u
+/** To compare times: all rows are drawn in each round, not only those that still want more. The same picture. */
+#define ELVIS_RENDER_ALL_ROWS 4u
 
 typedef struct elvis_render_options {
     uint32_t struct_size;
@@ -345,6 +371,34 @@ ELVIS_EXPORT elvis_result elvis_render(elvis_data* data, const elvis_scene* scen
                                        const elvis_task* task, elvis_picture** picture);
 ELVIS_EXPORT void elvis_picture_release(elvis_picture* picture);
 
+/**
+ * Brings the data to the device in the scene's precision, which the first picture would do else. Not needed before anything;
+ * for programs that want to know early whether it goes well.
+ */
+ELVIS_EXPORT elvis_result elvis_data_prepare(elvis_data* data, const elvis_scene* scene, const elvis_task* task);
+
+typedef uint32_t elvis_screen_flags;
+/** Volume rendering to a hundredth of a channel, and lines that are looked for in few subpixels. */
+#define ELVIS_SCREEN_COARSE 1u
+/** Without contours and mesh lines; of coarse pictures only. */
+#define ELVIS_SCREEN_NO_LINES 2u
+
+typedef struct elvis_screen_options {
+    uint32_t struct_size;
+    elvis_screen_flags flags;
+    /** So many pixels across and down are drawn as one, of coarse pictures only; 0 or 1: each. At most 256. */
+    uint32_t divisor;
+    uint32_t reserved;
+} elvis_screen_options;
+
+/**
+ * Draws the scene for a screen, also while things move: colours alone, in ELVIS_NUMBER_UINT8, over grey where the background is
+ * not opaque. The picture has the scene's size, and annotation of that size, whatever the divisor. `options` may be NULL.
+ */
+ELVIS_EXPORT elvis_result elvis_render_for_screen(elvis_data* data, const elvis_scene* scene,
+                                                  const elvis_screen_options* options, const elvis_task* task,
+                                                  elvis_picture** picture);
+
 typedef struct elvis_picture_info {
     uint32_t struct_size;
     uint32_t width, height;
@@ -354,6 +408,9 @@ typedef struct elvis_picture_info {
     uint64_t n_hit_pixels, n_undecided_pixels;
     /** Time of this frame, without upload and compilation; and what the device would need with nothing else to do. */
     double render_milliseconds, device_milliseconds;
+    /** Of pictures for a screen: not 0 if a coarse one of the scene differs from one that is not. */
+    uint32_t is_refinable;
+    uint32_t reserved;
 } elvis_picture_info;
 
 ELVIS_EXPORT elvis_result elvis_picture_get_info(const elvis_picture* picture, elvis_picture_info* info);
@@ -403,6 +460,63 @@ ELVIS_EXPORT elvis_result elvis_picture_read(const elvis_picture* picture, elvis
 ELVIS_EXPORT elvis_result elvis_picture_write_png(const elvis_picture* picture, elvis_string path, uint32_t bits);
 /** The file of `elvis render --buffers` (HDF5). */
 ELVIS_EXPORT elvis_result elvis_picture_write_buffers(const elvis_picture* picture, elvis_string path);
+
+/* ---- Animations -------------------------------------------------------------------------------------------------------- */
+
+/** The pictures of a scene's animation, whose colours mean the same in all of them. For one thread at a time. */
+typedef struct elvis_animation elvis_animation;
+
+/** Of a scene with the key "animation", which is copied. Released by elvis_animation_release. */
+ELVIS_EXPORT elvis_result elvis_animation_create(elvis_data* data, const elvis_scene* scene, elvis_animation** animation);
+ELVIS_EXPORT void elvis_animation_release(elvis_animation* animation);
+
+typedef struct elvis_animation_info {
+    uint32_t struct_size;
+    uint32_t n_frames;
+    double frames_a_second;
+} elvis_animation_info;
+
+ELVIS_EXPORT elvis_result elvis_animation_get_info(elvis_animation* animation, elvis_animation_info* info);
+/** Which time step the frame shows. */
+ELVIS_EXPORT elvis_result elvis_animation_get_time_step(elvis_animation* animation, uint32_t frame, uint32_t* time_step);
+/**
+ * Draws one frame, in any order, as elvis_render; the options' size is not for animations. What is to be known of a time step
+ * is among the remarks on the first picture of it.
+ */
+ELVIS_EXPORT elvis_result elvis_animation_render(elvis_animation* animation, uint32_t frame,
+                                                 const elvis_render_options* options, const elvis_task* task,
+                                                 elvis_picture** picture);
+/** JSON list of sentences: which surfaces none of the pictures drawn so far shows. */
+ELVIS_EXPORT elvis_result elvis_animation_get_remarks(elvis_animation* animation, char** text);
+
+/* ---- Looking closer ---------------------------------------------------------------------------------------------------- */
+
+/**
+ * What is known of the point that a place of the scene's picture shows: `column` and `row` in pixels from its upper left
+ * corner, middles of pixels end in a half. JSON object: hit, position, depth, normal, value (as drawn), element, also (other
+ * elements that contain it), xi, jacobian, scaled_jacobian, order, fields (name, unit, values, gradients: three numbers a
+ * value, gradient_is_estimated), remark (why something is missing). In double precision, but for depth, normal and value.
+ */
+ELVIS_EXPORT elvis_result elvis_data_pick(elvis_data* data, const elvis_scene* scene, double column, double row,
+                                          const elvis_task* task, char** text);
+
+#define ELVIS_SAMPLES_A_PIECE 500u
+#define ELVIS_SAMPLE_PIECES 24u
+
+/**
+ * Finite values of a field or expression (NULL: the scene's field) at the scene's time step, at points spread evenly over the
+ * volume, so that each counts by the space it takes. `piece` is one of ELVIS_SAMPLE_PIECES, so that long work can be cut;
+ * `values` has room for ELVIS_SAMPLES_A_PIECE, of which *n_values are written. Only of volumes of three dimensions.
+ */
+ELVIS_EXPORT elvis_result elvis_data_sample(elvis_data* data, const elvis_scene* scene, elvis_string field, uint32_t piece,
+                                            double* values, uint32_t* n_values);
+
+/**
+ * Values of the scene's field below which these parts of the volume lie (in [0, 1]), from all samples, over the time steps of
+ * the scene's animation if it has some.
+ */
+ELVIS_EXPORT elvis_result elvis_data_get_percentiles(elvis_data* data, const elvis_scene* scene, uint32_t n_parts,
+                                                     const double* parts, double* values, const elvis_task* task);
 
 /* ---- Conversion -------------------------------------------------------------------------------------------------------- */
 

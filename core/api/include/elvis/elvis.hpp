@@ -75,6 +75,7 @@ struct release {
     void operator()(elvis_data* handle) const { elvis_data_release(handle); }
     void operator()(elvis_scene* handle) const { elvis_scene_release(handle); }
     void operator()(elvis_picture* handle) const { elvis_picture_release(handle); }
+    void operator()(elvis_animation* handle) const { elvis_animation_release(handle); }
     void operator()(char* text) const { elvis_text_release(text); }
 };
 
@@ -98,6 +99,8 @@ using shared_context = std::shared_ptr<elvis_context>;
 
 } // namespace detail
 
+class data;
+
 /** What is to be seen. */
 class scene {
 public:
@@ -110,6 +113,8 @@ public:
         check(elvis_scene_copy(get(), &other));
         return {m_context, other};
     }
+    /** See elvis_scene_complete. */
+    inline scene completed(const data& shown) const;
     void set(const std::string& pointer, const std::string& json) {
         check(elvis_scene_set(get(), pointer.c_str(), json.c_str()));
     }
@@ -197,6 +202,45 @@ private:
 
     detail::shared_context m_context;
     std::unique_ptr<elvis_picture, detail::release> m_handle;
+};
+
+/** The pictures of a scene's animation. */
+class animation {
+public:
+    animation(detail::shared_context context, elvis_animation* handle) : m_context(std::move(context)), m_handle(handle) {}
+    animation(animation&&) = default;
+    animation& operator=(animation&&) = default;
+
+    elvis_animation_info info() const {
+        auto result = detail::sized<elvis_animation_info>();
+        check(elvis_animation_get_info(get(), &result));
+        return result;
+    }
+    std::uint32_t time_step(std::uint32_t frame) const {
+        std::uint32_t result = 0;
+        check(elvis_animation_get_time_step(get(), frame, &result));
+        return result;
+    }
+    picture render(std::uint32_t frame, const elvis_render_options& options = detail::sized<elvis_render_options>(),
+                   const task& watch = {}) const {
+        elvis_picture* drawn = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_animation_render(get(), frame, &options, &c_watch, &drawn));
+        return {m_context, drawn};
+    }
+    /** JSON list of sentences. */
+    std::string remarks() const {
+        char* text = nullptr;
+        check(elvis_animation_get_remarks(get(), &text));
+        return detail::taken(text);
+    }
+    elvis_animation* get() const { return m_handle.get(); }
+
+private:
+    void check(elvis_result result) const { detail::check(result, m_context.get()); }
+
+    detail::shared_context m_context;
+    std::unique_ptr<elvis_animation, detail::release> m_handle;
 };
 
 /** Values at points: see elvis_probe. */
@@ -294,6 +338,46 @@ public:
         check(elvis_render(get(), shown.get(), &options, &c_watch, &drawn));
         return {m_context, drawn};
     }
+    /** See elvis_data_prepare. */
+    void prepare(const scene& shown, const task& watch = {}) const {
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_prepare(get(), shown.get(), &c_watch));
+    }
+    picture render_for_screen(const scene& shown, const elvis_screen_options& options = detail::sized<elvis_screen_options>(),
+                              const task& watch = {}) const {
+        elvis_picture* drawn = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_render_for_screen(get(), shown.get(), &options, &c_watch, &drawn));
+        return {m_context, drawn};
+    }
+    /** Of a scene with the key "animation". */
+    animation animate(const scene& shown) const {
+        elvis_animation* made = nullptr;
+        check(elvis_animation_create(get(), shown.get(), &made));
+        return {m_context, made};
+    }
+    /** JSON: see elvis_data_pick. */
+    std::string pick(const scene& shown, double column, double row, const task& watch = {}) const {
+        char* text = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_pick(get(), shown.get(), column, row, &c_watch, &text));
+        return detail::taken(text);
+    }
+    /** Values of the field, or of the scene's if it is empty, in one of ELVIS_SAMPLE_PIECES. */
+    std::vector<double> sample(const scene& shown, const std::string& field, std::uint32_t piece) const {
+        std::vector<double> values(ELVIS_SAMPLES_A_PIECE);
+        std::uint32_t n_values = 0;
+        check(elvis_data_sample(get(), shown.get(), detail::or_null(field), piece, values.data(), &n_values));
+        values.resize(n_values);
+        return values;
+    }
+    std::vector<double> percentiles(const scene& shown, const std::vector<double>& parts, const task& watch = {}) const {
+        std::vector<double> values(parts.size());
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_get_percentiles(get(), shown.get(), static_cast<std::uint32_t>(parts.size()), parts.data(),
+                                         values.data(), &c_watch));
+        return values;
+    }
     /** See elvis_data_update_field. */
     void update_field(std::uint32_t field, std::uint32_t time_step, std::uint32_t element_class, const double* values) {
         check(elvis_data_update_field(get(), field, time_step, element_class, values));
@@ -308,6 +392,12 @@ private:
     detail::shared_context m_context;
     std::unique_ptr<elvis_data, detail::release> m_handle;
 };
+
+inline scene scene::completed(const data& shown) const {
+    elvis_scene* complete = nullptr;
+    check(elvis_scene_complete(get(), shown.get(), &complete));
+    return {m_context, complete};
+}
 
 /** A device with plugins and a cache. Copies are the same context. */
 class context {
@@ -362,6 +452,18 @@ public:
     std::string list_devices() const {
         char* text = nullptr;
         check(elvis_context_list_devices(get(), &text));
+        return detail::taken(text);
+    }
+    /** JSON of the device that draws. */
+    std::string describe_device() const {
+        char* text = nullptr;
+        check(elvis_context_describe_device(get(), &text));
+        return detail::taken(text);
+    }
+    /** JSON: see elvis_context_describe_file. */
+    std::string describe_file(const std::string& path) const {
+        char* text = nullptr;
+        check(elvis_context_describe_file(get(), path.c_str(), &text));
         return detail::taken(text);
     }
     std::string list_plugins() const {

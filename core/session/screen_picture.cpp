@@ -1,10 +1,19 @@
-#include "picture.hpp"
+#include <core/session/screen_picture.hpp>
+
+#include <core/annotation/plan.hpp>
+#include <core/base/milliseconds.hpp>
+#include <core/render/frame_schedule.hpp>
+#include <core/scene/frame_request.hpp>
+#include <core/session/missed_surfaces.hpp>
+#include <core/session/still_picture.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <span>
+#include <utility>
 
-namespace elvis::view {
+namespace elvis {
 
 namespace {
 
@@ -39,7 +48,7 @@ std::size_t nearest(std::uint32_t place, std::uint32_t n_places, std::uint32_t n
 }
 
 /** A part of the frame as it would be with width times height pixels. */
-Frame stretched_part(const Frame& frame, std::uint32_t width, std::uint32_t height, const elvis::PixelBox& box) {
+Frame stretched_part(const Frame& frame, std::uint32_t width, std::uint32_t height, const PixelBox& box) {
     Frame part;
     part.width = static_cast<std::uint32_t>(box.width());
     part.height = static_cast<std::uint32_t>(box.height());
@@ -77,8 +86,8 @@ std::vector<std::uint8_t> stretched(const std::vector<std::uint8_t>& rgba, const
 }
 
 /** Paints where the item is, and nowhere else: small frames are not made large for it. */
-void write_item(const AnnotationPlan::Item& item, double halo_radius, const Frame& frame, Picture& picture) {
-    elvis::PixelBox box = grown(item.drawing.box(), static_cast<int>(std::ceil(halo_radius)));
+void write_item(const AnnotationPlan::Item& item, double halo_radius, const Frame& frame, ScreenPicture& picture) {
+    PixelBox box = grown(item.drawing.box(), static_cast<int>(std::ceil(halo_radius)));
     box = {std::max(box.left, 0), std::max(box.top, 0), std::min(box.right, static_cast<int>(picture.width)),
            std::min(box.bottom, static_cast<int>(picture.height))};
     if (box.is_empty()) {
@@ -96,24 +105,54 @@ void write_item(const AnnotationPlan::Item& item, double halo_radius, const Fram
     }
 }
 
-} // namespace
-
-Picture picture_of(const Frame& frame, const AnnotationPlan& annotation, std::uint32_t width, std::uint32_t height) {
-    Picture picture;
-    picture.width = width;
-    picture.height = height;
-    picture.counts = frame.counts;
+/** Writes the picture's pixels; annotation has its size, whatever the frame's. */
+void paint(const Frame& frame, const AnnotationPlan& annotation, ScreenPicture& picture) {
     picture.rgba = bytes_of(frame.color);
-    if (frame.width != width || frame.height != height) {
-        picture.rgba = stretched(picture.rgba, frame, width, height);
+    if (frame.width != picture.width || frame.height != picture.height) {
+        picture.rgba = stretched(picture.rgba, frame, picture.width, picture.height);
     }
     for (const AnnotationPlan::Item& item : annotation.items) {
         write_item(item, annotation.halo_radius, frame, picture);
     }
     for (const std::string& name : annotation.left_out) {
-        picture.remarks.push_back("annotation: there is no room for the " + name);
+        picture.remarks.push_back({true, "annotation: there is no room for the " + name});
     }
+}
+
+AnnotationPlan annotation_of(const Scene& scene, const FrameRequest& request, const Frame& frame, const RuntimeVolume& volume) {
+    return scene.annotation ? plan_annotation(request.width, request.height,
+                                              make_annotation_request(*scene.annotation, request, frame, volume))
+                            : AnnotationPlan{};
+}
+
+} // namespace
+
+ScreenPicture draw_for_screen(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const ScreenOptions& options,
+                              const TaskControl* control) {
+    FrameRequest request = make_frame_request(scene, volume, renderer.ranges());
+    request.with_buffers = false;
+    ScreenPicture picture;
+    picture.width = request.width;
+    picture.height = request.height;
+    const FrameStage stage = options.is_coarse ? FrameStage::full : FrameStage::exact;
+    picture.frame = renderer.render(request_for(request, stage, options.divisor, !options.has_no_lines), control);
+    const auto drawn = std::chrono::steady_clock::now();
+    picture.remarks = remarks_on(scene, request);
+    paint(picture.frame, annotation_of(scene, request, picture.frame, volume), picture);
+    if (options.divisor == 1) {
+        MissedSurfaces missed;
+        missed.add(request, picture.frame);
+        for (const std::string& text : missed.remarks(scene, request, renderer.ranges())) {
+            picture.remarks.push_back({true, text});
+        }
+    }
+    for (FrameRemark& remark : remarks_on(picture.frame.counts)) {
+        picture.remarks.push_back(std::move(remark));
+    }
+    picture.frame.color.clear();
+    picture.is_refinable = has_refinement(request);
+    picture.milliseconds = picture.frame.render_milliseconds + milliseconds_since(drawn);
     return picture;
 }
 
-} // namespace elvis::view
+} // namespace elvis

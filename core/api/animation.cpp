@@ -1,0 +1,85 @@
+#include "drawing.hpp"
+
+#include <core/base/counted.hpp>
+
+namespace elvis::library {
+
+namespace {
+
+const AnimationFrame& frame_of(const Animation& animation, std::uint32_t frame) {
+    const std::vector<AnimationFrame>& frames = animation.pictures.frames();
+    if (frame >= frames.size()) {
+        throw InvalidArgument("frame", "the animation has " + counted(frames.size(), "frame") + ", counted from 0");
+    }
+    return frames[frame];
+}
+
+} // namespace
+
+} // namespace elvis::library
+
+using namespace elvis;
+using namespace elvis::library;
+
+elvis_result elvis_animation_create(elvis_data* data, const elvis_scene* scene, elvis_animation** animation) {
+    return call(data, [&] {
+        need(animation, "animation");
+        *animation = nullptr;
+        need(scene, "scene");
+        if (!scene->state.scene.animation) {
+            throw InvalidArgument("scene", "has no animation");
+        }
+        const DataTask running(*data->state, nullptr);
+        Scene shown = scene_for(*data->state, scene->state.scene);
+        const Precision precision = precision_of(shown);
+        VolumeRanges& ranges = data->state->renderer(precision).ranges();
+        *animation =
+            new elvis_animation{{data->state, precision, AnimationPictures(std::move(shown), data->state->volume, ranges)}};
+    });
+}
+
+void elvis_animation_release(elvis_animation* animation) { delete animation; }
+
+elvis_result elvis_animation_get_info(elvis_animation* animation, elvis_animation_info* info) {
+    return call(animation, [&] {
+        elvis_animation_info ours{};
+        ours.n_frames = static_cast<std::uint32_t>(animation->state.pictures.frames().size());
+        ours.frames_a_second = animation->state.pictures.frames_a_second();
+        give(ours, info, "info");
+    });
+}
+
+elvis_result elvis_animation_get_time_step(elvis_animation* animation, uint32_t frame, uint32_t* time_step) {
+    return call(animation, [&] {
+        need(time_step, "time_step");
+        *time_step = frame_of(animation->state, frame).time_step;
+    });
+}
+
+elvis_result elvis_animation_render(elvis_animation* animation, uint32_t frame, const elvis_render_options* options,
+                                    const elvis_task* task, elvis_picture** picture) {
+    return call(animation, [&] {
+        need(picture, "picture");
+        *picture = nullptr;
+        const elvis_render_options known = known_or_zero(options);
+        if (known.width != 0 || known.height != 0) {
+            throw InvalidArgument("options", "pictures of an animation have the scene's size");
+        }
+        Animation& state = animation->state;
+        frame_of(state, frame);
+        const DataTask running(*state.data, task);
+        Renderer& renderer = state.data->renderer(state.precision);
+        *picture = new_picture(state.data, state.precision,
+                               state.pictures.draw(frame, renderer, still_options(known), state.data->control.get()));
+    });
+}
+
+elvis_result elvis_animation_get_remarks(elvis_animation* animation, char** text) {
+    return call(animation, [&] {
+        need(text, "text");
+        Animation& state = animation->state;
+        const DataTask running(*state.data, nullptr);
+        const nlohmann::json list = state.pictures.missed(state.data->renderer(state.precision).ranges());
+        *text = text_for_caller(list.dump());
+    });
+}

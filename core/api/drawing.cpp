@@ -1,0 +1,31 @@
+#include "drawing.hpp"
+
+#include <core/annotation/font.hpp>
+
+namespace elvis::library {
+
+Scene scene_for(const Data& data, Scene scene) {
+    scene.volume = data.volume.path();
+    if (scene.annotation) {
+        const Font font(scene.annotation->style.font);
+    }
+    return scene;
+}
+
+StillOptions still_options(const elvis_render_options& options) {
+    StillOptions how;
+    how.with_buffers = (options.flags & ELVIS_RENDER_COLOR_ONLY) == 0;
+    how.sharing.depths = (options.flags & ELVIS_RENDER_SHARE_DEPTHS) != 0;
+    how.sharing.rows = (options.flags & ELVIS_RENDER_ALL_ROWS) == 0;
+    return how;
+}
+
+elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision,
+                           std::variant<StillPicture, ScreenPicture> drawn) {
+    auto picture = std::make_unique<elvis_picture>();
+    picture->state = {data, precision, std::move(drawn), {}};
+    picture->state.stats = PictureStats(data->context->device(), precision, picture->state.frame(), data->renderer(precision));
+    return picture.release();
+}
+
+} // namespace elvis::library

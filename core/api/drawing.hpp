@@ -1,0 +1,29 @@
+/**
+ * @file drawing.hpp
+ * How calls that draw begin and end.
+ */
+#pragma once
+
+#include "call.hpp"
+
+#include <memory>
+
+namespace elvis::library {
+
+/** A scene of these data, whatever volume it names. Throws Error if its annotation's font is not there: before work is done. */
+Scene scene_for(const Data& data, Scene scene);
+
+inline Precision precision_of(const Scene& scene) { return scene.precision.value_or(Precision::float32); }
+
+/** Options of the caller's, which may be null: then all are zero. */
+template <class Struct> Struct known_or_zero(const Struct* options) {
+    return options != nullptr ? known_part(options, "options") : Struct{};
+}
+
+StillOptions still_options(const elvis_render_options& options);
+
+/** A new picture, of what was drawn by the data's renderer. */
+elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision,
+                           std::variant<StillPicture, ScreenPicture> drawn);
+
+} // namespace elvis::library

@@ -1,0 +1,86 @@
+#include "drawing.hpp"
+
+#include <algorithm>
+
+namespace elvis::library {
+
+namespace {
+
+/** With the options' size, which both must be given or neither. */
+void resize(Scene& scene, const elvis_render_options& options) {
+    if ((options.width == 0) != (options.height == 0)) {
+        throw InvalidArgument("options", "width and height are given together");
+    }
+    if (options.width != 0) {
+        constexpr std::uint32_t most = 32768; // As in the schema of scenes.
+        if (options.width > most || options.height > most) {
+            throw InvalidArgument("options", "a picture has at most 32768 columns and rows");
+        }
+        scene.size = {options.width, options.height};
+    }
+}
+
+ScreenOptions screen_options(const elvis_screen_options& options) {
+    constexpr std::uint32_t most_divisor = 256;
+    ScreenOptions how;
+    how.is_coarse = (options.flags & ELVIS_SCREEN_COARSE) != 0;
+    how.has_no_lines = (options.flags & ELVIS_SCREEN_NO_LINES) != 0;
+    how.divisor = std::max(1u, options.divisor);
+    if (!how.is_coarse && (how.has_no_lines || how.divisor > 1)) {
+        throw InvalidArgument("options", "pictures that are not coarse have all lines and pixels");
+    }
+    if (how.divisor > most_divisor) {
+        throw InvalidArgument("options", "divisor is at most 256");
+    }
+    return how;
+}
+
+} // namespace
+
+} // namespace elvis::library
+
+using namespace elvis;
+using namespace elvis::library;
+
+elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvis_render_options* options,
+                          const elvis_task* task, elvis_picture** picture) {
+    return call(data, [&] {
+        need(picture, "picture");
+        *picture = nullptr;
+        need(scene, "scene");
+        const elvis_render_options known = known_or_zero(options);
+        Data& state = *data->state;
+        Scene still = scene_for(state, scene->state.scene);
+        still.animation.reset();
+        resize(still, known);
+        const DataTask running(state, task);
+        const Precision precision = precision_of(still);
+        *picture =
+            new_picture(data->state, precision,
+                        draw_still(still, state.volume, state.renderer(precision), still_options(known), state.control.get()));
+    });
+}
+
+elvis_result elvis_render_for_screen(elvis_data* data, const elvis_scene* scene, const elvis_screen_options* options,
+                                     const elvis_task* task, elvis_picture** picture) {
+    return call(data, [&] {
+        need(picture, "picture");
+        *picture = nullptr;
+        need(scene, "scene");
+        const ScreenOptions how = screen_options(known_or_zero(options));
+        Data& state = *data->state;
+        const Scene shown = scene_for(state, scene->state.scene);
+        const DataTask running(state, task);
+        const Precision precision = precision_of(shown);
+        *picture = new_picture(data->state, precision,
+                               draw_for_screen(shown, state.volume, state.renderer(precision), how, state.control.get()));
+    });
+}
+
+elvis_result elvis_data_prepare(elvis_data* data, const elvis_scene* scene, const elvis_task* task) {
+    return call(data, [&] {
+        need(scene, "scene");
+        const DataTask running(*data->state, task);
+        data->state->renderer(precision_of(scene->state.scene));
+    });
+}

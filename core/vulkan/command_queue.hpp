@@ -1,0 +1,77 @@
+/**
+ * @file command_queue.hpp
+ * The way of work to a device.
+ */
+#pragma once
+
+#include <core/vulkan/device_clock.hpp>
+
+#include <vulkan/vulkan.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+/**
+ * Commands in the order in which they are recorded: each sees what those before it have written. Either each is submitted and
+ * waited for at once, or they are collected until this side wants to see a result (finish): on a device of its own, a
+ * submission with a wait costs as much as a small kernel. Any thread.
+ */
+class CommandQueue {
+public:
+    /** `place`: for errors. */
+    CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, std::string place);
+    ~CommandQueue();
+    CommandQueue(const CommandQueue&) = delete;
+    CommandQueue& operator=(const CommandQueue&) = delete;
+
+    bool collects() const { return m_collects; }
+
+    /** Called at once, while no other thread records or submits. */
+    using Record = std::function<void(VkCommandBuffer)>;
+    void record(const Record& record);
+    /** Submits what was collected, if anything was, and waits: then all of it has been done. A lost device is an Error. */
+    void finish();
+    /** Something was collected that is not done. */
+    bool is_pending() const { return m_is_recording; }
+
+    /** Grows with each submission. What was used in one may be used anew in the next. To be asked inside of record(). */
+    std::uint64_t submission() const { return n_submissions; }
+
+    /** Does it once all that was recorded so far has been done: at once if nothing is pending. It must not throw. */
+    void when_done(std::function<void()> what) noexcept;
+
+    /** Submissions, and how often this side waited. */
+    std::atomic<std::uint64_t> n_submissions{0}, n_host_waits{0};
+    /** How long the device worked on all that was submitted, by its own clock; nothing where it has none. */
+    std::optional<double> busy_milliseconds();
+
+private:
+    void create(std::uint32_t family);
+    void begin();
+    /** These need the mutex. */
+    void submit_and_wait();
+    void do_what_waits() noexcept;
+    void release() noexcept;
+
+    VkDevice m_device;
+    DeviceClock m_clock;
+    double m_busy_nanoseconds = 0;
+    bool m_collects;
+    std::string m_place;
+    VkQueue m_queue = VK_NULL_HANDLE;
+    VkCommandPool m_pool = VK_NULL_HANDLE;
+    VkCommandBuffer m_commands = VK_NULL_HANDLE;
+    VkFence m_fence = VK_NULL_HANDLE;
+    std::mutex m_mutex;
+    std::atomic<bool> m_is_recording{false};
+    std::vector<std::function<void()>> m_waiting;
+};
+
+} // namespace elvis
