@@ -1,5 +1,7 @@
 #include <core/render/bands.hpp>
 
+#include <core/base/host.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -57,7 +59,8 @@ std::vector<Frame> draw(std::span<Renderer* const> renderers, const FrameRequest
     {
         std::vector<std::jthread> threads;
         for (std::size_t i = 0; i < bands.size(); ++i) {
-            threads.emplace_back([&, i] {
+            threads.emplace_back([&, i, &of = host()] {
+                const HostScope scope(of);
                 try {
                     frames[i] = renderers[i]->render(request_for(request, bands[i]), control);
                 } catch (...) {

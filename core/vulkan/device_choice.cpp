@@ -125,6 +125,30 @@ DeviceSummary choose_among(const std::vector<DeviceSummary>& devices, const std:
     return *found;
 }
 
+std::vector<std::string> named_devices(const std::string& list) {
+    const std::vector<DeviceSummary> devices = list_devices();
+    std::vector<std::string> indices;
+    if (list == "all") {
+        const std::string type = choose_among(devices, {}).type;
+        for (const DeviceSummary& device : devices) {
+            if (device.unusable_because.empty() && device.type == type) {
+                indices.push_back(std::to_string(device.index));
+            }
+        }
+        return indices;
+    }
+    for (std::size_t first = 0; first <= list.size();) {
+        const std::size_t end = std::min(list.find(',', first), list.size());
+        const std::string name = list.substr(first, end - first);
+        if (name.empty()) {
+            throw Error("devices '" + list + "'", "is neither 'all' nor a list of names, with ',' between them");
+        }
+        indices.push_back(std::to_string(choose_among(devices, name).index));
+        first = end + 1;
+    }
+    return indices;
+}
+
 std::vector<DeviceSummary> list_devices() { return Instance(false).summaries(); }
 
 DeviceSummary choose_device(const std::string& wanted) { return choose_among(list_devices(), wanted); }

@@ -53,8 +53,6 @@ double DeviceClock::nanoseconds() const {
     return m_period * static_cast<double>((stamps[1] - stamps[0]) & m_mask);
 }
 
-std::optional<double> busy_milliseconds(const Device& device) {
-    return device.impl().queue->busy_milliseconds();
-}
+std::optional<double> busy_milliseconds(const Device& device) { return device.impl().queue->busy_milliseconds(); }
 
 } // namespace elvis
