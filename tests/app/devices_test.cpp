@@ -12,13 +12,11 @@ const std::string view = "--cut-plane 0,0,1,0.1 --contours 0.2,0.5 --boundary --
 
 TEST_CASE("Several devices draw a still picture to the bytes of one") {
     const Workplace place;
-    REQUIRE(place.run("render ball.h5 -o one.png --buffers one.h5 --bits 16 " + view).status == 0);
-    const Outcome two =
-        place.run("render ball.h5 -o two.png --buffers two.h5 --bits 16 --devices 0,0 --stats stats.json " + view);
+    REQUIRE(place.run("render ball.h5 -o one.png --bits 16 " + view).status == 0);
+    const Outcome two = place.run("render ball.h5 -o two.png --bits 16 --devices 0,0 --stats stats.json " + view);
     INFO(two.err);
     REQUIRE(two.status == 0);
     CHECK(place.read("one.png") == place.read("two.png"));
-    CHECK(place.read("one.h5") == place.read("two.h5"));
     CHECK(nlohmann::json::parse(place.read("stats.json"))["counts"]["pixels"] == 90 * 75);
     REQUIRE(place.run("render ball.h5 -o all.png --bits 16 --devices all --validation " + view).status == 0);
     CHECK(place.read("one.png") == place.read("all.png"));
