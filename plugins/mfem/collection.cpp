@@ -47,7 +47,7 @@ bool is_closed(Basis basis) {
     return basis == Basis::gauss_lobatto || basis == Basis::closed_uniform || basis == Basis::positive;
 }
 
-/** The part of a name before "_3D_P". */
+/** The part of a name before "_2D_P" or "_3D_P". */
 std::optional<Collection> parse_prefix(std::string_view text) {
     Collection result;
     if (text == "H1Pos") {
@@ -112,15 +112,16 @@ Collection parse_collection(std::string_view name) {
                           .basis = Basis::closed_uniform,
                           .is_first_cubic = name == "Cubic"};
     }
-    const std::size_t dimension = name.find("_3D_P");
-    const auto prefix = parse_prefix(name.substr(0, dimension));
-    if (dimension == std::string_view::npos || !prefix) {
+    const std::size_t place = std::min(name.find("_2D_P"), name.find("_3D_P"));
+    const auto prefix = parse_prefix(name.substr(0, place));
+    if (place == std::string_view::npos || !prefix) {
         throw std::invalid_argument(shown +
-                                    " is not supported; H1, H1Pos, L2, ND and RT in three dimensions are, with the points "
-                                    "of Gauss-Lobatto, Gauss-Legendre or uniform ones");
+                                    " is not supported; H1, H1Pos, L2, ND and RT in two and three dimensions are, with the "
+                                    "points of Gauss-Lobatto, Gauss-Legendre or uniform ones");
     }
     Collection result = *prefix;
-    std::string_view digits = name.substr(dimension + 5);
+    result.dimension = name[place + 1] - '0';
+    std::string_view digits = name.substr(place + 5);
     const auto order = take_number(digits);
     const int least = result.family == Family::h1 || result.family == Family::nd ? 1 : 0;
     if (!order || !digits.empty() || *order < least || *order > max_order) {

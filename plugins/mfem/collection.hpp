@@ -1,6 +1,6 @@
 /**
  * @file collection.hpp
- * Names of MFEM's finite element collections, such as H1_3D_P5, L2_T1_3D_P2, ND@UO_3D_P3.
+ * Names of MFEM's finite element collections, such as H1_3D_P5, L2_T1_2D_P2, ND@UO_3D_P3.
  */
 #pragma once
 
@@ -25,6 +25,8 @@ enum class Basis : std::uint8_t {
 
 struct Collection {
     Family family = Family::h1;
+    /** 2 or 3; 0 fits any mesh. */
+    int dimension = 0;
     /** The number after P: polynomial order of H1 and L2; Nedelec spaces of order p lie in order p, Raviart-Thomas in p + 1. */
     int order = 1;
     /** Basis of H1 and L2; closed basis of ND and RT. */

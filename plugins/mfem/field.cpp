@@ -2,6 +2,7 @@
 
 #include <elvis/plugin.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace elvis_mfem {
@@ -46,12 +47,15 @@ void Field::evaluate(std::size_t element, std::span<const double> xi, double* va
     if (!collection().is_vector()) {
         return;
     }
-    // With A = dxi/dX = 2 R (R a rotation) and J to X: J^-T = J_xi^-T R/2, J / det J = (J_xi / det J_xi) R/4.
-    const double factor = collection().family == Family::nd ? 0.5 : 0.25;
+    // With A = dxi/dX = 2 R (R a rotation) and J to X: J^-T = J_xi^-T R/2, J / det J = (J_xi / det J_xi) R/4, in two dimensions
+    // R/2.
+    const double factor = collection().family == Family::rt && m_mesh.dimension == 3 ? 0.25 : 0.5;
     for (std::size_t point = 0; point < xi.size() / 3; ++point) {
         double* value = values + point * stride;
-        const Point turned = rotate_to_elvis(geometry, {value[0], value[1], value[2]});
-        for (std::size_t d = 0; d < 3; ++d) {
+        Point vector{};
+        std::copy_n(value, n_components(), vector.begin());
+        const Point turned = rotate_to_elvis(geometry, vector);
+        for (std::size_t d = 0; d < n_components(); ++d) {
             value[d] = factor * turned[d];
         }
     }

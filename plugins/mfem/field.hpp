@@ -24,7 +24,7 @@ public:
     const std::string& name() const { return m_name; }
     const Collection& collection() const { return m_function.collection; }
     std::size_t n_components() const {
-        return collection().is_vector() ? 3 : static_cast<std::size_t>(m_function.n_components);
+        return static_cast<std::size_t>(collection().is_vector() ? m_mesh.dimension : m_function.n_components);
     }
 
     /**

@@ -36,18 +36,7 @@ void read_vertices(Text& text, Mesh& mesh) {
     if (mesh.nodes) {
         return;
     }
-    text.integer("the number of coordinates of a vertex", 3, 3);
-    // A digit and a blank each.
-    if (mesh.n_vertices > text.left() / 6 + 1) {
-        text.fail("the file cannot hold " + std::to_string(mesh.n_vertices) + " vertices");
-    }
-    mesh.coordinates.resize(3 * mesh.n_vertices);
-    for (double& coordinate : mesh.coordinates) {
-        coordinate = text.real("a coordinate");
-        if (!std::isfinite(coordinate)) {
-            text.fail("a coordinate is not finite");
-        }
-    }
+    mesh.coordinates = read_coordinates(text, mesh.n_vertices, mesh.dimension, &mesh.space_dimension);
     // Curved meshes may have both.
     read_nodes(text, mesh);
 }
@@ -74,14 +63,14 @@ void check_vertices(const Text& text, const Mesh& mesh) {
 
 Mesh read_conforming(Text& text) {
     Mesh mesh;
-    read_dimension(text);
+    mesh.dimension = read_dimension(text);
     text.expect("elements");
-    const std::size_t n_elements = text.count("the number of elements", 12);
+    const std::size_t n_elements = text.count("the number of elements", 10);
     mesh.elements.reserve(n_elements);
     for (std::size_t index = 0; index < n_elements; ++index) {
-        text.integer("an attribute", 0, most);
         MeshElement element;
-        element.geometry = read_geometry(text);
+        element.attribute = static_cast<int>(text.integer("an attribute", 0, most));
+        element.geometry = read_geometry(text, mesh.dimension);
         for (std::size_t corner = 0; corner < vertices(element.geometry).size(); ++corner) {
             element.vertices[corner] = static_cast<std::int32_t>(text.integer("a vertex", 0, most));
         }
@@ -91,10 +80,10 @@ Mesh read_conforming(Text& text) {
         read_sets(text);
     }
     text.expect("boundary");
-    const std::size_t n_boundary = text.count("the number of boundary elements", 10);
+    const std::size_t n_boundary = text.count("the number of boundary elements", 8);
     mesh.boundary.reserve(n_boundary);
     for (std::size_t index = 0; index < n_boundary; ++index) {
-        mesh.boundary.push_back(read_boundary_element(text, most));
+        mesh.boundary.push_back(read_boundary_element(text, mesh.dimension, most));
     }
     if (text.accept("bdr_attribute_sets")) {
         mesh.boundary_sets = read_sets(text);
@@ -117,23 +106,50 @@ bool is_mesh(const char* path) {
     return rest.substr(0, rest.find('\n')).find("mesh") != std::string::npos;
 }
 
-void read_dimension(Text& text) {
+int read_dimension(Text& text) {
     text.expect("dimension");
-    text.integer("the dimension (only meshes of volumes are read)", 3, 3);
+    const auto dimension = static_cast<int>(text.integer("the dimension", 1, 3));
+    if (dimension == 1) {
+        text.fail("this is a mesh of segments, of dimension 1, which is not supported; those of dimension 2 and 3 are");
+    }
+    return dimension;
 }
 
-Geometry read_geometry(Text& text) {
-    return static_cast<Geometry>(text.integer("the geometry of an element of a volume", 4, 7));
+Geometry read_geometry(Text& text, int dimension) {
+    return static_cast<Geometry>(dimension == 2 ? text.integer("the geometry of an element of dimension 2", 2, 3)
+                                                : text.integer("the geometry of an element of dimension 3", 4, 7));
 }
 
-BoundaryElement read_boundary_element(Text& text, std::int64_t n_vertices) {
+BoundaryElement read_boundary_element(Text& text, int dimension, std::int64_t n_vertices) {
     BoundaryElement element;
     element.attribute = static_cast<int>(text.integer("an attribute", 0, most));
-    const auto n_corners = 1 + text.integer("the geometry of a boundary element", 2, 3);
+    // Segments are geometry 1, triangles 2, squares 3.
+    const auto n_corners =
+        1 + text.integer("the geometry of a boundary element", dimension == 2 ? 1 : 2, dimension == 2 ? 1 : 3);
     for (std::size_t corner = 0; corner < static_cast<std::size_t>(n_corners); ++corner) {
         element.vertices[corner] = static_cast<std::int32_t>(text.integer("a vertex", 0, n_vertices - 1));
     }
     return element;
+}
+
+std::vector<double> read_coordinates(Text& text, std::size_t n_vertices, int dimension, int* space_dimension) {
+    *space_dimension = static_cast<int>(text.integer("the number of coordinates of a vertex", dimension, 3));
+    const auto n_coordinates = static_cast<std::size_t>(*space_dimension);
+    // A digit and a blank each.
+    if (n_vertices > text.left() / (2 * n_coordinates) + 1) {
+        text.fail("the file cannot hold " + std::to_string(n_vertices) + " vertices");
+    }
+    std::vector<double> coordinates(3 * n_vertices);
+    for (std::size_t vertex = 0; vertex < n_vertices; ++vertex) {
+        for (std::size_t d = 0; d < n_coordinates; ++d) {
+            const double coordinate = text.real("a coordinate");
+            if (!std::isfinite(coordinate)) {
+                text.fail("a coordinate is not finite");
+            }
+            coordinates[3 * vertex + d] = coordinate;
+        }
+    }
+    return coordinates;
 }
 
 void read_nodes(Text& text, Mesh& mesh) {
@@ -141,9 +157,12 @@ void read_nodes(Text& text, Mesh& mesh) {
         return;
     }
     mesh.nodes = read_grid_function(text);
-    if (mesh.nodes->collection.is_vector() || mesh.nodes->n_components != 3) {
-        text.fail("the nodes of a mesh must have three components in an H1 or L2 space");
+    const int n_components = mesh.nodes->n_components;
+    if (mesh.nodes->collection.is_vector() || n_components < mesh.dimension || n_components > 3) {
+        text.fail(std::string("the nodes of a mesh must have ") + (mesh.dimension == 2 ? "two or " : "") +
+                  "three components in an H1 or L2 space");
     }
+    mesh.space_dimension = n_components;
     if (!std::ranges::all_of(mesh.nodes->values, [](double value) { return std::isfinite(value); })) {
         text.fail("a coordinate of the nodes is not finite");
     }

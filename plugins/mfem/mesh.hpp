@@ -18,6 +18,7 @@ namespace elvis_mfem {
 class Text;
 
 struct MeshElement {
+    int attribute = 1;
     Geometry geometry = Geometry::cube;
     /** In MFEM's order; the rest is -1. */
     std::array<std::int32_t, 8> vertices{-1, -1, -1, -1, -1, -1, -1, -1};
@@ -25,7 +26,7 @@ struct MeshElement {
 
 struct BoundaryElement {
     int attribute = 1;
-    /** The fourth is -1 in triangles. */
+    /** Two of a segment, three of a triangle; the rest is -1. */
     std::array<std::int32_t, 4> vertices{-1, -1, -1, -1};
 };
 
@@ -44,11 +45,15 @@ struct GridFunction {
 };
 
 struct Mesh {
+    /** Of the elements, 2 or 3. */
+    int dimension = 3;
+    /** Coordinates of a point in the file; more than the dimension in surfaces in space. */
+    int space_dimension = 3;
     std::vector<MeshElement> elements;
     std::vector<BoundaryElement> boundary;
     std::vector<AttributeSet> boundary_sets;
     std::size_t n_vertices = 0;
-    /** Three numbers a vertex; empty if there are nodes. */
+    /** Three numbers a vertex, the third 0 in the plane; empty if there are nodes. */
     std::vector<double> coordinates;
     std::optional<GridFunction> nodes;
     /** Most significant decimal digits of the coordinates. */
@@ -71,9 +76,12 @@ GridFunction read_grid_function(Text& text);
 GridFunction read_solution(const std::string& path, int* digits);
 
 /** Parts that both kinds of meshes share. */
-void read_dimension(Text& text);
-Geometry read_geometry(Text& text);
-BoundaryElement read_boundary_element(Text& text, std::int64_t n_vertices);
+int read_dimension(Text& text);
+/** The geometry of an element of that dimension. */
+Geometry read_geometry(Text& text, int dimension);
+BoundaryElement read_boundary_element(Text& text, int dimension, std::int64_t n_vertices);
+/** The number of coordinates, then `n_vertices` points: three numbers each. */
+std::vector<double> read_coordinates(Text& text, std::size_t n_vertices, int dimension, int* space_dimension);
 /** Nodes if they come next. */
 void read_nodes(Text& text, Mesh& mesh);
 

@@ -76,16 +76,22 @@ public:
     }
 
     void get_info(elvis_source_info& info) override {
-        info.dimension = 3;
+        info.dimension = static_cast<std::uint32_t>(m_mesh.dimension);
         info.n_elements = m_mesh.elements.size();
         info.n_corner_ids = m_has_corner_ids ? m_mesh.n_vertices : 0;
-        info.n_fields = static_cast<std::uint32_t>(m_fields.size());
+        info.n_fields = static_cast<std::uint32_t>(std::max<std::size_t>(1, m_fields.size()));
         info.n_time_steps = 1;
         info.n_boundary_groups = static_cast<std::uint32_t>(m_groups.names().size());
         info.mantissa_bits = m_mantissa_bits;
     }
 
     void get_field(std::uint32_t field, elvis_source_field& out) override {
+        if (m_fields.empty()) {
+            out.name = "attribute";
+            out.n_components = 1;
+            out.continuity = ELVIS_CONTINUITY_DISCONTINUOUS;
+            return;
+        }
         const Field& source = *m_fields[field];
         out.name = source.name().c_str();
         out.n_components = static_cast<std::uint32_t>(source.n_components());
@@ -102,7 +108,7 @@ public:
             const MeshElement& source = m_mesh.elements[first + index];
             elvis_source_element element{};
             element.shape = shape(source.geometry);
-            std::fill_n(element.geometry_order, 3,
+            std::fill_n(element.geometry_order, m_mesh.dimension,
                         static_cast<std::uint32_t>(std::max(1, native_order(mapping, source.geometry))));
             const auto corners = corner_vertices(source.geometry);
             for (std::size_t corner = 0; corner < corners.size(); ++corner) {
@@ -117,21 +123,35 @@ public:
     }
 
     void get_spaces(std::uint32_t field, std::uint64_t first, elvis::api::StructArray<elvis_source_space> out) override {
+        if (m_fields.empty()) {
+            elvis_source_space constant{};
+            constant.is_contained = 1;
+            for (std::uint64_t index = 0; index < out.size(); ++index) {
+                out.set(index, constant);
+            }
+            return;
+        }
         const Collection& collection = m_fields[field]->collection();
         for (std::uint64_t index = 0; index < out.size(); ++index) {
             const Geometry geometry = m_mesh.elements[first + index].geometry;
             elvis_source_space space{};
-            std::fill_n(space.order, 3, static_cast<std::uint32_t>(native_order(collection, geometry)));
+            std::fill_n(space.order, m_mesh.dimension, static_cast<std::uint32_t>(native_order(collection, geometry)));
             space.is_contained = is_singular(collection, geometry) ? 0 : 1;
             out.set(index, space);
         }
     }
 
     void evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions) override {
+        // In the plane the nodes have two components.
+        std::ranges::fill(positions, 0.0);
         m_mapping->evaluate(element, xi, positions.data(), 3);
     }
 
     void sample(std::uint32_t, std::uint64_t element, std::span<const double> xi, double* values) override {
+        if (m_fields.empty()) {
+            std::fill_n(values, xi.size() / 3, m_mesh.elements[element].attribute);
+            return;
+        }
         std::size_t stride = 0;
         for (const auto& field : m_fields) {
             stride += field->n_components();
@@ -145,7 +165,20 @@ public:
     elvis_string get_boundary_group(std::uint32_t group) { return m_groups.names()[group].c_str(); }
 
 private:
+    void check_dimension(const Collection& collection, const std::string& path) const {
+        if (collection.dimension != 0 && collection.dimension != m_mesh.dimension) {
+            throw elvis::api::Error(ELVIS_ERROR_FORMAT, path,
+                                    "the finite element collection is of dimension " + std::to_string(collection.dimension) +
+                                        ", but the mesh of dimension " + std::to_string(m_mesh.dimension));
+        }
+        if (collection.is_vector() && m_mesh.dimension < m_mesh.space_dimension) {
+            throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, path,
+                                    "Nedelec and Raviart-Thomas fields on surfaces in space are not supported");
+        }
+    }
+
     std::unique_ptr<const Field> make_field(std::string name, const std::string& path, GridFunction function) {
+        check_dimension(function.collection, path);
         try {
             if (!m_topology && Space::needs_topology(function.collection)) {
                 m_topology.emplace(m_mesh);
@@ -162,6 +195,7 @@ private:
     bool m_has_corner_ids = true;
     std::uint32_t m_mantissa_bits = 53;
     std::unique_ptr<const Field> m_mapping;
+    /** Without any, the elements' attributes are the only field. */
     std::vector<std::unique_ptr<const Field>> m_fields;
 };
 

@@ -1,6 +1,7 @@
 #include "fixture.hpp"
 
 #include <catch2/catch.hpp>
+#include <core/base/error.hpp>
 #include <core/plugin_host/plugin.hpp>
 
 #include <cstdlib>
@@ -13,6 +14,33 @@ elvis::SourceVolume open_mfem(const std::vector<std::string>& paths) {
 }
 
 std::string mfem_data(const std::string& name) { return elvis::test::data_file("mfem/" + name); }
+
+std::string space_text(const std::string& collection, int n_components, int ordering) {
+    return "FiniteElementSpace\nFiniteElementCollection: " + collection + "\nVDim: " + std::to_string(n_components) +
+           "\nOrdering: " + std::to_string(ordering) + "\n\n";
+}
+
+std::string failure(const std::vector<std::string>& paths) {
+    try {
+        open_mfem(paths);
+    } catch (const elvis::Error& error) {
+        return error.what();
+    }
+    return "no failure";
+}
+
+elvis_source_element get_element(const elvis::SourceVolume& source, std::uint64_t number) {
+    elvis_source_element element{};
+    element.struct_size = sizeof element;
+    source.elements(number, 1, std::span(&element, 1));
+    return element;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, what.size(), by);
+}
 
 std::array<double, 3> from_mfem(int geometry, const std::array<double, 3>& x) {
     if (geometry == 6) {
