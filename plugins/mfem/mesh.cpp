@@ -184,14 +184,15 @@ Mesh read_mesh(const std::string& path) {
         mesh = read_conforming(text);
     } else if (version == "NC mesh v1.0" || version == "NC mesh v1.1") {
         mesh = read_nonconforming(text, version == "NC mesh v1.1");
+    } else if (version == "INLINE mesh v1.0") {
+        return read_inline(text);
     } else {
-        const std::string hint = version == "mesh v1.1"          ? " (let MFEM write it again, as 'MFEM NC mesh v1.0')"
-                                 : version.starts_with("NURBS")  ? " (let MFEM convert it with Mesh::SetCurvature)"
-                                 : version.starts_with("INLINE") ? " (let MFEM write it as 'MFEM mesh v1.0')"
-                                                                 : "";
+        const std::string hint = version == "mesh v1.1"         ? " (let MFEM write it again, as 'MFEM NC mesh v1.0')"
+                                 : version.starts_with("NURBS") ? " (let MFEM convert it with Mesh::SetCurvature)"
+                                                                : "";
         throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, path,
                                 "line 1: 'MFEM " + version + "' is not supported" + hint +
-                                    "; MFEM mesh v1.0, v1.2, v1.3 and MFEM NC mesh v1.0, v1.1 are");
+                                    "; MFEM mesh v1.0, v1.2, v1.3, MFEM NC mesh v1.0, v1.1 and MFEM INLINE mesh v1.0 are");
     }
     if (mesh.elements.empty()) {
         text.fail("the mesh has no elements");

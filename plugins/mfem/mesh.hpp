@@ -69,6 +69,9 @@ Mesh read_mesh(const std::string& path);
 /** Reads the sections of a nonconforming mesh, from behind its first line (nc_mesh.cpp). */
 Mesh read_nonconforming(Text& text, bool has_scales);
 
+/** Makes the mesh that the lines of an INLINE mesh describe (inline_mesh.cpp). */
+Mesh read_inline(Text& text);
+
 /** Reads a space and the values, as in files of solutions and in the section `nodes` of a mesh. */
 GridFunction read_grid_function(Text& text);
 
