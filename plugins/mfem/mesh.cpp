@@ -1,12 +1,12 @@
 #include "mesh.hpp"
 
+#include "file_content.hpp"
 #include "text.hpp"
 
 #include <elvis/plugin.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 namespace elvis_mfem {
@@ -96,14 +96,8 @@ Mesh read_conforming(Text& text) {
 } // namespace
 
 bool is_mesh(const char* path) {
-    std::ifstream file(path, std::ios::binary);
-    char head[5] = {};
-    if (!file.read(head, sizeof head) || std::string_view(head, sizeof head) != mark) {
-        return false;
-    }
-    std::string rest(40, ' ');
-    file.read(rest.data(), static_cast<std::streamsize>(rest.size()));
-    return rest.substr(0, rest.find('\n')).find("mesh") != std::string::npos;
+    const std::string head = read_head(path, 45);
+    return head.starts_with(mark) && head.substr(0, head.find('\n')).find("mesh") != std::string::npos;
 }
 
 int read_dimension(Text& text) {

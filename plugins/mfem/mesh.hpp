@@ -60,7 +60,7 @@ struct Mesh {
     int digits = 0;
 };
 
-/** Whether a file begins like one of MFEM's meshes. */
+/** Whether a file begins like one of MFEM's meshes, compressed or not. */
 bool is_mesh(const char* path);
 
 /** Reads a mesh of any version that is supported. */

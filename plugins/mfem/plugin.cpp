@@ -18,9 +18,10 @@ namespace {
 
 using namespace elvis_mfem;
 
-/** The file's name without folder and extension, followed by a number if it is taken. */
+/** The file's name without folder, ".gz" and extension, followed by a number if it is taken. */
 std::string field_name(const std::string& path, const std::vector<std::unique_ptr<const Field>>& others) {
-    const std::string stem = std::filesystem::path(path).stem().string();
+    const std::filesystem::path file(path);
+    const std::string stem = (file.extension() == ".gz" ? file.stem().stem() : file.stem()).string();
     std::string name = stem;
     const auto is_taken = [&](const auto& field) { return field->name() == name; };
     for (int number = 2; std::ranges::any_of(others, is_taken); ++number) {
