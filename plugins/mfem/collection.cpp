@@ -98,9 +98,6 @@ std::optional<Collection> parse_prefix(std::string_view text) {
 
 Collection parse_collection(std::string_view name) {
     const std::string shown = "finite element collection " + elvis_mfem::shown(name);
-    if (name.starts_with("NURBS")) {
-        throw std::invalid_argument(shown + ": NURBS are not supported");
-    }
     if (name.starts_with("L2Int")) {
         throw std::invalid_argument(shown + ": densities (values divided by det J) are not supported");
     }
@@ -133,6 +130,16 @@ Collection parse_collection(std::string_view name) {
         throw std::invalid_argument(shown + ": polynomials of more than order " + std::to_string(max_order));
     }
     return result;
+}
+
+int parse_nurbs_order(std::string_view name) {
+    std::string_view digits = name;
+    const auto order = take(digits, "NURBS") ? take_number(digits) : std::nullopt;
+    if (!order || !digits.empty() || *order < 1) {
+        throw std::invalid_argument("finite element collection " + shown(name) +
+                                    ": only NURBS of one order are supported, as NURBS2");
+    }
+    return *order;
 }
 
 std::vector<double> points(Basis basis, int n) {

@@ -48,6 +48,9 @@ inline constexpr int max_order = 20;
 /** Throws std::invalid_argument with the reason if the collection is not one of those read here. */
 Collection parse_collection(std::string_view name);
 
+/** The order of a name like NURBS3. Throws std::invalid_argument if there is none. */
+int parse_nurbs_order(std::string_view name);
+
 /** The n points of a nodal basis in [0, 1], ascending; n + 1 even ones from 0 to 1 stand for the positive basis of order n. */
 std::vector<double> points(Basis basis, int n);
 

@@ -7,8 +7,19 @@
 
 namespace elvis_mfem {
 
+namespace {
+
+/** L2 pyramids are polynomials in collapsed coordinates with no limit at the apex, which no native pyramid has. */
+bool is_singular(const Collection& collection, Geometry geometry) {
+    return geometry == Geometry::pyramid && collection.family == Family::l2 && collection.order > 0;
+}
+
+} // namespace
+
 Field::Field(std::string name, const std::string& path, GridFunction function, const Mesh& mesh, const Topology* topology)
-    : m_name(std::move(name)), m_function(std::move(function)), m_mesh(mesh), m_space(m_function.collection, mesh, topology) {
+    : ElementFunction(std::move(name),
+                      static_cast<std::size_t>(function.collection.is_vector() ? mesh.dimension : function.n_components)),
+      m_function(std::move(function)), m_mesh(mesh), m_space(m_function.collection, mesh, topology) {
     const std::size_t n_expected = m_space.n_dofs() * static_cast<std::size_t>(m_function.n_components);
     if (m_function.values.size() != n_expected) {
         throw elvis::api::Error(ELVIS_ERROR_FORMAT, path,
@@ -27,6 +38,22 @@ Field::Field(std::string name, const std::string& path, GridFunction function, c
             throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, path, error.what());
         }
     }
+}
+
+elvis_continuity Field::continuity() const {
+    return collection().family == Family::h1 ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
+}
+
+elvis_transform Field::transform() const {
+    return collection().family == Family::nd   ? ELVIS_TRANSFORM_COVARIANT
+           : collection().family == Family::rt ? ELVIS_TRANSFORM_CONTRAVARIANT
+                                               : ELVIS_TRANSFORM_NONE;
+}
+
+/** The native space that contains the collection's; the one nearest to it if it is singular. */
+ElementFunction::NativeSpace Field::native_space(std::size_t element) const {
+    const bool is_contained = !is_singular(collection(), m_mesh.elements[element].geometry);
+    return {is_contained ? collection().polynomial_order() : std::max(2, collection().order), is_contained};
 }
 
 void Field::evaluate(std::size_t element, std::span<const double> xi, double* values, std::size_t stride) const {

@@ -147,9 +147,12 @@ std::vector<double> read_coordinates(Text& text, std::size_t n_vertices, int dim
 }
 
 void read_nodes(Text& text, Mesh& mesh) {
-    if (!text.accept("nodes")) {
-        return;
+    if (text.accept("nodes")) {
+        take_nodes(text, mesh);
     }
+}
+
+void take_nodes(Text& text, Mesh& mesh) {
     mesh.nodes = read_grid_function(text);
     const int n_components = mesh.nodes->n_components;
     if (mesh.nodes->collection.is_vector() || n_components < mesh.dimension || n_components > 3) {
@@ -178,15 +181,18 @@ Mesh read_mesh(const std::string& path) {
         mesh = read_conforming(text);
     } else if (version == "NC mesh v1.0" || version == "NC mesh v1.1") {
         mesh = read_nonconforming(text, version == "NC mesh v1.1");
+    } else if (version == "NURBS mesh v1.0" || version == "NURBS mesh v1.1") {
+        mesh = read_nurbs(text);
     } else if (version == "INLINE mesh v1.0") {
         return read_inline(text);
     } else {
-        const std::string hint = version == "mesh v1.1"         ? " (let MFEM write it again, as 'MFEM NC mesh v1.0')"
-                                 : version.starts_with("NURBS") ? " (let MFEM convert it with Mesh::SetCurvature)"
-                                                                : "";
+        const std::string hint = version == "mesh v1.1" ? " (let MFEM write it again, as 'MFEM NC mesh v1.0')"
+                                 : version.find("NURBS") != std::string::npos ? " (let MFEM convert it with Mesh::SetCurvature)"
+                                                                              : "";
         throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, path,
                                 "line 1: 'MFEM " + version + "' is not supported" + hint +
-                                    "; MFEM mesh v1.0, v1.2, v1.3, MFEM NC mesh v1.0, v1.1 and MFEM INLINE mesh v1.0 are");
+                                    "; MFEM mesh v1.0, v1.2, v1.3, MFEM NC mesh v1.0, v1.1, MFEM NURBS mesh v1.0, v1.1 and "
+                                    "MFEM INLINE mesh v1.0 are");
     }
     if (mesh.elements.empty()) {
         text.fail("the mesh has no elements");

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 namespace elvis_mfem {
 
 class Text;
+struct NurbsPatches;
 
 struct MeshElement {
     int attribute = 1;
@@ -38,6 +40,8 @@ struct AttributeSet {
 /** A grid function: values of degrees of freedom, in the numbering of the whole mesh. */
 struct GridFunction {
     Collection collection;
+    /** Of NURBS, which have no collection; else 0. */
+    int nurbs_order = 0;
     int n_components = 1;
     /** Components of one degree of freedom side by side (MFEM's byVDIM), or one component after the other (byNODES). */
     bool is_interleaved = false;
@@ -56,6 +60,8 @@ struct Mesh {
     /** Three numbers a vertex, the third 0 in the plane; empty if there are nodes. */
     std::vector<double> coordinates;
     std::optional<GridFunction> nodes;
+    /** Of NURBS meshes. */
+    std::shared_ptr<const NurbsPatches> nurbs;
     /** Most significant decimal digits of the coordinates. */
     int digits = 0;
 };
@@ -68,6 +74,9 @@ Mesh read_mesh(const std::string& path);
 
 /** Reads the sections of a nonconforming mesh, from behind its first line (nc_mesh.cpp). */
 Mesh read_nonconforming(Text& text, bool has_scales);
+
+/** Reads a NURBS mesh, from behind its first line (nurbs/nurbs_mesh.cpp). */
+Mesh read_nurbs(Text& text);
 
 /** Makes the mesh that the lines of an INLINE mesh describe (inline_mesh.cpp). */
 Mesh read_inline(Text& text);
@@ -87,5 +96,7 @@ BoundaryElement read_boundary_element(Text& text, int dimension, std::int64_t n_
 std::vector<double> read_coordinates(Text& text, std::size_t n_vertices, int dimension, int* space_dimension);
 /** Nodes if they come next. */
 void read_nodes(Text& text, Mesh& mesh);
+/** Nodes without their heading. */
+void take_nodes(Text& text, Mesh& mesh);
 
 } // namespace elvis_mfem

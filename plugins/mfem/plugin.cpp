@@ -4,6 +4,7 @@
  */
 #include "boundary_groups.hpp"
 #include "field.hpp"
+#include "nurbs/nurbs_function.hpp"
 
 #include <elvis/native/space.hpp>
 #include <elvis/plugin.hpp>
@@ -19,7 +20,7 @@ namespace {
 using namespace elvis_mfem;
 
 /** The file's name without folder, ".gz" and extension, followed by a number if it is taken. */
-std::string field_name(const std::string& path, const std::vector<std::unique_ptr<const Field>>& others) {
+std::string field_name(const std::string& path, const std::vector<std::unique_ptr<const ElementFunction>>& others) {
     const std::filesystem::path file(path);
     const std::string stem = (file.extension() == ".gz" ? file.stem().stem() : file.stem()).string();
     std::string name = stem;
@@ -39,16 +40,6 @@ GridFunction linear_nodes(std::vector<double> coordinates) {
     return nodes;
 }
 
-/** L2 pyramids are polynomials in collapsed coordinates with no limit at the apex, which no native pyramid has. */
-bool is_singular(const Collection& collection, Geometry geometry) {
-    return geometry == Geometry::pyramid && collection.family == Family::l2 && collection.order > 0;
-}
-
-/** Order of the native space that contains the collection's; of the one nearest to it if it is singular. */
-int native_order(const Collection& collection, Geometry geometry) {
-    return is_singular(collection, geometry) ? std::max(2, collection.order) : collection.polynomial_order();
-}
-
 class Source : public elvis::api::ConverterSource {
 public:
     static std::uint32_t probe(const char* path) { return is_mesh(path) ? 100 : 0; }
@@ -61,14 +52,17 @@ public:
         GridFunction nodes = m_mesh.nodes ? std::move(*m_mesh.nodes) : linear_nodes(std::move(m_mesh.coordinates));
         // Discontinuous nodes: vertices are topology only, as in periodic meshes.
         m_has_corner_ids = nodes.collection.family == Family::h1;
-        m_mapping = make_field("nodes", paths.front(), std::move(nodes));
+        m_mapping = make_function("nodes", paths.front(), std::move(nodes));
         int digits = paths.size() > 1 ? 0 : m_mesh.digits;
         for (std::size_t index = 1; index < paths.size(); ++index) {
             host.check_cancelled();
             int own_digits = 0;
             GridFunction function = read_solution(paths[index], &own_digits);
             digits = std::max(digits, own_digits);
-            m_fields.push_back(make_field(field_name(paths[index], m_fields), paths[index], std::move(function)));
+            m_fields.push_back(make_function(field_name(paths[index], m_fields), paths[index], std::move(function)));
+        }
+        if (m_fields.empty()) {
+            m_fields.push_back(std::make_unique<AttributeFunction>(m_mesh));
         }
         // 8 digits are 26.6 bits. Files of small integers say nothing about the precision of what wrote them.
         constexpr int least_digits = 6;
@@ -80,37 +74,27 @@ public:
         info.dimension = static_cast<std::uint32_t>(m_mesh.dimension);
         info.n_elements = m_mesh.elements.size();
         info.n_corner_ids = m_has_corner_ids ? m_mesh.n_vertices : 0;
-        info.n_fields = static_cast<std::uint32_t>(std::max<std::size_t>(1, m_fields.size()));
+        info.n_fields = static_cast<std::uint32_t>(m_fields.size());
         info.n_time_steps = 1;
         info.n_boundary_groups = static_cast<std::uint32_t>(m_groups.names().size());
         info.mantissa_bits = m_mantissa_bits;
     }
 
     void get_field(std::uint32_t field, elvis_source_field& out) override {
-        if (m_fields.empty()) {
-            out.name = "attribute";
-            out.n_components = 1;
-            out.continuity = ELVIS_CONTINUITY_DISCONTINUOUS;
-            return;
-        }
-        const Field& source = *m_fields[field];
+        const ElementFunction& source = *m_fields[field];
         out.name = source.name().c_str();
         out.n_components = static_cast<std::uint32_t>(source.n_components());
-        out.continuity =
-            source.collection().family == Family::h1 ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
-        out.transform = source.collection().family == Family::nd   ? ELVIS_TRANSFORM_COVARIANT
-                        : source.collection().family == Family::rt ? ELVIS_TRANSFORM_CONTRAVARIANT
-                                                                   : ELVIS_TRANSFORM_NONE;
+        out.continuity = source.continuity();
+        out.transform = source.transform();
     }
 
     void get_elements(std::uint64_t first, elvis::api::StructArray<elvis_source_element> out) override {
-        const Collection& mapping = m_mapping->collection();
         for (std::uint64_t index = 0; index < out.size(); ++index) {
             const MeshElement& source = m_mesh.elements[first + index];
             elvis_source_element element{};
             element.shape = shape(source.geometry);
             std::fill_n(element.geometry_order, m_mesh.dimension,
-                        static_cast<std::uint32_t>(std::max(1, native_order(mapping, source.geometry))));
+                        static_cast<std::uint32_t>(std::max(1, m_mapping->native_space(first + index).order)));
             const auto corners = corner_vertices(source.geometry);
             for (std::size_t corner = 0; corner < corners.size(); ++corner) {
                 element.corners[corner] = source.vertices[static_cast<std::size_t>(corners[corner])];
@@ -124,20 +108,11 @@ public:
     }
 
     void get_spaces(std::uint32_t field, std::uint64_t first, elvis::api::StructArray<elvis_source_space> out) override {
-        if (m_fields.empty()) {
-            elvis_source_space constant{};
-            constant.is_contained = 1;
-            for (std::uint64_t index = 0; index < out.size(); ++index) {
-                out.set(index, constant);
-            }
-            return;
-        }
-        const Collection& collection = m_fields[field]->collection();
         for (std::uint64_t index = 0; index < out.size(); ++index) {
-            const Geometry geometry = m_mesh.elements[first + index].geometry;
+            const auto [order, is_contained] = m_fields[field]->native_space(first + index);
             elvis_source_space space{};
-            std::fill_n(space.order, m_mesh.dimension, static_cast<std::uint32_t>(native_order(collection, geometry)));
-            space.is_contained = is_singular(collection, geometry) ? 0 : 1;
+            std::fill_n(space.order, m_mesh.dimension, static_cast<std::uint32_t>(order));
+            space.is_contained = is_contained ? 1 : 0;
             out.set(index, space);
         }
     }
@@ -149,10 +124,6 @@ public:
     }
 
     void sample(std::uint32_t, std::uint64_t element, std::span<const double> xi, double* values) override {
-        if (m_fields.empty()) {
-            std::fill_n(values, xi.size() / 3, m_mesh.elements[element].attribute);
-            return;
-        }
         std::size_t stride = 0;
         for (const auto& field : m_fields) {
             stride += field->n_components();
@@ -178,7 +149,10 @@ private:
         }
     }
 
-    std::unique_ptr<const Field> make_field(std::string name, const std::string& path, GridFunction function) {
+    std::unique_ptr<const ElementFunction> make_function(std::string name, const std::string& path, GridFunction function) {
+        if (function.nurbs_order > 0) {
+            return std::make_unique<NurbsFunction>(std::move(name), path, std::move(function), m_mesh);
+        }
         check_dimension(function.collection, path);
         try {
             if (!m_topology && Space::needs_topology(function.collection)) {
@@ -195,9 +169,8 @@ private:
     std::optional<Topology> m_topology;
     bool m_has_corner_ids = true;
     std::uint32_t m_mantissa_bits = 53;
-    std::unique_ptr<const Field> m_mapping;
-    /** Without any, the elements' attributes are the only field. */
-    std::vector<std::unique_ptr<const Field>> m_fields;
+    std::unique_ptr<const ElementFunction> m_mapping;
+    std::vector<std::unique_ptr<const ElementFunction>> m_fields;
 };
 
 } // namespace

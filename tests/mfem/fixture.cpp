@@ -49,6 +49,29 @@ std::array<double, 3> from_mfem(int geometry, const std::array<double, 3>& x) {
     return {2 * x[0] - 1, 2 * x[1] - 1, 2 * x[2] - 1};
 }
 
+std::vector<ReferencePoint> read_reference(const std::string& path, std::size_t n_components) {
+    std::vector<ReferencePoint> points;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        if (line.empty() || line.front() == '#') {
+            continue;
+        }
+        std::istringstream words(line);
+        ReferencePoint point;
+        std::array<double, 3> ip;
+        words >> point.element >> point.geometry >> ip[0] >> ip[1] >> ip[2] >> point.x[0] >> point.x[1] >> point.x[2];
+        const auto xi = from_mfem(point.geometry, ip);
+        point.xi = {xi[0], xi[1], xi[2]};
+        point.value.resize(n_components);
+        for (double& value : point.value) {
+            words >> value;
+        }
+        REQUIRE(words);
+        points.push_back(point);
+    }
+    return points;
+}
+
 Converted convert_mfem(const elvis::SourceVolume& source, std::size_t field) {
     const TemporaryFolder folder;
     const std::string path = folder.path("volume.h5");

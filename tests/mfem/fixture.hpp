@@ -38,6 +38,16 @@ std::string replaced(std::string text, const std::string& what, const std::strin
  */
 std::array<double, 3> from_mfem(int geometry, const std::array<double, 3>& x);
 
+/** A line of a file of reference values. */
+struct ReferencePoint {
+    std::size_t element = 0;
+    int geometry = 0;
+    elvis::oracle::Vector xi, x;
+    std::vector<double> value;
+};
+
+std::vector<ReferencePoint> read_reference(const std::string& path, std::size_t n_components);
+
 /** A conversion, read back. */
 struct Converted {
     elvis::ConvertReport report;

@@ -104,13 +104,13 @@ void check_memory() {
 } // namespace
 
 TEST_CASE("mutated files are read or refused", "[mfem][data][fuzz]") {
-    const std::string name =
-        GENERATE("mfem/poisson-inline-pyramid-p3", "mfem/poisson-inline-tet-p6", "mfem/poisson-inline-wedge-p5",
-                 "mfem/poisson-toroid-wedge-p4", "mfem/poisson-toroid-hex-p5", "mfem/dg-fichera-amr-p2",
-                 "mfem/maxwell-fichera-q3-nd3", "mfem/graddiv-fichera-rt2", "mfem/poisson-fichera-mixed-p2-p3",
-                 "mfem/advect-periodic-p6", "mfem/elast-beam-hex-p4", "mfem/dg-fichera-q3-p4", "mfem/poisson-fichera-q3-p5",
-                 "mfem-more/star-q3-h1-p5-vec", "mfem-more/amr-quad-h1-p3", "mfem-more/klein-bottle-h1-p4",
-                 "mfem-more/periodic-hexagon-l2-p3", "mfem-more/rt2d-star-p2", "mfem-more/nd2d-star-mixed-p2");
+    const std::string name = GENERATE(
+        "mfem/poisson-inline-pyramid-p3", "mfem/poisson-inline-tet-p6", "mfem/poisson-inline-wedge-p5",
+        "mfem/poisson-toroid-wedge-p4", "mfem/poisson-toroid-hex-p5", "mfem/dg-fichera-amr-p2", "mfem/maxwell-fichera-q3-nd3",
+        "mfem/graddiv-fichera-rt2", "mfem/poisson-fichera-mixed-p2-p3", "mfem/advect-periodic-p6", "mfem/elast-beam-hex-p4",
+        "mfem/dg-fichera-q3-p4", "mfem/poisson-fichera-q3-p5", "mfem-more/star-q3-h1-p5-vec", "mfem-more/amr-quad-h1-p3",
+        "mfem-more/klein-bottle-h1-p4", "mfem-more/periodic-hexagon-l2-p3", "mfem-more/rt2d-star-p2",
+        "mfem-more/nd2d-star-mixed-p2", "mfem-more/disc-nurbs-nurbs", "mfem-more/pipe-nurbs-nurbs");
     const std::string mesh = read_file(elvis::test::data_file(name + "/mesh.mesh"));
     const std::string solution = read_file(elvis::test::data_file(name + "/sol.gf"));
     const TemporaryFolder folder;

@@ -305,7 +305,7 @@ TEST_CASE("what cannot be read is refused with its place", "[mfem]") {
     const auto of_solution = [&](const std::string& text) { return failure({good, folder.write("bad.gf", text)}); };
     REQUIRE(of_mesh(two_cubes) == "no failure");
 
-    CHECK_THAT(of_mesh("MFEM NURBS mesh v1.0\n"), Contains("line 1") && Contains("NURBS") && Contains("not supported"));
+    CHECK_THAT(of_mesh("MFEM NC NURBS mesh v1.0\n"), Contains("line 1") && Contains("NURBS") && Contains("not supported"));
     CHECK_THAT(of_mesh(replaced(two_cubes, "v1.3", "v1.1")), Contains("line 1") && Contains("not supported"));
     CHECK_THAT(of_mesh(replaced(two_cubes, "dimension\n3", "dimension\n2")), Contains("line 8") && Contains("geometry"));
     CHECK_THAT(of_mesh(replaced(two_cubes, "dimension\n3", "dimension\n1")), Contains("line 4") && Contains("segments"));

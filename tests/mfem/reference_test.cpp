@@ -17,36 +17,6 @@ namespace {
 using elvis::oracle::Matrix;
 using elvis::oracle::Vector;
 
-struct ReferencePoint {
-    std::size_t element = 0;
-    int geometry = 0;
-    Vector xi, x;
-    std::vector<double> value;
-};
-
-std::vector<ReferencePoint> read_reference(const std::string& path, std::size_t n_components) {
-    std::vector<ReferencePoint> points;
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
-        if (line.empty() || line.front() == '#') {
-            continue;
-        }
-        std::istringstream words(line);
-        ReferencePoint point;
-        std::array<double, 3> ip;
-        words >> point.element >> point.geometry >> ip[0] >> ip[1] >> ip[2] >> point.x[0] >> point.x[1] >> point.x[2];
-        const auto xi = from_mfem(point.geometry, ip);
-        point.xi = {xi[0], xi[1], xi[2]};
-        point.value.resize(n_components);
-        for (double& value : point.value) {
-            words >> value;
-        }
-        REQUIRE(words);
-        points.push_back(point);
-    }
-    return points;
-}
-
 /** Largest errors, relative to the range of the field and to the extent of the mesh. */
 struct Errors {
     double source = 0;
