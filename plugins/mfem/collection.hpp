@@ -37,6 +37,7 @@ struct Collection {
     /** MFEM's first collection of order 3, whose hexahedra have the interior nodes in another order. */
     bool is_first_cubic = false;
 
+    bool operator==(const Collection&) const = default;
     bool is_vector() const { return family == Family::nd || family == Family::rt; }
     /** Order of the polynomials that contain the space. */
     int polynomial_order() const { return family == Family::rt ? order + 1 : order; }
