@@ -51,7 +51,7 @@ GridFunction read_grid_function(Text& text) {
 GridFunction read_solution(const std::string& path, int* digits) {
     Text text(path);
     if (text.peek() == "solution") {
-        text.fail("this form of a solution is not supported");
+        text.fail("this file holds a mesh besides the solution; it is read alone");
     }
     GridFunction result = read_grid_function(text);
     if (!text.at_end()) {

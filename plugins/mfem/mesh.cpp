@@ -14,6 +14,8 @@ namespace elvis_mfem {
 namespace {
 
 constexpr std::string_view mark = "MFEM ";
+/** What begins a stream for GLVis, of a mesh and a solution. */
+constexpr std::string_view stream_mark = "solution\n";
 /** Largest number of the files' integers. */
 constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
 
@@ -96,7 +98,10 @@ Mesh read_conforming(Text& text) {
 } // namespace
 
 bool is_mesh(const char* path) {
-    const std::string head = read_head(path, 45);
+    std::string head = read_head(path, 60);
+    if (head.starts_with(stream_mark)) {
+        head.erase(0, stream_mark.size());
+    }
     return head.starts_with(mark) && head.substr(0, head.find('\n')).find("mesh") != std::string::npos;
 }
 
@@ -168,6 +173,7 @@ void take_nodes(Text& text, Mesh& mesh) {
 
 Mesh read_mesh(const std::string& path) {
     Text text(path);
+    const bool is_stream = text.accept("solution");
     text.expect("MFEM");
     std::string version;
     do {
@@ -201,6 +207,12 @@ Mesh read_mesh(const std::string& path) {
     text.accept("mfem_serial_mesh_end");
     if (text.peek() == "communication_groups") {
         text.fail("this is a part of a parallel mesh, which is not supported; let MFEM save it in one file (Mesh::SaveAsOne)");
+    }
+    if (is_stream) {
+        // Commands for GLVis may follow.
+        mesh.solution = read_grid_function(text);
+        mesh.digits = text.max_digits();
+        return mesh;
     }
     if (!text.at_end()) {
         text.fail("the mesh should end here, but " + shown(text.peek()) + " follows");

@@ -60,6 +60,8 @@ struct Mesh {
     /** Three numbers a vertex, the third 0 in the plane; empty if there are nodes. */
     std::vector<double> coordinates;
     std::optional<GridFunction> nodes;
+    /** Of GLVis streams, which hold both. */
+    std::optional<GridFunction> solution;
     /** Of NURBS meshes. */
     std::shared_ptr<const NurbsPatches> nurbs;
     /** Most significant decimal digits of the coordinates. */

@@ -129,6 +129,10 @@ private:
     int read_step(const SavedCycle& cycle) {
         Functions functions;
         int digits = 0;
+        if (m_mesh.solution) {
+            functions.push_back(make_function("solution", cycle.mesh, std::move(*m_mesh.solution)));
+            digits = m_mesh.digits;
+        }
         for (std::size_t index = 0; index < cycle.fields.size(); ++index) {
             host().check_cancelled();
             const SavedField& field = cycle.fields[index];

@@ -1,4 +1,4 @@
-// Root files of VisItDataCollections.
+// Root files of VisItDataCollections, streams for GLVis.
 #include "fixture.hpp"
 
 #include <catch2/catch.hpp>
@@ -36,6 +36,25 @@ TEST_CASE("cycles of a collection are time steps", "[mfem][data]") {
     }
     CHECK(error <= 1e-14);
     CHECK(change > 0.1);
+}
+
+TEST_CASE("a stream for GLVis holds mesh and solution", "[mfem][data]") {
+    const TemporaryFolder folder;
+    const std::string name = GENERATE("mfem-more/star-h1-p3", "mfem-more/klein-bottle-h1-p4", "mfem-more/amr-quad-h1-p3");
+    const std::string mesh = test::data_file(name + "/mesh.mesh"), solution = test::data_file(name + "/sol.gf");
+    const auto source =
+        open_mfem({folder.write("glvis.saved", "solution\n" + read_file(mesh) + "\n" + read_file(solution) + "\nkeys Am\n")});
+    const auto expected = open_mfem({mesh, solution});
+    REQUIRE(source.fields().size() == 1);
+    CHECK(source.fields()[0].name == "solution");
+    for (std::uint64_t element = 0; element < expected.info().n_elements; ++element) {
+        std::array<double, 1> here, there;
+        source.sample(0, element, std::array{-0.3, -0.4, 0.0}, here);
+        expected.sample(0, element, std::array{-0.3, -0.4, 0.0}, there);
+        CHECK(here == there);
+    }
+    CHECK_THAT(failure({folder.write("short.saved", "solution\n" + read_file(mesh))}),
+               Contains("short.saved") && Contains("ends"));
 }
 
 TEST_CASE("what of a root file cannot be read is refused", "[mfem][data]") {
