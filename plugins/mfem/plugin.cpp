@@ -209,5 +209,5 @@ private:
 } // namespace
 
 ELVIS_PLUGIN(.id = "org.elvis.mfem", .name = "MFEM reader", .version = "1.0.0", .vendor = "ElVis",
-             .description = "Converts meshes and grid functions of MFEM: H1, L2, Nedelec and Raviart-Thomas fields.",
+             .description = "Converts meshes and grid functions of MFEM: H1, L2, Nedelec, Raviart-Thomas and NURBS fields.",
              .converter = elvis::api::converter_table<Source>());

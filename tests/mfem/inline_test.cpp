@@ -95,6 +95,9 @@ TEST_CASE("squares of an inline mesh follow a Hilbert curve", "[mfem]") {
     CHECK(cells(open_inline(grid_text("quad", 4, 2, 1)), 4, 2) ==
           Cells{{0, 0}, {0, 1}, {1, 1}, {1, 0}, {2, 0}, {2, 1}, {3, 1}, {3, 0}});
     CHECK(cells(open_inline(grid_text("quad", 1, 3, 1)), 1, 3) == Cells{{0, 0}, {0, 1}, {0, 2}});
+    CHECK(cells(open_inline(grid_text("quad", 2, 3, 1)), 2, 3) == Cells{{0, 0}, {1, 0}, {1, 1}, {1, 2}, {0, 2}, {0, 1}});
+    CHECK(cells(open_inline(grid_text("quad", 2, 5, 1)), 2, 5) ==
+          Cells{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}, {1, 3}, {1, 4}, {0, 4}, {0, 3}});
 }
 
 TEST_CASE("cells of inline meshes are there once, neighbours follow neighbours", "[mfem]") {

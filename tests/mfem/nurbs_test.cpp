@@ -125,6 +125,26 @@ TEST_CASE("spans of knots are elements, patches share their control points", "[m
     CHECK(get_element(source, 2).face_groups[2] == 1);
 }
 
+TEST_CASE("knots run along their edge as the file has it, control points from the lower vertex to the higher", "[mfem]") {
+    const bool is_forward = GENERATE(true, false);
+    // Control points at the means of two knots make the parameter itself the coordinate.
+    const std::string edge = is_forward ? "0 1" : "1 0", inner = is_forward ? "0.125 0\n0.625 0\n" : "0.375 0\n0.875 0\n";
+    const std::string inner_above = is_forward ? "0.125 1\n0.625 1\n" : "0.375 1\n0.875 1\n";
+    const std::string mesh = "MFEM NURBS mesh v1.0\ndimension\n2\nelements\n1\n1 3 0 1 3 2\nboundary\n0\nedges\n4\n0 " + edge +
+                             "\n0 " + (is_forward ? "2 3" : "3 2") +
+                             "\n1 1 3\n1 0 2\nvertices\n4\nknotvectors\n2\n2 4 0 0 0 0.25 1 1 1\n1 2 0 0 1 1\nweights\n"
+                             "1 1 1 1 1 1 1 1\nFiniteElementSpace\nFiniteElementCollection: NURBS2\nVDim: 2\nOrdering: 1\n"
+                             "0 0\n1 0\n0 1\n1 1\n" +
+                             inner + inner_above;
+    const TemporaryFolder folder;
+    const auto source = open_mfem({folder.write("knots.mesh", mesh)});
+    REQUIRE(source.info().n_elements == 2);
+    const double knot = is_forward ? 0.25 : 0.75;
+    CHECK((position(source, 0, {1, 0, 0}) - Vector(knot, 0.5, 0)).norm() <= 1e-15);
+    CHECK((position(source, 0, {0, -1, 0}) - Vector(knot / 2, 0, 0)).norm() <= 1e-15);
+    CHECK((position(source, 1, {0, 1, 0}) - Vector((1 + knot) / 2, 1, 0)).norm() <= 1e-15);
+}
+
 TEST_CASE("neighbouring elements of NURBS meshes meet", "[mfem][data]") {
     const std::string name = GENERATE("ball-nurbs", "pipe-nurbs", "disc-nurbs", "square-disc-nurbs", "square-disc-nurbs-patch",
                                       "pipe-nurbs-log", "beam-quad-nurbs-sf");

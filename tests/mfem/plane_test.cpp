@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <set>
 
 using namespace elvis;
@@ -131,6 +132,25 @@ TEST_CASE("surfaces in space are read with all their coordinates", "[mfem]") {
     CHECK(x == std::array{0.75, 0.5, 3.0});
     const std::string vectors = folder.write("u.gf", space_text("RT_2D_P0") + "1 2 3 4 5 6 7 8");
     CHECK_THAT(failure({folder.path("surface.mesh"), vectors}), Contains("u.gf") && Contains("surfaces in space"));
+}
+
+// Data with values of MFEM are of even order only: MFEM, fem/fe/fe_rt.cpp, RT_QuadrilateralElement.
+TEST_CASE("Raviart-Thomas squares of odd order have MFEM's signs at their middle nodes", "[mfem][data]") {
+    const TemporaryFolder folder;
+    // Eight functions of edges, then those inside.
+    const std::string solution = folder.write("u.gf", space_text("RT_2D_P1") + "0 0 0 0 0 0 0 0 1 1 1 1");
+    const auto source = open_mfem({test::data_file("mfem-more/meshes/ref-square.mesh"), solution});
+    // The two Gauss-Legendre points; the node between the closed ones is 0. In xi values are halved.
+    const double open = 1 / std::sqrt(3);
+    const auto value = [&](double xi, double eta) {
+        std::array<double, 2> u;
+        source.sample(0, 0, std::array{xi, eta, 0.0}, u);
+        return u;
+    };
+    CHECK(value(0, -open)[0] == Approx(0.5));
+    CHECK(value(0, open)[0] == Approx(-0.5));
+    CHECK(value(-open, 0)[1] == Approx(-0.5));
+    CHECK(value(open, 0)[1] == Approx(0.5));
 }
 
 TEST_CASE("what of a mesh in two dimensions cannot be read is refused with its place", "[mfem]") {

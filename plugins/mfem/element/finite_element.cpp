@@ -170,7 +170,8 @@ public:
         const std::size_t n = dofs.size();
         if (n > max_dofs_of_inverse) {
             throw std::invalid_argument("elements of " + std::to_string(n) + " degrees of freedom are not supported, at most " +
-                                        std::to_string(max_dofs_of_inverse) + " are in shapes that are not hexahedra");
+                                        std::to_string(max_dofs_of_inverse) +
+                                        " are in shapes that are neither hexahedra nor quadrilaterals");
         }
         if (m_set->size() != n) {
             throw std::logic_error("functionals and functions of an element differ in number");
