@@ -180,7 +180,7 @@ private:
         for (std::size_t axis = 0; axis < n_axes(); ++axis) {
             n *= patch.knots[axis].n_control_points();
         }
-        if (n > static_cast<double>(m_text.left() / bytes + 1)) {
+        if (static_cast<double>(bytes) * n > static_cast<double>(m_text.left() + bytes)) {
             m_text.fail("the file cannot hold the control points of a patch");
         }
     }
