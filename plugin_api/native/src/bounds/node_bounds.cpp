@@ -8,7 +8,7 @@
 namespace elvis::native {
 namespace {
 
-constexpr std::size_t nodes_a_degree = 2;
+constexpr std::size_t nodes_a_degree = 3;
 /** Over the spread of a few values: of coefficients that are less spread out, nodes would tell little. */
 constexpr double wide = 3;
 

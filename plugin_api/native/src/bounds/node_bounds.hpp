@@ -4,7 +4,7 @@
  *
  * Bernstein coefficients of high order can be thousands of times as large as all values. At the nodes cos(pi j / m),
  * j = 0 .. m, of one direction a polynomial of degree d < m has |p| <= max_j |p_j| / cos(pi d / (2 m)) (Ehlich and Zeller
- * 1964), and over a grid of three directions the factors multiply. With two nodes a degree, m = 2 d, that is sqrt(8) at most.
+ * 1964), and over a grid of three directions the factors multiply. With three nodes a degree, m = 3 d, that is 1.54 at most.
  */
 #pragma once
 
