@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 packages=(
     cmake ninja-build g++ pkg-config
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
-    libboost-filesystem-dev libeigen3-dev libhdf5-dev libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libpng-dev
+    libboost-dev libeigen3-dev libhdf5-dev libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libpng-dev
     libfreetype-dev fonts-dejavu-core libglfw3-dev libimgui-dev libstb-dev
     libpugixml-dev zlib1g-dev liblz4-dev
 )

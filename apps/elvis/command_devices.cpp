@@ -2,6 +2,7 @@
 
 #include <core/base/error.hpp>
 #include <core/vulkan/device.hpp>
+#include <core/vulkan/vulkan_library.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -35,8 +36,7 @@ void print_json(const std::vector<DeviceSummary>& devices, std::optional<std::ui
 
 void print_table(const std::vector<DeviceSummary>& devices, std::optional<std::uint32_t> chosen) {
     if (devices.empty()) {
-        std::printf(
-            "no Vulkan device; on Debian, `apt-get install mesa-vulkan-drivers` gives one that runs on the processor\n");
+        std::printf("%s\n", why_no_devices().c_str());
     }
     for (const DeviceSummary& device : devices) {
         std::printf("%c %u  %s  (%s, %s, %.1f GiB, float64: %s)%s%s\n", device.index == chosen ? '*' : ' ', device.index,

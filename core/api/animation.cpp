@@ -70,7 +70,8 @@ elvis_result elvis_animation_render(elvis_animation* animation, uint32_t frame, 
         const DataTask running(*state.data, task);
         Renderer& renderer = state.data->renderer(state.precision);
         *picture = new_picture(state.data, state.precision,
-                               state.pictures.draw(frame, renderer, still_options(known), state.data->control.get()));
+                               state.pictures.draw(frame, renderer, still_options(*state.data, state.precision, known),
+                                                   state.data->control.get()));
     });
 }
 

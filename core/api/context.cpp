@@ -1,6 +1,9 @@
 #include "call.hpp"
 
 #include <core/base/log.hpp>
+#include <core/vulkan/device_choice.hpp>
+
+#include <iterator>
 
 namespace elvis::library {
 
@@ -53,12 +56,18 @@ Context::Context(const elvis_context_options& options)
         host.plugin_folders = split_folders(options.plugin_path);
     }
     const HostScope scope(host);
+    if ((options.flags & ELVIS_CONTEXT_SEVERAL_DEVICES) != 0) {
+        const std::vector<std::string> devices = named_devices(wanted_device);
+        wanted_device = devices.front();
+        m_wanted_others.assign(devices.begin() + 1, devices.end());
+    }
     plugins.emplace();
 }
 
 Context::~Context() {
     // The device writes its cache when it goes.
     const HostScope scope(host);
+    m_others.clear();
     m_device.reset();
     plugins.reset();
 }
@@ -70,6 +79,15 @@ const Device& Context::device() {
         log_line(LogLevel::info, "device: {}", m_device->summary().name);
     }
     return *m_device;
+}
+
+const std::vector<std::unique_ptr<Device>>& Context::other_devices() {
+    const std::lock_guard lock(m_mutex);
+    for (std::size_t i = m_others.size(); i < m_wanted_others.size(); ++i) {
+        m_others.push_back(std::make_unique<Device>(m_wanted_others[i], is_validated));
+        log_line(LogLevel::info, "device: {}", m_others.back()->summary().name);
+    }
+    return m_others;
 }
 
 } // namespace elvis::library
@@ -121,13 +139,16 @@ elvis_result elvis_context_describe_device(elvis_context* context, char** text) 
     return call(context, [&] {
         need(text, "text");
         const Device& device = context->state->device();
-        const nlohmann::ordered_json root = {{"name", device.summary().name},
-                                             {"type", device.summary().type},
-                                             {"driver", device.summary().driver},
-                                             {"allocated_bytes", device.allocated_bytes()},
-                                             {"n_buffers", device.n_buffers()},
-                                             {"n_kernels", device.n_kernels()},
-                                             {"validation_messages", device.validation_messages()}};
+        std::vector<std::string> messages = device.validation_messages();
+        nlohmann::ordered_json others = nlohmann::ordered_json::array();
+        for (const auto& other : context->state->other_devices()) {
+            others.push_back(other->summary().name);
+            std::ranges::move(other->validation_messages(), std::back_inserter(messages));
+        }
+        const nlohmann::ordered_json root = {{"name", device.summary().name},     {"type", device.summary().type},
+                                             {"driver", device.summary().driver}, {"allocated_bytes", device.allocated_bytes()},
+                                             {"n_buffers", device.n_buffers()},   {"n_kernels", device.n_kernels()},
+                                             {"validation_messages", messages},   {"others", others}};
         *text = text_for_caller(root.dump(2));
     });
 }

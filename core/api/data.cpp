@@ -15,6 +15,7 @@ Data::Data(std::shared_ptr<Context> with, std::unique_ptr<TaskControl> watch, Ru
 
 Data::~Data() {
     const HostScope scope(context->host);
+    m_others.clear();
     m_renderer.reset();
     m_prober.reset();
 }
@@ -26,6 +27,26 @@ Renderer& Data::renderer(Precision precision) {
         m_precision = precision;
     }
     return *m_renderer;
+}
+
+std::vector<Renderer*> Data::other_renderers(Precision precision) {
+    const auto& devices = context->other_devices();
+    if (!devices.empty() && !reopen) {
+        throw InvalidArgument(volume.path(), "is not from a file: one device draws it, not several");
+    }
+    if (m_others_precision != precision) {
+        m_others.clear();
+        m_others_precision = precision;
+    }
+    std::vector<Renderer*> renderers;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        if (i == m_others.size()) {
+            m_others.push_back(std::make_unique<Other>(reopen(), std::nullopt));
+            m_others[i]->renderer.emplace(*devices[i], m_others[i]->volume, precision, control.get());
+        }
+        renderers.push_back(&*m_others[i]->renderer);
+    }
+    return renderers;
 }
 
 FieldExtrema Data::extrema_of(const FieldChoice& field, std::uint32_t time_step) {
@@ -44,6 +65,9 @@ void Data::forget_fields(std::optional<std::uint32_t> only) {
     extrema.forget_fields();
     if (m_renderer) {
         m_renderer->forget_fields(only);
+    }
+    for (const auto& other : m_others) {
+        other->renderer->forget_fields(only);
     }
 }
 
@@ -98,10 +122,14 @@ elvis_result elvis_data_open(elvis_context* context, elvis_string path, elvis_st
         auto control = std::make_unique<TaskControl>();
         follow(*control, task);
         control->check();
-        RuntimeVolume volume =
-            open_volume(*context->state->plugins, path, text_or_empty(plugin), text_or_empty(options), control.get());
+        const auto open = [registry = &*context->state->plugins, file = std::string(path), plugin_id = text_or_empty(plugin),
+                           how = text_or_empty(options),
+                           watch = control.get()] { return open_volume(*registry, file, plugin_id, how, watch); };
+        RuntimeVolume volume = open();
         follow(*control, nullptr);
-        *data = new elvis_data{std::make_shared<Data>(context->state, std::move(control), std::move(volume))};
+        auto state = std::make_shared<Data>(context->state, std::move(control), std::move(volume));
+        state->reopen = open;
+        *data = new elvis_data{std::move(state)};
     });
 }
 

@@ -12,8 +12,9 @@ Scene scene_for(const Data& data, Scene scene) {
     return scene;
 }
 
-StillOptions still_options(const elvis_render_options& options) {
+StillOptions still_options(Data& data, Precision precision, const elvis_render_options& options) {
     StillOptions how;
+    how.others = data.other_renderers(precision);
     how.with_buffers = (options.flags & ELVIS_RENDER_COLOR_ONLY) == 0;
     how.sharing.depths = (options.flags & ELVIS_RENDER_SHARE_DEPTHS) != 0;
     how.sharing.rows = (options.flags & ELVIS_RENDER_ALL_ROWS) == 0;

@@ -20,7 +20,8 @@ template <class Struct> Struct known_or_zero(const Struct* options) {
     return options != nullptr ? known_part(options, "options") : Struct{};
 }
 
-StillOptions still_options(const elvis_render_options& options);
+/** By all devices of the data's context. */
+StillOptions still_options(Data& data, Precision precision, const elvis_render_options& options);
 
 /** A new picture, of what was drawn by the data's renderer. */
 elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision,

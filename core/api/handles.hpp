@@ -24,11 +24,13 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace elvis::library {
 
@@ -41,6 +43,8 @@ struct Context {
 
     /** Opened when first asked for. */
     const Device& device();
+    /** Those that draw besides, with ELVIS_CONTEXT_SEVERAL_DEVICES; opened when first asked for. */
+    const std::vector<std::unique_ptr<Device>>& other_devices();
 
     /** First: all that follows works for it. */
     Host host;
@@ -52,6 +56,8 @@ struct Context {
 private:
     std::mutex m_mutex;
     std::optional<Device> m_device;
+    std::vector<std::string> m_wanted_others;
+    std::vector<std::unique_ptr<Device>> m_others;
 };
 
 /** Data: kept by its pictures. What is below `mutex` is for one thread at a time. */
@@ -64,6 +70,8 @@ struct Data {
 
     /** Of that precision; the other precision's is given up: a volume is on the device once. */
     Renderer& renderer(Precision precision);
+    /** Of that precision, on the context's other devices. */
+    std::vector<Renderer*> other_renderers(Precision precision);
     /** Those of expressions are sampled where the renderer has its data, if there is one. */
     FieldExtrema extrema_of(const FieldChoice& field, std::uint32_t time_step);
     /** Evaluating that way; the one before is given up. */
@@ -77,6 +85,8 @@ struct Data {
     /** Follows the call that has the mutex: what volume and renderer were made with lives longer than a call. */
     const std::unique_ptr<TaskControl> control;
     const RuntimeVolume volume;
+    /** Opens the volume once more; empty where it is not from a file. */
+    std::function<RuntimeVolume()> reopen;
 
     std::mutex mutex;
     /** Of data from arrays. */
@@ -84,9 +94,17 @@ struct Data {
     ExtremaFinder extrema;
 
 private:
+    /** The volume on another device. A volume takes one call at a time: each device has its own. */
+    struct Other {
+        RuntimeVolume volume;
+        std::optional<Renderer> renderer;
+    };
+
     std::optional<Prober> m_prober;
     ProbeOptions::Evaluation m_evaluation = ProbeOptions::Evaluation::automatic;
     std::optional<Renderer> m_renderer;
+    std::vector<std::unique_ptr<Other>> m_others;
+    Precision m_others_precision = Precision::float32;
     Precision m_precision = Precision::float32;
     std::optional<std::array<double, 6>> m_bounds;
 };

@@ -55,9 +55,9 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         resize(still, known);
         const DataTask running(state, task);
         const Precision precision = precision_of(still);
-        *picture =
-            new_picture(data->state, precision,
-                        draw_still(still, state.volume, state.renderer(precision), still_options(known), state.control.get()));
+        *picture = new_picture(data->state, precision,
+                               draw_still(still, state.volume, state.renderer(precision),
+                                          still_options(state, precision, known), state.control.get()));
     });
 }
 

@@ -56,9 +56,20 @@ struct Sharing {
     static std::vector<std::pair<std::string, Sharing>> each() { return {{"depths", {true, false}}, {"rows", {false, true}}}; }
 };
 
+/** Some rows of a larger picture: their rays are those of the larger one, to the bit. */
+struct PicturePart {
+    /** Of the larger picture, and of a first pixel in it. A multiple of part_rows: tiles are then those of the larger one, too.
+     */
+    std::uint32_t first_row = 0;
+    std::uint32_t of_height = 0;
+};
+inline constexpr std::uint32_t part_rows = 16;
+
 struct FrameRequest {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
+    /** Of which picture these are rows; none: of themselves. */
+    std::optional<PicturePart> part;
     Camera camera;
     Color background{};
     std::uint32_t time_step = 0;
@@ -73,6 +84,8 @@ struct FrameRequest {
     Sharing sharing;
     /** What people should know of how the request came to be; nothing to the renderer. */
     std::vector<std::string> remarks;
+
+    PicturePart place() const { return part.value_or(PicturePart{0, height}); }
 };
 
 /** Bits of Frame::flags; the same numbers in `--buffers` files. */

@@ -50,7 +50,10 @@ PixelRows rows_of(const FrameRequest& request, std::array<double, 6> box) {
         box[axis] -= wider;
         box[axis + 3] += wider;
     }
-    return rows_of_box(box, request.camera, request.height, margin);
+    const auto [first_row, of_height] = request.place();
+    const PixelRows rows = rows_of_box(box, request.camera, of_height, margin);
+    const auto within = [&](std::uint32_t row) { return std::clamp(row, first_row, first_row + request.height) - first_row; };
+    return {within(rows.first), within(rows.end)};
 }
 
 /** Elements of which surfaces show faces, but not where a cut ends them, once for each such surface. */

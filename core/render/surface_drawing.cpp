@@ -26,7 +26,11 @@ CutPlaneGeometry rays_of(const FrameRequest& request, const CutPlane* plane, con
             across.plane[3] -= along[axis] * 0.5 * (bounds[axis] + bounds[axis + 3]);
         }
     }
-    return cut_plane_geometry(plane != nullptr ? *plane : across, camera, request.width, request.height, data.centre());
+    const auto [first_row, of_height] = request.place();
+    CutPlaneGeometry geometry =
+        cut_plane_geometry(plane != nullptr ? *plane : across, camera, request.width, of_height, data.centre());
+    geometry.begin_at(first_row);
+    return geometry;
 }
 
 SurfaceDrawing::SurfaceDrawing(const FrameRequest& request, const Surface& surface, const DeviceVolume& data,
@@ -130,7 +134,7 @@ void SurfaceDrawing::finish(const Isosurfaces& isosurfaces, const LayerTarget& t
 void SurfaceDrawing::provide(const WireFrame& wires) { m_passes.edges(wires.faces); }
 
 void SurfaceDrawing::draw(const WireFrame& wires, const LayerTarget& target, FrameCounts&) {
-    m_edge_pass.draw(m_passes.edges(wires.faces), m_request.camera, wires.width, -m_offset, first, target);
+    m_edge_pass.draw(m_passes.edges(wires.faces), m_request.camera, m_request.place(), wires.width, -m_offset, first, target);
 }
 
 void SurfaceDrawing::finish(const WireFrame&, const LayerTarget&, FrameCounts&) {}

@@ -1,5 +1,6 @@
 #include <core/session/still_picture.hpp>
 
+#include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
 
@@ -29,7 +30,10 @@ StillPicture draw_request(const Scene& scene, FrameRequest request, const Runtim
     still.request = std::move(request);
     still.request.with_buffers = options.with_buffers;
     still.request.sharing = options.sharing;
-    still.frame = renderer.render(still.request, control);
+    std::vector<Renderer*> renderers{&renderer};
+    renderers.insert(renderers.end(), options.others.begin(), options.others.end());
+    still.frame =
+        renderers.size() == 1 ? renderer.render(still.request, control) : render_in_bands(renderers, still.request, control);
     if (scene.annotation) {
         const AnnotationRequest annotation = make_annotation_request(*scene.annotation, still.request, still.frame, volume);
         for (const std::string& name : annotate(still.frame, annotation)) {

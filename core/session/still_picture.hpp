@@ -18,6 +18,8 @@ struct StillOptions {
     /** See FrameRequest. */
     bool with_buffers = true;
     Sharing sharing;
+    /** Of the same volume, opened again, on other devices: they draw some of the rows. */
+    std::vector<Renderer*> others;
 };
 
 struct StillPicture {

@@ -149,8 +149,7 @@ bool Allocation::write_in_turn(std::uint64_t offset, std::uint64_t bytes, const 
     }
     std::vector<std::byte> data(static_cast<std::size_t>(bytes));
     produce(0, data);
-    m_device->record(
-        [&](VkCommandBuffer commands) { vkCmdUpdateBuffer(commands, m_buffer, offset, bytes, data.data()); });
+    m_device->record([&](VkCommandBuffer commands) { vkCmdUpdateBuffer(commands, m_buffer, offset, bytes, data.data()); });
     return true;
 }
 

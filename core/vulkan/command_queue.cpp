@@ -6,8 +6,8 @@
 
 namespace elvis {
 
-CommandQueue::CommandQueue(VkDevice device, std::uint32_t family, bool collects, std::string place)
-    : m_device(device), m_collects(collects), m_place(std::move(place)) {
+CommandQueue::CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, std::string place)
+    : m_device(device), m_clock(physical, device, family, place), m_collects(collects), m_place(std::move(place)) {
     try {
         create(family);
     } catch (...) {
@@ -51,6 +51,7 @@ void CommandQueue::begin() {
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check_vulkan(vkBeginCommandBuffer(m_commands, &begin), m_place, "recording commands");
+    m_clock.start(m_commands);
     m_is_recording = true;
 }
 
@@ -82,6 +83,7 @@ void CommandQueue::finish() {
 
 void CommandQueue::submit_and_wait() {
     m_is_recording = false;
+    m_clock.stop(m_commands);
     check_vulkan(vkEndCommandBuffer(m_commands), m_place, "recording commands");
     VkSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
@@ -91,8 +93,14 @@ void CommandQueue::submit_and_wait() {
     check_vulkan(vkQueueSubmit(m_queue, 1, &info, m_fence), m_place, "submitting work");
     ++n_host_waits;
     check_vulkan(vkWaitForFences(m_device, 1, &m_fence, VK_TRUE, UINT64_MAX), m_place, "waiting for the device");
+    m_busy_nanoseconds += m_clock.nanoseconds();
     check_vulkan(vkResetFences(m_device, 1, &m_fence), m_place, "resetting a fence");
     do_what_waits();
+}
+
+std::optional<double> CommandQueue::busy_milliseconds() {
+    const std::lock_guard lock(m_mutex);
+    return m_clock.is_there() ? std::optional(1e-6 * m_busy_nanoseconds) : std::nullopt;
 }
 
 void CommandQueue::do_what_waits() noexcept {

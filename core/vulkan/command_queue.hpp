@@ -4,12 +4,15 @@
  */
 #pragma once
 
+#include <core/vulkan/device_clock.hpp>
+
 #include <vulkan/vulkan.h>
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +26,7 @@ namespace elvis {
 class CommandQueue {
 public:
     /** `place`: for errors. */
-    CommandQueue(VkDevice device, std::uint32_t family, bool collects, std::string place);
+    CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, std::string place);
     ~CommandQueue();
     CommandQueue(const CommandQueue&) = delete;
     CommandQueue& operator=(const CommandQueue&) = delete;
@@ -46,6 +49,8 @@ public:
 
     /** Submissions, and how often this side waited. */
     std::atomic<std::uint64_t> n_submissions{0}, n_host_waits{0};
+    /** How long the device worked on all that was submitted, by its own clock; nothing where it has none. */
+    std::optional<double> busy_milliseconds();
 
 private:
     void create(std::uint32_t family);
@@ -56,6 +61,8 @@ private:
     void release() noexcept;
 
     VkDevice m_device;
+    DeviceClock m_clock;
+    double m_busy_nanoseconds = 0;
     bool m_collects;
     std::string m_place;
     VkQueue m_queue = VK_NULL_HANDLE;

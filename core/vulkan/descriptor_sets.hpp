@@ -17,7 +17,8 @@ namespace elvis {
 class DescriptorSets {
 public:
     /** Sets of `layout`, whose bindings are these; the layout must outlive what next() is called for. */
-    DescriptorSets(VkDevice device, VkDescriptorSetLayout layout, const std::vector<BindingLayout>& bindings, std::string place);
+    DescriptorSets(VkDevice device, VkDescriptorSetLayout layout, const std::vector<BindingLayout>& bindings,
+                   std::string place);
     ~DescriptorSets();
     DescriptorSets(const DescriptorSets&) = delete;
     DescriptorSets& operator=(const DescriptorSets&) = delete;

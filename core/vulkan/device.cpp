@@ -105,9 +105,9 @@ Device::Impl::Impl(const DeviceOptions& device_options) : options(device_options
 void Device::Impl::create_device() {
     device = create_compute_device(physical, {.chooses_subgroup_size = required_subgroup_size != 0}, place());
     const std::uint32_t family = compute_queue_family(physical);
-    const bool collects =
-        options.submissions == Submissions::automatic ? summary.type == "discrete" : options.submissions == Submissions::collected;
-    queue = std::make_unique<CommandQueue>(device, family, collects, place());
+    const bool collects = options.submissions == Submissions::automatic ? summary.type == "discrete"
+                                                                        : options.submissions == Submissions::collected;
+    queue = std::make_unique<CommandQueue>(physical, device, family, collects, place());
     pipelines = std::make_unique<PipelineCache>(device, cache_key);
 }
 

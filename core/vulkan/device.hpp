@@ -143,7 +143,8 @@ public:
 
     /** Records commands, which see what those before have written, and are done at the latest when finish() returns. */
     void record(const std::function<void(VkCommandBuffer)>& record) const;
-    /** Waits until all that was recorded has been done. Buffers that are read do so by themselves. A lost device is an Error. */
+    /** Waits until all that was recorded has been done. Buffers that are read do so by themselves. A lost device is an Error.
+     */
     void finish() const;
 
     /** Throws Cancelled if this thread's task is to stop (DeviceTask). Kernels ask before each part of their work. */

@@ -3,6 +3,7 @@
 #include <core/base/error.hpp>
 #include <core/base/host.hpp>
 #include <core/vulkan/instance.hpp>
+#include <core/vulkan/vulkan_library.hpp>
 
 #include <algorithm>
 #include <array>
@@ -92,8 +93,7 @@ const DeviceSummary* find_named(const std::vector<DeviceSummary>& devices, Devic
 
 DeviceSummary choose_among(const std::vector<DeviceSummary>& devices, const std::string& wanted, DeviceUse use) {
     if (devices.empty()) {
-        throw Error("Vulkan", "this machine has no Vulkan driver; without a GPU, install a driver for the CPU (Debian package "
-                              "mesa-vulkan-drivers)");
+        throw Error("Vulkan", why_no_devices());
     }
     std::string name = wanted;
     std::string place = "device '" + wanted + "'";
@@ -123,6 +123,30 @@ DeviceSummary choose_among(const std::vector<DeviceSummary>& devices, const std:
         throw Error(place, "it cannot be used: " + found->unusable_because + list_text(devices));
     }
     return *found;
+}
+
+std::vector<std::string> named_devices(const std::string& list) {
+    const std::vector<DeviceSummary> devices = list_devices();
+    std::vector<std::string> indices;
+    if (list == "all") {
+        const std::string type = choose_among(devices, {}).type;
+        for (const DeviceSummary& device : devices) {
+            if (device.unusable_because.empty() && device.type == type) {
+                indices.push_back(std::to_string(device.index));
+            }
+        }
+        return indices;
+    }
+    for (std::size_t first = 0; first <= list.size();) {
+        const std::size_t end = std::min(list.find(',', first), list.size());
+        const std::string name = list.substr(first, end - first);
+        if (name.empty()) {
+            throw Error("devices '" + list + "'", "is neither 'all' nor a list of names, with ',' between them");
+        }
+        indices.push_back(std::to_string(choose_among(devices, name).index));
+        first = end + 1;
+    }
+    return indices;
 }
 
 std::vector<DeviceSummary> list_devices() { return Instance(false).summaries(); }

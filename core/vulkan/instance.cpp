@@ -5,6 +5,7 @@
 #include <core/base/log.hpp>
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_summary.hpp>
+#include <core/vulkan/vulkan_library.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -36,6 +37,9 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsE
 } // namespace
 
 Instance::Instance(bool validation, std::span<const char* const> extensions) {
+    if (!vulkan_library().is_there()) {
+        return; // An instance without devices.
+    }
     if (validation && !has_validation_layer()) {
         throw Error("Vulkan",
                     "the layer VK_LAYER_KHRONOS_validation is not installed (Debian package vulkan-validationlayers)");

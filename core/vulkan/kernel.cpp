@@ -226,8 +226,8 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::
     m_impl->check_limits();
     m_impl->create_pipeline(spirv);
     if (!m_impl->layout.empty()) {
-        m_impl->sets = std::make_shared<DescriptorSets>(device.handle(), m_impl->pipeline->set_layout(), m_impl->layout,
-                                                        m_impl->place);
+        m_impl->sets =
+            std::make_shared<DescriptorSets>(device.handle(), m_impl->pipeline->set_layout(), m_impl->layout, m_impl->place);
     }
 }
 

@@ -19,7 +19,8 @@ public:
         info.buffer = buffer;
         info.format = format;
         info.range = VK_WHOLE_SIZE;
-        check_vulkan(vkCreateBufferView(device.handle(), &info, nullptr, &m_view), device.impl().place(), "creating a buffer view");
+        check_vulkan(vkCreateBufferView(device.handle(), &info, nullptr, &m_view), device.impl().place(),
+                     "creating a buffer view");
     }
     ~BufferView() {
         m_device.impl().queue->when_done(

@@ -98,7 +98,7 @@ private:
     Device m_device;
     std::vector<Precision> m_precisions;
     Sums m_sums;
-    std::uint64_t m_n_scenes = 0, m_n_unknown = 0;
+    std::uint64_t m_n_scenes = 0, m_n_unknown = 0, m_n_failed = 0;
 };
 
 std::array<std::uint32_t, 2> parse_size(const std::string& text) {
@@ -226,6 +226,7 @@ void Hunt::judge_scene(Ground& ground, const SceneGround& scene_ground, std::str
     try {
         judge(ground, scene, std::string(kind), name, description);
     } catch (const std::exception& error) {
+        ++m_n_failed;
         std::printf("%s (%s, %s): %s\n", name.c_str(), std::string(kind).c_str(), description.c_str(), error.what());
     }
 }
@@ -273,7 +274,9 @@ int Hunt::report() {
                 seconds_since(m_start));
     if (!m_options.json.empty())
         write_sums(m_sums, m_options.json);
-    return has_silent(m_sums) ? 1 : 0;
+    if (m_sums.empty())
+        std::printf("no pixel was judged\n");
+    return has_silent(m_sums) || m_n_failed > 0 || m_sums.empty() ? 1 : 0;
 }
 
 } // namespace

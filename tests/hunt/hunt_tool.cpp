@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 
 int main(int argc, char** argv) {
     elvis::hunt::Options options;
@@ -35,8 +36,9 @@ int main(int argc, char** argv) {
     app.add_flag("--quiet", options.is_quiet, "Only the sums");
     app.add_option("--sum", sums, "Adds up files that --json wrote, and prints them");
     CLI11_PARSE(app, argc, argv);
-    // The plugins of this build.
-    ::setenv("ELVIS_PLUGIN_PATH", ELVIS_TEST_PLUGINS, 1);
+    // The plugins of this build, or bundle.
+    const auto program = std::filesystem::read_symlink("/proc/self/exe");
+    ::setenv("ELVIS_PLUGIN_PATH", (program.parent_path().parent_path() / "lib/elvis/plugins").c_str(), 1);
     try {
         if (!sums.empty())
             return elvis::hunt::print_sum(sums, options.json);

@@ -65,6 +65,8 @@ nlohmann::ordered_json run_surface(const Bench& bench, BenchView view);
 nlohmann::ordered_json run_surfaces(const Bench& bench);
 nlohmann::ordered_json run_projection(const Bench& bench);
 nlohmann::ordered_json run_interface(const Bench& bench);
+nlohmann::ordered_json run_growth(const Bench& bench);
+nlohmann::ordered_json run_goals(const Bench& bench);
 nlohmann::ordered_json run_volume(const Bench& bench);
 nlohmann::ordered_json run_combined(const Bench& bench);
 nlohmann::ordered_json run_mfem(const Bench& bench);

@@ -38,6 +38,8 @@ const std::vector<Suite>& drawing_suites() {
         {"volume-convergence", "volume_convergence", run_volume_convergence, false},
         {"surfaces", "surfaces", run_surfaces, false},
         {"interface", "interface", run_interface, false},
+        {"growth", "growth", run_growth, false},
+        {"goals", "goals", run_goals, false},
     };
     return suites;
 }
@@ -150,7 +152,7 @@ void add_bench(CLI::App& app) {
         ->add_option("suite", arguments->suite,
                      "unit, cut-plane, boundary, isosurface, segments, volume, hierarchy, jacobian, roots, all of these, "
                      "surfaces, projection, "
-                     "combined, mfem, volume-convergence, interface, kernels or accuracy")
+                     "combined, mfem, volume-convergence, interface, growth, goals, kernels or accuracy")
         ->check(CLI::IsMember(std::move(suites)))
         ->default_val("all");
     command->add_option("--device", arguments->device, "Name (or part of it), index, PCI bus id or UUID of the Vulkan device");
@@ -164,8 +166,8 @@ void add_bench(CLI::App& app) {
     command->add_flag("--json", arguments->json, "Answer in JSON");
     command->add_option(
         "--volume", arguments->volume,
-        "A native volume for the suites projection, combined, interface and kernels, in place of the waves, mfem "
-        "and volume-convergence");
+        "A native volume for the suites projection, combined, interface and kernels, in place of the waves, mfem, "
+        "goals and volume-convergence");
     command->add_option("--shapes", arguments->shapes, "Of the suite kernels: hexahedron, prism, pyramid, tetrahedron")
         ->delimiter(',')
         ->check(CLI::IsMember({"hexahedron", "prism", "pyramid", "tetrahedron"}));

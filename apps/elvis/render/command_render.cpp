@@ -116,7 +116,12 @@ void add_picture(CLI::App& command, RenderArguments& a) {
     command.add_option("--size", a.size, "WIDTHxHEIGHT");
     command.add_option("--precision", a.precision, "float32 or float64")
         ->check(CLI::IsMember(words_of("/properties/precision")));
-    command.add_option("--device", a.device, "Name (or part of it), index, PCI bus id or UUID of the Vulkan device");
+    CLI::Option* const device =
+        command.add_option("--device", a.device, "Name (or part of it), index, PCI bus id or UUID of the Vulkan device");
+    command
+        .add_option("--devices", a.devices,
+                    "all, or several such names with ',' between them: each device draws some rows of each picture")
+        ->excludes(device);
 }
 
 void add_animation(CLI::App& command, RenderArguments& a) {

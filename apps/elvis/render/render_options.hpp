@@ -51,6 +51,8 @@ struct RenderArguments {
     std::string size;
     std::string precision;
     std::string device;
+    /** "all", or a list. */
+    std::string devices;
     std::string buffers;
     std::string stats;
     std::string share;

@@ -189,11 +189,18 @@ void render_one(Wanted& wanted, RenderSession& session, const task& watch, Clock
     }
 }
 
+context context_for(const RenderArguments& arguments) {
+    const bool has_several = !arguments.devices.empty();
+    return library_context(has_several ? arguments.devices : arguments.device,
+                           (arguments.validation ? ELVIS_CONTEXT_VALIDATION : 0u) |
+                               (has_several ? ELVIS_CONTEXT_SEVERAL_DEVICES : 0u));
+}
+
 } // namespace
 
 void render_scenes(const RenderArguments& arguments) {
     Clock::time_point start = Clock::now();
-    const context library = library_context(arguments.device, arguments.validation ? ELVIS_CONTEXT_VALIDATION : 0u);
+    const context library = context_for(arguments);
     std::vector<Wanted> all = read_all(library, arguments);
     if (all.size() > 1) {
         for (const std::string& folder : {arguments.output, arguments.buffers, arguments.stats}) {

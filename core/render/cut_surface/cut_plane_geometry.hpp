@@ -22,6 +22,10 @@ struct CutPlaneGeometry {
     Vector3 normal{};
     /** Whether the plane's normal as given points away from the viewer. */
     bool is_flipped = false;
+
+    /** What was row `row` of the picture becomes its first. Rows are told from the one in the middle: rays stay as they are, to
+     * the bit. */
+    void begin_at(std::uint32_t row) { rows[8][3] -= row; }
 };
 
 /** `centre`: what the hierarchies are relative to. */

@@ -110,17 +110,17 @@ struct Pixel {
 /** Marks pixels along chords. */
 class Canvas {
 public:
-    Canvas(const View& view, std::uint32_t width, std::uint32_t height, double line_width)
-        : m_view(view), m_width(width), m_height(height), m_line_width(line_width),
+    Canvas(const View& view, std::uint32_t width, const PixelRows& rows, double line_width)
+        : m_view(view), m_width(width), m_rows(rows), m_line_width(line_width),
           // The square, or the disc, around a pixel's middle that the chord must meet.
-          m_reach(std::max(0.5, 0.5 * line_width)), m_pixels(std::size_t{width} * height) {}
+          m_reach(std::max(0.5, 0.5 * line_width)), m_pixels(std::size_t{width} * (rows.end - rows.first)) {}
 
     /** `error`: how far the edge may be from the chord, in pixels. `is_doubtful`: whether the chord is seen at all. */
     void draw(const PicturePoint& a, const PicturePoint& b, double error, bool is_doubtful, std::uint32_t number) {
         const double room = m_reach + error;
         const auto [top, bottom] = std::minmax(a.row, b.row);
-        const std::int64_t first = std::max<std::int64_t>(0, floor(top - room));
-        const std::int64_t last = std::min<std::int64_t>(m_height - 1, ceil(bottom + room));
+        const std::int64_t first = std::max<std::int64_t>(m_rows.first, floor(top - room));
+        const std::int64_t last = std::min<std::int64_t>(std::int64_t{m_rows.end} - 1, ceil(bottom + room));
         for (std::int64_t row = first; row <= last; ++row) {
             // The part of the chord near this row.
             const auto y = static_cast<double>(row);
@@ -140,6 +140,7 @@ public:
     }
 
     const std::vector<Pixel>& pixels() const { return m_pixels; }
+    const PixelRows& rows() const { return m_rows; }
 
 private:
     // Of numbers that may be far off the picture.
@@ -164,7 +165,7 @@ private:
         if (!is_drawn) {
             return;
         }
-        Pixel& pixel = m_pixels[std::size_t{row} * m_width + column];
+        Pixel& pixel = m_pixels[std::size_t{row - m_rows.first} * m_width + column];
         const bool is_certain = apart < -error && !is_doubtful;
         pixel.flags |= is_certain ? pixel_flag::mesh_line : is_met ? pixel_flag::mesh_line_undecided : 0u;
         const double z = m_view.z_of(a.depth + at * (b.depth - a.depth));
@@ -175,7 +176,8 @@ private:
     }
 
     const View& m_view;
-    std::uint32_t m_width, m_height;
+    std::uint32_t m_width;
+    PixelRows m_rows;
     double m_line_width, m_reach;
     std::vector<Pixel> m_pixels;
 };
@@ -270,8 +272,8 @@ void write(const View& view, const Canvas& canvas, double width, double value, s
         if (!std::isfinite(pixel.z)) {
             continue;
         }
-        const Vector3 d =
-            view.direction(static_cast<std::uint32_t>(i % layer.width), static_cast<std::uint32_t>(i / layer.width));
+        const Vector3 d = view.direction(static_cast<std::uint32_t>(i % layer.width),
+                                         canvas.rows().first + static_cast<std::uint32_t>(i / layer.width));
         const double distance = length(d);
         const double tolerance = EdgePass::depth_tolerance * std::max(1.0, width) * view.pixel_size(pixel.z);
         samples[i] = {static_cast<Real>(value), static_cast<Real>(distance * std::max(pixel.z - tolerance, 0.5 * pixel.z)),
@@ -290,11 +292,11 @@ void write(const View& view, const Canvas& canvas, double width, double value, s
 
 } // namespace
 
-void EdgePass::draw(const EdgeSet& edges, const Camera& camera, double width, double value, std::uint32_t surface,
-                    const LayerTarget& target) const {
+void EdgePass::draw(const EdgeSet& edges, const Camera& camera, const PicturePart& part, double width, double value,
+                    std::uint32_t surface, const LayerTarget& target) const {
     const Layer& layer = target.layer;
-    const View view(camera, layer.width, layer.height);
-    Canvas canvas(view, layer.width, layer.height, width);
+    const View view(camera, layer.width, part.of_height);
+    Canvas canvas(view, layer.width, {part.first_row, part.first_row + layer.height}, width);
     for (const EdgeSet::Edge& edge : edges.edges()) {
         draw_edge(view, edges, edge, camera.near, canvas);
     }

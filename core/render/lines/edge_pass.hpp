@@ -30,8 +30,8 @@ public:
      * viewer. Flags: mesh_line where the pixel's closed square meets an edge from the camera's `near` on, mesh_line_undecided
      * where that is within the chords' error. `width`: see WireFrame.
      */
-    void draw(const EdgeSet& edges, const Camera& camera, double width, double value, std::uint32_t surface,
-              const LayerTarget& target) const;
+    void draw(const EdgeSet& edges, const Camera& camera, const PicturePart& part, double width, double value,
+              std::uint32_t surface, const LayerTarget& target) const;
 
 private:
     Precision m_precision;

@@ -1,7 +1,9 @@
 #include "window.hpp"
+#include "glfw_library.hpp"
 
 #include <core/annotation/font.hpp>
 #include <core/base/error.hpp>
+#include <core/vulkan/vulkan_library.hpp>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -77,6 +79,10 @@ void set_style(float scale, bool is_dark) {
 } // namespace
 
 Window::Window(const Settings& settings, const std::string& device, bool validation) {
+    if (!glfw_library().is_there()) {
+        throw Error("window", "GLFW cannot be loaded, nor what it needs of X11: " + glfw_library().missing_because() +
+                                  ". Install them, or draw with elvis render");
+    }
     if (glfwInit() != GLFW_TRUE) {
         const char* display = std::getenv("DISPLAY");
         const bool has_display = display != nullptr && *display != '\0';
@@ -86,9 +92,7 @@ Window::Window(const Settings& settings, const std::string& device, bool validat
     }
     try {
         if (glfwVulkanSupported() != GLFW_TRUE) {
-            throw Error("window",
-                        "this machine has no Vulkan driver; without a GPU, install a driver for the CPU (Debian package "
-                        "mesa-vulkan-drivers)");
+            throw Error("window", why_no_devices());
         }
         glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
         m_window = glfwCreateWindow(settings.window_size[0], settings.window_size[1], "ElVis", nullptr, nullptr);

@@ -86,6 +86,12 @@ typedef uint32_t elvis_context_flags;
 #define ELVIS_CONTEXT_NO_ENVIRONMENT 1u
 /** Runs with Vulkan's validation layer, whose messages go to the log. Slow. */
 #define ELVIS_CONTEXT_VALIDATION 2u
+/**
+ * `device` names several, separated by ',', or is "all": all of the best device's type. Each draws some rows of every still
+ * picture and of every picture of an animation. On devices of one kind pictures are to the bit those of one of them. Data must
+ * be from files: each device opens them.
+ */
+#define ELVIS_CONTEXT_SEVERAL_DEVICES 4u
 
 typedef struct elvis_context_options {
     uint32_t struct_size;
@@ -123,7 +129,7 @@ ELVIS_EXPORT elvis_result elvis_context_list_devices(elvis_context* context, cha
 
 /**
  * JSON object about the device that the context draws with, which is opened if it is not: name, type, driver, allocated_bytes,
- * n_buffers, n_kernels, and with ELVIS_CONTEXT_VALIDATION the layer's messages in validation_messages.
+ * n_buffers, n_kernels, with ELVIS_CONTEXT_VALIDATION the layer's messages in validation_messages, and the names of `others`.
  */
 ELVIS_EXPORT elvis_result elvis_context_describe_device(elvis_context* context, char** text);
 
