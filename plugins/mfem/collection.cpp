@@ -47,7 +47,7 @@ bool is_closed(Basis basis) {
     return basis == Basis::gauss_lobatto || basis == Basis::closed_uniform || basis == Basis::positive;
 }
 
-/** The part of a name before "_3D_P". */
+/** The part of a name before "_2D_P" or "_3D_P". */
 std::optional<Collection> parse_prefix(std::string_view text) {
     Collection result;
     if (text == "H1Pos") {
@@ -98,9 +98,6 @@ std::optional<Collection> parse_prefix(std::string_view text) {
 
 Collection parse_collection(std::string_view name) {
     const std::string shown = "finite element collection " + elvis_mfem::shown(name);
-    if (name.starts_with("NURBS")) {
-        throw std::invalid_argument(shown + ": NURBS are not supported");
-    }
     if (name.starts_with("L2Int")) {
         throw std::invalid_argument(shown + ": densities (values divided by det J) are not supported");
     }
@@ -112,15 +109,16 @@ Collection parse_collection(std::string_view name) {
                           .basis = Basis::closed_uniform,
                           .is_first_cubic = name == "Cubic"};
     }
-    const std::size_t dimension = name.find("_3D_P");
-    const auto prefix = parse_prefix(name.substr(0, dimension));
-    if (dimension == std::string_view::npos || !prefix) {
+    const std::size_t place = std::min(name.find("_2D_P"), name.find("_3D_P"));
+    const auto prefix = parse_prefix(name.substr(0, place));
+    if (place == std::string_view::npos || !prefix) {
         throw std::invalid_argument(shown +
-                                    " is not supported; H1, H1Pos, L2, ND and RT in three dimensions are, with the points "
-                                    "of Gauss-Lobatto, Gauss-Legendre or uniform ones");
+                                    " is not supported; H1, H1Pos, L2, ND and RT in two and three dimensions are, with the "
+                                    "points of Gauss-Lobatto, Gauss-Legendre or uniform ones");
     }
     Collection result = *prefix;
-    std::string_view digits = name.substr(dimension + 5);
+    result.dimension = name[place + 1] - '0';
+    std::string_view digits = name.substr(place + 5);
     const auto order = take_number(digits);
     const int least = result.family == Family::h1 || result.family == Family::nd ? 1 : 0;
     if (!order || !digits.empty() || *order < least || *order > max_order) {
@@ -132,6 +130,16 @@ Collection parse_collection(std::string_view name) {
         throw std::invalid_argument(shown + ": polynomials of more than order " + std::to_string(max_order));
     }
     return result;
+}
+
+int parse_nurbs_order(std::string_view name) {
+    std::string_view digits = name;
+    const auto order = take(digits, "NURBS") ? take_number(digits) : std::nullopt;
+    if (!order || !digits.empty() || *order < 1) {
+        throw std::invalid_argument("finite element collection " + shown(name) +
+                                    ": only NURBS of one order are supported, as NURBS2");
+    }
+    return *order;
 }
 
 std::vector<double> points(Basis basis, int n) {

@@ -2,12 +2,24 @@
 
 #include <elvis/plugin.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace elvis_mfem {
 
+namespace {
+
+/** L2 pyramids are polynomials in collapsed coordinates with no limit at the apex, which no native pyramid has. */
+bool is_singular(const Collection& collection, Geometry geometry) {
+    return geometry == Geometry::pyramid && collection.family == Family::l2 && collection.order > 0;
+}
+
+} // namespace
+
 Field::Field(std::string name, const std::string& path, GridFunction function, const Mesh& mesh, const Topology* topology)
-    : m_name(std::move(name)), m_function(std::move(function)), m_mesh(mesh), m_space(m_function.collection, mesh, topology) {
+    : ElementFunction(std::move(name),
+                      static_cast<std::size_t>(function.collection.is_vector() ? mesh.dimension : function.n_components)),
+      m_function(std::move(function)), m_mesh(mesh), m_space(m_function.collection, mesh, topology) {
     const std::size_t n_expected = m_space.n_dofs() * static_cast<std::size_t>(m_function.n_components);
     if (m_function.values.size() != n_expected) {
         throw elvis::api::Error(ELVIS_ERROR_FORMAT, path,
@@ -28,6 +40,22 @@ Field::Field(std::string name, const std::string& path, GridFunction function, c
     }
 }
 
+elvis_continuity Field::continuity() const {
+    return collection().family == Family::h1 ? ELVIS_CONTINUITY_CONTINUOUS : ELVIS_CONTINUITY_DISCONTINUOUS;
+}
+
+elvis_transform Field::transform() const {
+    return collection().family == Family::nd   ? ELVIS_TRANSFORM_COVARIANT
+           : collection().family == Family::rt ? ELVIS_TRANSFORM_CONTRAVARIANT
+                                               : ELVIS_TRANSFORM_NONE;
+}
+
+/** The native space that contains the collection's; the one nearest to it if it is singular. */
+ElementFunction::NativeSpace Field::native_space(std::size_t element) const {
+    const bool is_contained = !is_singular(collection(), m_mesh.elements[element].geometry);
+    return {is_contained ? collection().polynomial_order() : std::max(2, collection().order), is_contained};
+}
+
 void Field::evaluate(std::size_t element, std::span<const double> xi, double* values, std::size_t stride) const {
     const Geometry geometry = m_mesh.elements[element].geometry;
     const Tabulation& tabulation = *m_tabulations[static_cast<std::size_t>(geometry)];
@@ -46,12 +74,15 @@ void Field::evaluate(std::size_t element, std::span<const double> xi, double* va
     if (!collection().is_vector()) {
         return;
     }
-    // With A = dxi/dX = 2 R (R a rotation) and J to X: J^-T = J_xi^-T R/2, J / det J = (J_xi / det J_xi) R/4.
-    const double factor = collection().family == Family::nd ? 0.5 : 0.25;
+    // With A = dxi/dX = 2 R (R a rotation) and J to X: J^-T = J_xi^-T R/2, J / det J = (J_xi / det J_xi) R/4, in two dimensions
+    // R/2.
+    const double factor = collection().family == Family::rt && m_mesh.dimension == 3 ? 0.25 : 0.5;
     for (std::size_t point = 0; point < xi.size() / 3; ++point) {
         double* value = values + point * stride;
-        const Point turned = rotate_to_elvis(geometry, {value[0], value[1], value[2]});
-        for (std::size_t d = 0; d < 3; ++d) {
+        Point vector{};
+        std::copy_n(value, n_components(), vector.begin());
+        const Point turned = rotate_to_elvis(geometry, vector);
+        for (std::size_t d = 0; d < n_components(); ++d) {
             value[d] = factor * turned[d];
         }
     }

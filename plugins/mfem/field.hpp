@@ -1,11 +1,12 @@
 /**
  * @file field.hpp
- * A grid function on a mesh, ready to be evaluated in any element.
+ * A grid function in one of the collections, ready to be evaluated in any element.
  */
 #pragma once
 
 #include "element/space.hpp"
 #include "element/tabulation.hpp"
+#include "element_function.hpp"
 #include "mesh.hpp"
 
 #include <array>
@@ -15,26 +16,19 @@
 
 namespace elvis_mfem {
 
-/** Any thread may evaluate. */
-class Field {
+class Field : public ElementFunction {
 public:
     /** `path` is for messages; topology may be null if Space::needs_topology() is false. Throws elvis::api::Error. */
     Field(std::string name, const std::string& path, GridFunction function, const Mesh& mesh, const Topology* topology);
 
-    const std::string& name() const { return m_name; }
-    const Collection& collection() const { return m_function.collection; }
-    std::size_t n_components() const {
-        return collection().is_vector() ? 3 : static_cast<std::size_t>(m_function.n_components);
-    }
-
-    /**
-     * Values at points of ElVis's reference shape, n_components() numbers every `stride`. ND and RT fields are pulled back to
-     * ElVis's reference coordinates (uhat of elvis/element.h).
-     */
-    void evaluate(std::size_t element, std::span<const double> xi, double* values, std::size_t stride) const;
+    elvis_continuity continuity() const override;
+    elvis_transform transform() const override;
+    NativeSpace native_space(std::size_t element) const override;
+    void evaluate(std::size_t element, std::span<const double> xi, double* values, std::size_t stride) const override;
 
 private:
-    std::string m_name;
+    const Collection& collection() const { return m_function.collection; }
+
     GridFunction m_function;
     const Mesh& m_mesh;
     Space m_space;

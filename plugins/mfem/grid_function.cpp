@@ -16,8 +16,13 @@ GridFunction read_grid_function(Text& text) {
         text.expect("v1.0");
     }
     text.expect("FiniteElementCollection:");
+    const std::string_view name = text.word("the name of a finite element collection");
     try {
-        result.collection = parse_collection(text.word("the name of a finite element collection"));
+        if (name.starts_with("NURBS")) {
+            result.nurbs_order = parse_nurbs_order(name);
+        } else {
+            result.collection = parse_collection(name);
+        }
     } catch (const std::invalid_argument& error) {
         text.fail(error.what());
     }
@@ -30,7 +35,7 @@ GridFunction read_grid_function(Text& text) {
     result.is_interleaved = text.integer("the ordering", 0, 1) == 1;
     if (is_long) {
         if (text.peek() != "End:") {
-            text.fail(shown(text.peek()) + " is not supported: neither NURBS nor orders that vary over the mesh are");
+            text.fail(shown(text.peek()) + " is not supported: orders that vary over the mesh or its directions are not");
         }
         text.expect("End:");
         text.expect("MFEM");
@@ -46,7 +51,7 @@ GridFunction read_grid_function(Text& text) {
 GridFunction read_solution(const std::string& path, int* digits) {
     Text text(path);
     if (text.peek() == "solution") {
-        text.fail("this form of a solution is not supported");
+        text.fail("this file holds a mesh besides the solution; it is read alone");
     }
     GridFunction result = read_grid_function(text);
     if (!text.at_end()) {

@@ -1,12 +1,12 @@
 #include "mesh.hpp"
 
+#include "file_content.hpp"
 #include "text.hpp"
 
 #include <elvis/plugin.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 namespace elvis_mfem {
@@ -14,6 +14,8 @@ namespace elvis_mfem {
 namespace {
 
 constexpr std::string_view mark = "MFEM ";
+/** What begins a stream for GLVis, of a mesh and a solution. */
+constexpr std::string_view stream_mark = "solution\n";
 /** Largest number of the files' integers. */
 constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
 
@@ -36,18 +38,7 @@ void read_vertices(Text& text, Mesh& mesh) {
     if (mesh.nodes) {
         return;
     }
-    text.integer("the number of coordinates of a vertex", 3, 3);
-    // A digit and a blank each.
-    if (mesh.n_vertices > text.left() / 6 + 1) {
-        text.fail("the file cannot hold " + std::to_string(mesh.n_vertices) + " vertices");
-    }
-    mesh.coordinates.resize(3 * mesh.n_vertices);
-    for (double& coordinate : mesh.coordinates) {
-        coordinate = text.real("a coordinate");
-        if (!std::isfinite(coordinate)) {
-            text.fail("a coordinate is not finite");
-        }
-    }
+    mesh.coordinates = read_coordinates(text, mesh.n_vertices, mesh.dimension, &mesh.space_dimension);
     // Curved meshes may have both.
     read_nodes(text, mesh);
 }
@@ -74,14 +65,14 @@ void check_vertices(const Text& text, const Mesh& mesh) {
 
 Mesh read_conforming(Text& text) {
     Mesh mesh;
-    read_dimension(text);
+    mesh.dimension = read_dimension(text);
     text.expect("elements");
-    const std::size_t n_elements = text.count("the number of elements", 12);
+    const std::size_t n_elements = text.count("the number of elements", 10);
     mesh.elements.reserve(n_elements);
     for (std::size_t index = 0; index < n_elements; ++index) {
-        text.integer("an attribute", 0, most);
         MeshElement element;
-        element.geometry = read_geometry(text);
+        element.attribute = static_cast<int>(text.integer("an attribute", 0, most));
+        element.geometry = read_geometry(text, mesh.dimension);
         for (std::size_t corner = 0; corner < vertices(element.geometry).size(); ++corner) {
             element.vertices[corner] = static_cast<std::int32_t>(text.integer("a vertex", 0, most));
         }
@@ -91,10 +82,10 @@ Mesh read_conforming(Text& text) {
         read_sets(text);
     }
     text.expect("boundary");
-    const std::size_t n_boundary = text.count("the number of boundary elements", 10);
+    const std::size_t n_boundary = text.count("the number of boundary elements", 8);
     mesh.boundary.reserve(n_boundary);
     for (std::size_t index = 0; index < n_boundary; ++index) {
-        mesh.boundary.push_back(read_boundary_element(text, most));
+        mesh.boundary.push_back(read_boundary_element(text, mesh.dimension, most));
     }
     if (text.accept("bdr_attribute_sets")) {
         mesh.boundary_sets = read_sets(text);
@@ -107,43 +98,73 @@ Mesh read_conforming(Text& text) {
 } // namespace
 
 bool is_mesh(const char* path) {
-    std::ifstream file(path, std::ios::binary);
-    char head[5] = {};
-    if (!file.read(head, sizeof head) || std::string_view(head, sizeof head) != mark) {
-        return false;
+    std::string head = read_head(path, 60);
+    if (head.starts_with(stream_mark)) {
+        head.erase(0, stream_mark.size());
     }
-    std::string rest(40, ' ');
-    file.read(rest.data(), static_cast<std::streamsize>(rest.size()));
-    return rest.substr(0, rest.find('\n')).find("mesh") != std::string::npos;
+    return head.starts_with(mark) && head.substr(0, head.find('\n')).find("mesh") != std::string::npos;
 }
 
-void read_dimension(Text& text) {
+int read_dimension(Text& text) {
     text.expect("dimension");
-    text.integer("the dimension (only meshes of volumes are read)", 3, 3);
+    const auto dimension = static_cast<int>(text.integer("the dimension", 1, 3));
+    if (dimension == 1) {
+        text.fail("this is a mesh of segments, of dimension 1, which is not supported; those of dimension 2 and 3 are");
+    }
+    return dimension;
 }
 
-Geometry read_geometry(Text& text) {
-    return static_cast<Geometry>(text.integer("the geometry of an element of a volume", 4, 7));
+Geometry read_geometry(Text& text, int dimension) {
+    return static_cast<Geometry>(dimension == 2 ? text.integer("the geometry of an element of dimension 2", 2, 3)
+                                                : text.integer("the geometry of an element of dimension 3", 4, 7));
 }
 
-BoundaryElement read_boundary_element(Text& text, std::int64_t n_vertices) {
+BoundaryElement read_boundary_element(Text& text, int dimension, std::int64_t n_vertices) {
     BoundaryElement element;
     element.attribute = static_cast<int>(text.integer("an attribute", 0, most));
-    const auto n_corners = 1 + text.integer("the geometry of a boundary element", 2, 3);
+    // Segments are geometry 1, triangles 2, squares 3.
+    const auto n_corners =
+        1 + text.integer("the geometry of a boundary element", dimension == 2 ? 1 : 2, dimension == 2 ? 1 : 3);
     for (std::size_t corner = 0; corner < static_cast<std::size_t>(n_corners); ++corner) {
         element.vertices[corner] = static_cast<std::int32_t>(text.integer("a vertex", 0, n_vertices - 1));
     }
     return element;
 }
 
+std::vector<double> read_coordinates(Text& text, std::size_t n_vertices, int dimension, int* space_dimension) {
+    *space_dimension = static_cast<int>(text.integer("the number of coordinates of a vertex", dimension, 3));
+    const auto n_coordinates = static_cast<std::size_t>(*space_dimension);
+    // A digit and a blank each.
+    if (n_vertices > text.left() / (2 * n_coordinates) + 1) {
+        text.fail("the file cannot hold " + std::to_string(n_vertices) + " vertices");
+    }
+    std::vector<double> coordinates(3 * n_vertices);
+    for (std::size_t vertex = 0; vertex < n_vertices; ++vertex) {
+        for (std::size_t d = 0; d < n_coordinates; ++d) {
+            const double coordinate = text.real("a coordinate");
+            if (!std::isfinite(coordinate)) {
+                text.fail("a coordinate is not finite");
+            }
+            coordinates[3 * vertex + d] = coordinate;
+        }
+    }
+    return coordinates;
+}
+
 void read_nodes(Text& text, Mesh& mesh) {
-    if (!text.accept("nodes")) {
-        return;
+    if (text.accept("nodes")) {
+        take_nodes(text, mesh);
     }
+}
+
+void take_nodes(Text& text, Mesh& mesh) {
     mesh.nodes = read_grid_function(text);
-    if (mesh.nodes->collection.is_vector() || mesh.nodes->n_components != 3) {
-        text.fail("the nodes of a mesh must have three components in an H1 or L2 space");
+    const int n_components = mesh.nodes->n_components;
+    if (mesh.nodes->collection.is_vector() || n_components < mesh.dimension || n_components > 3) {
+        text.fail(std::string("the nodes of a mesh must have ") + (mesh.dimension == 2 ? "two or " : "") +
+                  "three components in an H1 or L2 space");
     }
+    mesh.space_dimension = n_components;
     if (!std::ranges::all_of(mesh.nodes->values, [](double value) { return std::isfinite(value); })) {
         text.fail("a coordinate of the nodes is not finite");
     }
@@ -152,6 +173,7 @@ void read_nodes(Text& text, Mesh& mesh) {
 
 Mesh read_mesh(const std::string& path) {
     Text text(path);
+    const bool is_stream = text.accept("solution");
     text.expect("MFEM");
     std::string version;
     do {
@@ -165,14 +187,18 @@ Mesh read_mesh(const std::string& path) {
         mesh = read_conforming(text);
     } else if (version == "NC mesh v1.0" || version == "NC mesh v1.1") {
         mesh = read_nonconforming(text, version == "NC mesh v1.1");
+    } else if (version == "NURBS mesh v1.0" || version == "NURBS mesh v1.1") {
+        mesh = read_nurbs(text);
+    } else if (version == "INLINE mesh v1.0") {
+        return read_inline(text);
     } else {
-        const std::string hint = version == "mesh v1.1"          ? " (let MFEM write it again, as 'MFEM NC mesh v1.0')"
-                                 : version.starts_with("NURBS")  ? " (let MFEM convert it with Mesh::SetCurvature)"
-                                 : version.starts_with("INLINE") ? " (let MFEM write it as 'MFEM mesh v1.0')"
-                                                                 : "";
+        const std::string hint = version == "mesh v1.1" ? " (let MFEM write it again, as 'MFEM NC mesh v1.0')"
+                                 : version.find("NURBS") != std::string::npos ? " (let MFEM convert it with Mesh::SetCurvature)"
+                                                                              : "";
         throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, path,
                                 "line 1: 'MFEM " + version + "' is not supported" + hint +
-                                    "; MFEM mesh v1.0, v1.2, v1.3 and MFEM NC mesh v1.0, v1.1 are");
+                                    "; MFEM mesh v1.0, v1.2, v1.3, MFEM NC mesh v1.0, v1.1, MFEM NURBS mesh v1.0, v1.1 and "
+                                    "MFEM INLINE mesh v1.0 are");
     }
     if (mesh.elements.empty()) {
         text.fail("the mesh has no elements");
@@ -181,6 +207,12 @@ Mesh read_mesh(const std::string& path) {
     text.accept("mfem_serial_mesh_end");
     if (text.peek() == "communication_groups") {
         text.fail("this is a part of a parallel mesh, which is not supported; let MFEM save it in one file (Mesh::SaveAsOne)");
+    }
+    if (is_stream) {
+        // Commands for GLVis may follow.
+        mesh.solution = read_grid_function(text);
+        mesh.digits = text.max_digits();
+        return mesh;
     }
     if (!text.at_end()) {
         text.fail("the mesh should end here, but " + shown(text.peek()) + " follows");

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +17,10 @@
 namespace elvis_mfem {
 
 class Text;
+struct NurbsPatches;
 
 struct MeshElement {
+    int attribute = 1;
     Geometry geometry = Geometry::cube;
     /** In MFEM's order; the rest is -1. */
     std::array<std::int32_t, 8> vertices{-1, -1, -1, -1, -1, -1, -1, -1};
@@ -25,7 +28,7 @@ struct MeshElement {
 
 struct BoundaryElement {
     int attribute = 1;
-    /** The fourth is -1 in triangles. */
+    /** Two of a segment, three of a triangle; the rest is -1. */
     std::array<std::int32_t, 4> vertices{-1, -1, -1, -1};
 };
 
@@ -37,6 +40,8 @@ struct AttributeSet {
 /** A grid function: values of degrees of freedom, in the numbering of the whole mesh. */
 struct GridFunction {
     Collection collection;
+    /** Of NURBS, which have no collection; else 0. */
+    int nurbs_order = 0;
     int n_components = 1;
     /** Components of one degree of freedom side by side (MFEM's byVDIM), or one component after the other (byNODES). */
     bool is_interleaved = false;
@@ -44,18 +49,26 @@ struct GridFunction {
 };
 
 struct Mesh {
+    /** Of the elements, 2 or 3. */
+    int dimension = 3;
+    /** Coordinates of a point in the file; more than the dimension in surfaces in space. */
+    int space_dimension = 3;
     std::vector<MeshElement> elements;
     std::vector<BoundaryElement> boundary;
     std::vector<AttributeSet> boundary_sets;
     std::size_t n_vertices = 0;
-    /** Three numbers a vertex; empty if there are nodes. */
+    /** Three numbers a vertex, the third 0 in the plane; empty if there are nodes. */
     std::vector<double> coordinates;
     std::optional<GridFunction> nodes;
+    /** Of GLVis streams, which hold both. */
+    std::optional<GridFunction> solution;
+    /** Of NURBS meshes. */
+    std::shared_ptr<const NurbsPatches> nurbs;
     /** Most significant decimal digits of the coordinates. */
     int digits = 0;
 };
 
-/** Whether a file begins like one of MFEM's meshes. */
+/** Whether a file begins like one of MFEM's meshes, compressed or not. */
 bool is_mesh(const char* path);
 
 /** Reads a mesh of any version that is supported. */
@@ -64,6 +77,12 @@ Mesh read_mesh(const std::string& path);
 /** Reads the sections of a nonconforming mesh, from behind its first line (nc_mesh.cpp). */
 Mesh read_nonconforming(Text& text, bool has_scales);
 
+/** Reads a NURBS mesh, from behind its first line (nurbs/nurbs_mesh.cpp). */
+Mesh read_nurbs(Text& text);
+
+/** Makes the mesh that the lines of an INLINE mesh describe (inline_mesh.cpp). */
+Mesh read_inline(Text& text);
+
 /** Reads a space and the values, as in files of solutions and in the section `nodes` of a mesh. */
 GridFunction read_grid_function(Text& text);
 
@@ -71,10 +90,15 @@ GridFunction read_grid_function(Text& text);
 GridFunction read_solution(const std::string& path, int* digits);
 
 /** Parts that both kinds of meshes share. */
-void read_dimension(Text& text);
-Geometry read_geometry(Text& text);
-BoundaryElement read_boundary_element(Text& text, std::int64_t n_vertices);
+int read_dimension(Text& text);
+/** The geometry of an element of that dimension. */
+Geometry read_geometry(Text& text, int dimension);
+BoundaryElement read_boundary_element(Text& text, int dimension, std::int64_t n_vertices);
+/** The number of coordinates, then `n_vertices` points: three numbers each. */
+std::vector<double> read_coordinates(Text& text, std::size_t n_vertices, int dimension, int* space_dimension);
 /** Nodes if they come next. */
 void read_nodes(Text& text, Mesh& mesh);
+/** Nodes without their heading. */
+void take_nodes(Text& text, Mesh& mesh);
 
 } // namespace elvis_mfem

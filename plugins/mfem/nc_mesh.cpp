@@ -17,6 +17,7 @@ namespace {
 constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
 
 struct TreeElement {
+    int attribute = 1;
     Geometry geometry = Geometry::cube;
     int refinement = 0;
     bool is_used = false;
@@ -34,10 +35,13 @@ struct TreeNode {
 };
 
 struct Tree {
+    int dimension = 3;
+    int space_dimension = 3;
     std::vector<TreeElement> elements;
     std::vector<BoundaryElement> boundary;
     std::vector<TreeNode> nodes;
     std::vector<int> root_states;
+    /** Three numbers a node. */
     std::vector<double> coordinates;
 };
 
@@ -54,14 +58,14 @@ void read_elements(Text& text, Tree& tree) {
     for (std::size_t index = 0; index < tree.elements.size(); ++index) {
         TreeElement& element = tree.elements[index];
         const auto rank = text.integer("a rank", -1, most);
-        text.integer("an attribute", 0, most);
+        element.attribute = static_cast<int>(text.integer("an attribute", 0, most));
         if (text.peek() == "-1") {
             // A free place in MFEM's table.
             text.word("a geometry");
             continue;
         }
         element.is_used = true;
-        element.geometry = read_geometry(text);
+        element.geometry = read_geometry(text, tree.dimension);
         element.refinement = static_cast<int>(text.integer("a type of refinement", 0, 7));
         if (element.refinement == 0) {
             if (rank > 0) {
@@ -138,8 +142,15 @@ struct Step {
     int state;
 };
 
+/** Children of a refined square along its curve, which begins at corner state / 2 and goes round forward if state is even. */
+std::vector<Step> square_curve(int state) {
+    const int back = state ^ 1;
+    const int corner = state / 2, step = state % 2 == 0 ? 1 : 3;
+    return {{corner, back}, {(corner + step) % 4, state}, {(corner + 2) % 4, state}, {(corner + 3 * step) % 4, (back + 4) % 8}};
+}
+
 /** Children of a refined hexahedron along the curve, and the curves inside them. */
-std::array<Step, 8> curve(int state) {
+std::vector<Step> cube_curve(int state) {
     const auto [a, b, c] = curve_axes(state);
     const auto at = [&, corner = state / 3](int x) {
         int result = corner;
@@ -153,14 +164,23 @@ std::array<Step, 8> curve(int state) {
     const int middle = curve_state(at(a | b), {a, b, c});
     const int late = curve_state(at(b | c), {c, a, b});
     const int last = curve_state(at(a | c), {b, c, a});
-    return {{{at(0), first},
-             {at(a), second},
-             {at(a | b), second},
-             {at(b), middle},
-             {at(b | c), middle},
-             {at(a | b | c), late},
-             {at(a | c), late},
-             {at(c), last}}};
+    return {{at(0), first},      {at(a), second},       {at(a | b), second}, {at(b), middle},
+            {at(b | c), middle}, {at(a | b | c), late}, {at(a | c), late},   {at(c), last}};
+}
+
+/** Children in MFEM's order; the state passes through where they follow no curve. */
+std::vector<Step> steps(const TreeElement& element, int state) {
+    if (element.geometry == Geometry::cube && element.items.size() == 8) {
+        return cube_curve(state);
+    }
+    if (element.geometry == Geometry::square && element.items.size() == 4) {
+        return square_curve(state);
+    }
+    std::vector<Step> result;
+    for (int child = 0; child < static_cast<int>(element.items.size()); ++child) {
+        result.push_back({child, state});
+    }
+    return result;
 }
 
 /** Numbers of the leaves, in MFEM's order. */
@@ -191,11 +211,10 @@ std::vector<std::size_t> collect_leaves(const Text& text, const Tree& tree) {
                 }
                 continue;
             }
-            const bool is_on_curve = element.geometry == Geometry::cube && element.refinement == 7 && element.items.size() == 8;
-            const std::array<Step, 8> steps = is_on_curve ? curve(state) : std::array<Step, 8>{};
-            for (std::size_t i = element.items.size(); i-- > 0;) {
-                const auto place = is_on_curve ? static_cast<std::size_t>(steps[i].child) : i;
-                stack.push_back({static_cast<std::size_t>(element.items[place]), is_on_curve ? steps[i].state : state});
+            const std::vector<Step> order = steps(element, state);
+            for (auto step = order.rbegin(); step != order.rend(); ++step) {
+                const auto child = element.items[static_cast<std::size_t>(step->child)];
+                stack.push_back({static_cast<std::size_t>(child), step->state});
             }
         }
     }
@@ -287,6 +306,8 @@ void add_coordinates(const Text& text, const Tree& tree, std::span<const std::in
 /** The mesh of the leaves: vertices that the files give coordinates come first, others as the leaves meet them. */
 Mesh flatten(const Text& text, const Tree& tree) {
     Mesh mesh;
+    mesh.dimension = tree.dimension;
+    mesh.space_dimension = tree.space_dimension;
     const std::vector<std::size_t> leaves = collect_leaves(text, tree);
     std::size_t n_nodes = 0;
     for (std::size_t leaf : leaves) {
@@ -312,6 +333,7 @@ Mesh flatten(const Text& text, const Tree& tree) {
     }
     for (std::size_t leaf : leaves) {
         MeshElement element;
+        element.attribute = tree.elements[leaf].attribute;
         element.geometry = tree.elements[leaf].geometry;
         for (std::size_t corner = 0; corner < tree.elements[leaf].items.size(); ++corner) {
             std::int32_t& vertex = vertex_of[static_cast<std::size_t>(tree.elements[leaf].items[corner])];
@@ -334,15 +356,15 @@ Mesh flatten(const Text& text, const Tree& tree) {
 
 Mesh read_nonconforming(Text& text, bool has_scales) {
     Tree tree;
-    read_dimension(text);
+    tree.dimension = read_dimension(text);
     if (text.accept("rank")) {
         text.fail("this is a part of a parallel mesh, which is not supported");
     }
     read_elements(text, tree);
     if (text.accept("boundary")) {
-        tree.boundary.resize(text.count("the number of boundary elements", 10));
+        tree.boundary.resize(text.count("the number of boundary elements", 8));
         for (BoundaryElement& element : tree.boundary) {
-            element = read_boundary_element(text, most);
+            element = read_boundary_element(text, tree.dimension, most);
         }
     }
     if (text.accept("vertex_parents")) {
@@ -351,16 +373,12 @@ Mesh read_nonconforming(Text& text, bool has_scales) {
     if (text.accept("root_state")) {
         tree.root_states.resize(text.count("the number of roots", 2));
         for (int& state : tree.root_states) {
-            state = static_cast<int>(text.integer("the state of a root", 0, 23));
+            state = static_cast<int>(text.integer("the state of a root", 0, tree.dimension == 2 ? 7 : 23));
         }
     }
     if (text.accept("coordinates")) {
-        const std::size_t n = text.count("the number of vertices with coordinates", 6);
-        text.integer("the number of coordinates of a vertex", 3, 3);
-        tree.coordinates.resize(3 * n);
-        for (double& coordinate : tree.coordinates) {
-            coordinate = text.real("a coordinate");
-        }
+        const std::size_t n = text.count("the number of vertices with coordinates", 4);
+        tree.coordinates = read_coordinates(text, n, tree.dimension, &tree.space_dimension);
     }
     Mesh mesh = flatten(text, tree);
     read_nodes(text, mesh);

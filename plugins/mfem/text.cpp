@@ -1,13 +1,13 @@
 #include "text.hpp"
 
+#include "file_content.hpp"
+
 #include <elvis/plugin.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 namespace elvis_mfem {
 
@@ -31,19 +31,7 @@ int significant_digits(std::string_view number) {
 
 } // namespace
 
-Text::Text(const std::string& path) : m_path(path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-    // A folder can be opened, and claims to be of enormous size.
-    if (size < 0 || std::filesystem::is_directory(path)) {
-        throw elvis::api::Error(ELVIS_ERROR_FILE, path, "the file cannot be opened");
-    }
-    m_content.resize(static_cast<std::size_t>(size));
-    file.seekg(0);
-    if (!file.read(m_content.data(), size)) {
-        throw elvis::api::Error(ELVIS_ERROR_FILE, path, "the file cannot be read");
-    }
-}
+Text::Text(const std::string& path) : m_path(path), m_content(read_content(path)) {}
 
 void Text::skip_blanks() {
     while (m_at < m_content.size()) {

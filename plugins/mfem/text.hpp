@@ -13,7 +13,7 @@ namespace elvis_mfem {
 
 class Text {
 public:
-    /** Reads the whole file. Throws elvis::api::Error. */
+    /** Reads the whole file, which may be compressed by gzip. Throws elvis::api::Error. */
     explicit Text(const std::string& path);
 
     const std::string& path() const { return m_path; }

@@ -80,8 +80,8 @@ elvis_real core_power_bend(const core_polynomial powers) {
 struct core_fitted {
     // In the Bernstein basis, and by powers of the step's parameter.
     core_polynomial p, powers;
-    // What it is off, and how much of that is rounding.
-    elvis_real error, rounding;
+    // What it is off, and how much of that is rounding; how large something may be that samples have missed.
+    elvis_real error, rounding, unseen;
 };
 
 // The light of a section.

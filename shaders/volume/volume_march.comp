@@ -42,6 +42,10 @@ layout(push_constant) uniform core_parameters {
 #define CORE_GROUPS_BINDING 7
 #include "tiles/ray_group.glsl"
 #include "arithmetic/driver_limit.glsl"
+// Where elements are more curved, segments are estimated.
+#define CORE_ASSUMED_CURVATURE elvis_real(16)
+#define CORE_CERTAIN_ITERATIONS 96u
+#define CORE_SEGMENT_ITERATIONS 160u
 #include "segments/segment.glsl"
 #include "segments/traced_ray.glsl"
 #include "segments/neighbour_walk.glsl"

@@ -22,8 +22,12 @@
 #define CORE_SHORTEST_STEP elvis_real(0.0009765625LF)
 // Share of how far the field may be from a line that a cubic is off at least.
 #define CORE_CUBIC_SHARE elvis_real(0.0625LF)
-// The same of a quintic where density or light jump: a short interval beyond a jump that is missed is much light, and no slope tells of it.
-#define CORE_QUINTIC_SHARE elvis_real(CORE_HAS_JUMPS == 1 ? 0.00390625LF : 0.0LF)
+// Of a quintic that shows less of how far the field may be from a line than this, samples may have missed something...
+#define CORE_SHOWN_SHARE elvis_real(0.0009765625LF)
+// ... as large as this share of it, unless ...
+#define CORE_QUINTIC_SHARE elvis_real(0.00390625LF)
+// ... the step is so short, in reference coordinates, that the field has no more than this many degrees of freedom in it.
+#define CORE_RESOLVED elvis_real(8)
 #define CORE_MARGIN elvis_real(15)
 // Share of what a step may be off that a line may be.
 #define CORE_LINE_SHARE elvis_real(0.125LF)
@@ -47,8 +51,8 @@ struct core_integral {
     // What the next polynomial is: a quintic; a line through the right sample, with `bend` for how far the field may be from it.
     bool has_inner, is_line;
     uint wants;
-    // Largest error of a sample, and deviation from a line over the step.
-    elvis_real error, bend;
+    // Largest error of a sample, and deviation from a line over the step; change of reference coordinates with the parameter.
+    elvis_real error, bend, speed;
     uint n_steps, n_breakpoints;
 };
 
@@ -62,7 +66,7 @@ core_integral core_integral_begin(elvis_real from, elvis_real to, elvis_real per
     integral.has_end = false;
     integral.wants = from < to ? CORE_WANTS_RIGHT : CORE_WANTS_NOTHING;
     integral.has_left = integral.has_inner = integral.is_line = false;
-    integral.error = integral.bend = elvis_real(0);
+    integral.error = integral.bend = integral.speed = elvis_real(0);
     integral.n_steps = integral.n_breakpoints = 0u;
     return integral;
 }
@@ -131,13 +135,16 @@ core_fitted core_step_polynomial(const core_integral integral) {
     const elvis_real third = abs(a3 * elvis_real(0.03125LF) + a4 * elvis_real(0.0625LF) + tilt * elvis_real(0.087890625LF));
     const elvis_real last = abs(a4 * elvis_real(0.0078125LF) + tilt * elvis_real(0.01953125LF)) + abs(tilt) * elvis_real(0.001953125LF);
     const elvis_real decay = clamp(last / max(second + third, elvis_real(1e-30LF)), CORE_FASTEST_DECAY, CORE_SLOWEST_DECAY);
-    const elvis_real of_quintic = max(CORE_MARGIN * last * decay / (elvis_real(1) - decay), CORE_QUINTIC_SHARE * integral.bend);
+    const elvis_real of_quintic = CORE_MARGIN * last * decay / (elvis_real(1) - decay);
     const elvis_real of_cubic = max(max(third, second * CORE_FASTEST_DECAY), CORE_CUBIC_SHARE * integral.bend) *
                                 (CORE_FASTEST_DECAY / (elvis_real(1) - CORE_FASTEST_DECAY));
     const elvis_real size = max(abs(c0), abs(c3)) + width * max(abs(left.slope), abs(right.slope));
     // Above 0, as it divides.
     fitted.rounding = max(integral.error + elvis_real(8) * CORE_ROUNDOFF * size, elvis_real(1e-30LF));
     fitted.error = (integral.is_line ? integral.bend : with_inner ? of_quintic : of_cubic) + fitted.rounding;
+    const bool is_resolved = elvis_real(0.5LF * (CORE_FIELD_DEGREE + 1)) * width * integral.speed <= CORE_RESOLVED;
+    const bool is_shown = second + third + last >= CORE_SHOWN_SHARE * integral.bend;
+    fitted.unseen = with_inner && !is_resolved && !is_shown ? CORE_QUINTIC_SHARE * integral.bend : elvis_real(0);
     return fitted;
 }
 
@@ -156,9 +163,11 @@ core_judgement core_judge_step(const core_integral integral, const core_fitted f
     // Where the tolerance is missed already there is no point in looking more closely than elsewhere.
     const elvis_real error = core_light_error(light);
     const elvis_real budget = error < tolerance ? max(tolerance - error, CORE_LEAST_SHARE * tolerance) : tolerance;
-    const bool is_whole = core_least(fitted.p) - fitted.error >= held.lower && core_most(fitted.p) + fitted.error < held.upper;
+    const elvis_real least = core_least(fitted.p), most = core_most(fitted.p);
+    const bool is_whole = least - fitted.error >= held.lower && most + fitted.error < held.upper;
     // What cannot be good, and a cubic that may not be, is not tried: another sample is.
-    const elvis_real worst = light.transmittance * width * wanted.per_parameter * (fitted.error - fitted.rounding);
+    const elvis_real seen_length = light.transmittance * width * wanted.per_parameter;
+    const elvis_real worst = seen_length * (fitted.error - fitted.rounding);
     core_judgement judgement;
     judgement.allowed = budget * max(width / max(wanted.ahead - (integral.left - integral.from), width), CORE_LEAST_SHARE);
     judgement.is_exhausted = integral.has_inner && (core_is_shortest(integral) || fitted.error <= elvis_real(2) * fitted.rounding);
@@ -166,7 +175,11 @@ core_judgement core_judge_step(const core_integral integral, const core_fitted f
     const elvis_real acceptable = integral.is_line ? CORE_LINE_SHARE * judgement.allowed : judgement.allowed;
     const bool is_hopeful = is_whole ? worst * held.steepness <= acceptable
                                      : integral.has_inner || worst * elvis_real(core_steepest) <= acceptable;
-    judgement.is_tried = is_hopeful || judgement.is_exhausted;
+    const elvis_real beyond = fitted.error + fitted.unseen;
+    const bool stays_whole = least - beyond >= held.lower && most + beyond < held.upper;
+    const bool is_harmless = seen_length * fitted.unseen * (stays_whole ? held.steepness : elvis_real(core_steepest)) <= acceptable &&
+                             (stays_whole || CORE_HAS_JUMPS == 0);
+    judgement.is_tried = (is_hopeful && (fitted.unseen <= fitted.error || is_harmless)) || judgement.is_exhausted;
     return judgement;
 }
 
@@ -189,6 +202,7 @@ void core_integral_add(inout core_integral integral, inout core_light light, con
     }
     integral.has_end = integral.has_end || is_end;
     integral.has_left = integral.has_left || is_left;
+    integral.speed = core_max_norm(found.w);
     integral.bend = is_right ? found.bend : is_left ? max(integral.bend, found.bend) : integral.bend;
     // A line from the first end may do, mostly not.
     integral.is_line = !integral.has_left;

@@ -84,6 +84,8 @@ private:
                        const std::string& name, const std::string& origin);
     void report_findings(const Scene& scene, const std::string& name, const std::string& origin, Precision precision,
                          const Judgement& judgement);
+    void report_false_alarms(const Scene& scene, const std::string& name, const std::string& origin, Precision precision,
+                             const Tally& tally);
     void write(const Scene& scene, const std::string& name, const std::string& text);
     bool is_wanted(std::string_view kind) const {
         return m_options.kinds.empty() || std::ranges::find(m_options.kinds, kind) != m_options.kinds.end();
@@ -136,6 +138,17 @@ void Hunt::report_findings(const Scene& scene, const std::string& name, const st
     std::fflush(stdout);
 }
 
+void Hunt::report_false_alarms(const Scene& scene, const std::string& name, const std::string& origin, Precision precision,
+                               const Tally& tally) {
+    const std::string text = name + " " + name_of(precision) + ": " + std::to_string(tally.all_false_alarms) +
+                             " false alarms, of " + std::to_string(tally.pixels) + " (" + origin + ")\n";
+    if (!m_options.is_quiet)
+        std::printf("%s", text.c_str());
+    if (!m_options.folder.empty())
+        write(scene, name, text);
+    std::fflush(stdout);
+}
+
 void Hunt::judge(Ground& ground, const Scene& scene, const std::string& kind, const std::string& name,
                  const std::string& origin) {
     ++m_n_scenes;
@@ -172,11 +185,8 @@ void Hunt::judge_picture(Ground& ground, const Judge& judge, const FrameRequest&
         Judgement judgement = judge.judge(frame, precision);
         judgement.tally.render_seconds = seconds;
         m_sums[{kind, name_of(precision)}] += judgement.tally;
-        const std::uint64_t n_false = judgement.tally.all_false_alarms;
-        if (!m_options.is_quiet && n_false * most_false_alarms > judgement.tally.pixels)
-            std::printf("%s %s: %llu false alarms, of %llu (%s)\n", name.c_str(), name_of(precision),
-                        static_cast<unsigned long long>(n_false), static_cast<unsigned long long>(judgement.tally.pixels),
-                        origin.c_str());
+        if (judgement.tally.all_false_alarms * most_false_alarms > judgement.tally.pixels)
+            report_false_alarms(scene, name, origin, precision, judgement.tally);
         if (!judgement.findings.empty())
             report_findings(scene, name, origin, precision, judgement);
     }

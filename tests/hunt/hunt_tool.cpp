@@ -29,7 +29,8 @@ int main(int argc, char** argv) {
         ->check(CLI::ExistingFile);
     app.add_flag("--split", options.splits,
                  "Judges all volumes also with each class of elements in two, not one in three only");
-    app.add_option("--write", options.folder, "Writes scenes that have silent errors, with their volumes, into this folder");
+    app.add_option("--write", options.folder,
+                   "Writes scenes that have silent errors or many false alarms, with their volumes, into this folder");
     app.add_option("--json", options.json, "Writes the sums");
     app.add_option("--device", options.device, "Device by name or index");
     app.add_flag("--quiet", options.is_quiet, "Only the sums");

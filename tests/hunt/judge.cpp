@@ -115,8 +115,10 @@ public:
         : m_judge(judge), m_oracle(oracle), m_inverter(oracle.model().volume, oracle.model().enclosures),
           m_tolerances(tolerances_of(precision)) {
         const FrameRequest& request = judge.m_request;
-        if (request.volume)
+        if (request.volume) {
             m_tolerances.color = std::max(m_tolerances.color, request.volume->tolerance);
+            m_integral_slack = request.volume->tolerance - m_tolerances.color;
+        }
         const oracle::Model& model = oracle.model();
         m_coordinates = std::max(model.tree.lower().cwiseAbs().maxCoeff(), model.tree.upper().cwiseAbs().maxCoeff());
         for (const double eye : request.camera.eye)
@@ -132,7 +134,7 @@ public:
 private:
     unsigned compare_point(const PixelAnswer& answer, const Shown& shown, const Line& line);
     bool is_near(std::size_t pixel, const Shown& shown, double position, double field);
-    bool rounding_decides(std::size_t pixel, const PixelAnswer& answer);
+    bool rounding_decides(std::size_t pixel, const PixelAnswer& answer, double color_slack);
     double color_rounding(const PixelAnswer& answer, const Line& line);
     template <class Visitor> bool any_perturbed(std::size_t pixel, double position, double field, const Visitor& visitor);
     double length(double depth) const { return m_oracle.model().diagonal + std::abs(depth); }
@@ -144,6 +146,8 @@ private:
     oracle::Inverter m_inverter;
     Tolerances m_tolerances;
     double m_coordinates = 0;
+    /** Of colours, so that those of an integral that says that it missed its tolerance are judged by this. */
+    double m_integral_slack = 0;
 };
 
 Shown PixelJudge::shown_of(const PixelAnswer& answer) const {
@@ -261,16 +265,19 @@ bool PixelJudge::is_near(std::size_t pixel, const Shown& shown, double position,
     return false;
 }
 
-bool PixelJudge::rounding_decides(std::size_t pixel, const PixelAnswer& answer) {
+bool PixelJudge::rounding_decides(std::size_t pixel, const PixelAnswer& answer, double color_slack) {
     const Line line = line_of(m_judge.m_request, pixel);
-    return any_perturbed(pixel, m_tolerances.position_rounding, m_tolerances.field_rounding,
-                         [&](const PixelAnswer& other, const Line&) { return compare(answer, shown_of(other), line) != 0; });
+    return any_perturbed(
+        pixel, m_tolerances.position_rounding, m_tolerances.field_rounding,
+        [&](const PixelAnswer& other, const Line&) { return compare(answer, shown_of(other), line, color_slack) != 0; });
 }
 
 Verdict PixelJudge::verdict(std::size_t pixel, const Shown& shown, bool asks, unsigned& wrong) {
     const Answer& answer = m_judge.m_answers[pixel];
     const Line line = line_of(m_judge.m_request, pixel);
-    wrong = compare(answer.pixel, shown, line);
+    // The flag is about the tolerance that the scene asks for.
+    const double color_slack = (shown.flags & pixel_flag::volume_tolerance) != 0 ? m_integral_slack : 0;
+    wrong = compare(answer.pixel, shown, line, color_slack);
     if (wrong == 0 && (shown.flags & covering_bits()) == 0)
         return Verdict::right;
     if (answer.is_failure)
@@ -278,7 +285,7 @@ Verdict PixelJudge::verdict(std::size_t pixel, const Shown& shown, bool asks, un
     if ((shown.flags & covering_bits()) != 0) {
         if (wrong != 0)
             return Verdict::flagged_wrong;
-        return !asks || rounding_decides(pixel, answer.pixel) ? Verdict::flagged_right : Verdict::false_alarm;
+        return !asks || rounding_decides(pixel, answer.pixel, color_slack) ? Verdict::flagged_right : Verdict::false_alarm;
     }
     if (!asks)
         return Verdict::far;

@@ -36,10 +36,29 @@ private:
         if (text.empty()) {
             return;
         }
-        static const std::vector<std::string> words{
-            "-1",  "0",        "1",        "2147483647", "-2147483648", "99999999999999999999",
-            "nan", "1e308",    "7",        "16777216",   "x",           "H1_3D_P20",
-            "#",   "L2_3D_P7", "ND_3D_P3", "nodes",      "vertices",    "\""};
+        static const std::vector<std::string> words{"-1",
+                                                    "0",
+                                                    "1",
+                                                    "2147483647",
+                                                    "-2147483648",
+                                                    "99999999999999999999",
+                                                    "nan",
+                                                    "1e308",
+                                                    "7",
+                                                    "16777216",
+                                                    "x",
+                                                    "H1_3D_P20",
+                                                    "#",
+                                                    "L2_3D_P7",
+                                                    "ND_3D_P3",
+                                                    "nodes",
+                                                    "vertices",
+                                                    "\"",
+                                                    "2",
+                                                    "L2_2D_P7",
+                                                    "RT_2D_P3",
+                                                    "hex",
+                                                    "="};
         switch (below(6)) {
         case 0:
             text.resize(below(text.size()));
@@ -76,15 +95,24 @@ private:
     std::mt19937 m_generator;
 };
 
+void check_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    CHECK(usage.ru_maxrss < 2 * 1024 * 1024);
+}
+
 } // namespace
 
 TEST_CASE("mutated files are read or refused", "[mfem][data][fuzz]") {
-    const std::string name = GENERATE("poisson-inline-pyramid-p3", "poisson-inline-tet-p6", "poisson-inline-wedge-p5",
-                                      "poisson-toroid-wedge-p4", "poisson-toroid-hex-p5", "dg-fichera-amr-p2",
-                                      "maxwell-fichera-q3-nd3", "graddiv-fichera-rt2", "poisson-fichera-mixed-p2-p3",
-                                      "advect-periodic-p6", "elast-beam-hex-p4", "dg-fichera-q3-p4", "poisson-fichera-q3-p5");
-    const std::string mesh = read_file(mfem_data(name + "/mesh.mesh"));
-    const std::string solution = read_file(mfem_data(name + "/sol.gf"));
+    const std::string name = GENERATE(
+        "mfem/poisson-inline-pyramid-p3", "mfem/poisson-inline-tet-p6", "mfem/poisson-inline-wedge-p5",
+        "mfem/poisson-toroid-wedge-p4", "mfem/poisson-toroid-hex-p5", "mfem/dg-fichera-amr-p2", "mfem/maxwell-fichera-q3-nd3",
+        "mfem/graddiv-fichera-rt2", "mfem/poisson-fichera-mixed-p2-p3", "mfem/advect-periodic-p6", "mfem/elast-beam-hex-p4",
+        "mfem/dg-fichera-q3-p4", "mfem/poisson-fichera-q3-p5", "mfem-more/star-q3-h1-p5-vec", "mfem-more/amr-quad-h1-p3",
+        "mfem-more/klein-bottle-h1-p4", "mfem-more/periodic-hexagon-l2-p3", "mfem-more/rt2d-star-p2",
+        "mfem-more/nd2d-star-mixed-p2", "mfem-more/disc-nurbs-nurbs", "mfem-more/pipe-nurbs-nurbs");
+    const std::string mesh = read_file(elvis::test::data_file(name + "/mesh.mesh"));
+    const std::string solution = read_file(elvis::test::data_file(name + "/sol.gf"));
     const TemporaryFolder folder;
     Mutator mutator(20261121);
     // Fewer of the large ones, for the sake of time.
@@ -107,7 +135,26 @@ TEST_CASE("mutated files are read or refused", "[mfem][data][fuzz]") {
         }
     }
     CHECK(n_read < n_variants);
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    CHECK(usage.ru_maxrss < 2 * 1024 * 1024);
+    check_memory();
+}
+
+TEST_CASE("mutated inline meshes are read or refused", "[mfem][data][fuzz]") {
+    const std::string mesh = read_file(elvis::test::data_file(
+        std::string("mfem-more/meshes/inline-") + GENERATE("quad", "tri", "hex", "tet", "wedge", "pyramid") + ".mesh"));
+    const TemporaryFolder folder;
+    Mutator mutator(20261125);
+    int n_read = 0;
+    for (int variant = 0; variant < 300; ++variant) {
+        INFO("variant " << variant);
+        try {
+            const auto source = open_mfem({folder.write("v.mesh", mutator(mesh))});
+            ++n_read;
+            std::array<double, 3> x;
+            source.evaluate_mapping(source.info().n_elements - 1, std::array{-0.9, -0.8, -0.7}, x);
+        } catch (const elvis::Error& error) {
+            CHECK(std::string(error.what()).find("v.") != std::string::npos);
+        }
+    }
+    CHECK(n_read < 300);
+    check_memory();
 }

@@ -204,6 +204,50 @@ TEST_CASE("vector fields with a transform are given in world components, with ex
     std::cout << (covariant ? "covariant" : "contravariant") << " derivatives against differences: " << largest_error << "\n";
 }
 
+TEST_CASE("vector fields of the plane with a transform have the components of the plane, with exact derivatives") {
+    const bool covariant = GENERATE(true, false);
+    const native::Shape shape = GENERATE(native::Shape::quadrilateral, native::Shape::triangle);
+    const native::Space space{shape, native::Basis::modified, {3, 3, 0}};
+    native::Field of_plane = vector_field("u", covariant ? native::Transform::covariant : native::Transform::contravariant);
+    of_plane.n_components = 2;
+    const TestVolume file({{space, {space}}}, {of_plane});
+    const RuntimeVolume volume = file.open();
+    const auto exact = [&](const native::Point& xi) {
+        Eigen::Matrix2d jacobian;
+        Eigen::Vector2d hat;
+        for (Eigen::Index c = 0; c < 2; ++c) {
+            native::Point row;
+            native::evaluate(space, file.geometry(0, 0, static_cast<std::size_t>(c)), xi, row);
+            jacobian.row(c) << row[0], row[1];
+            hat[c] = native::evaluate(space, file.field(0, 0, 0, 0, static_cast<std::size_t>(c)), xi);
+        }
+        return covariant ? Eigen::Vector2d(jacobian.transpose().inverse() * hat)
+                         : Eigen::Vector2d(jacobian * hat / jacobian.determinant());
+    };
+    test::Random random(6);
+    for (int k = 0; k < 10; ++k) {
+        native::Point xi = random.point(shape);
+        for (double& coordinate : xi)
+            coordinate = 0.9 * coordinate - (shape == native::Shape::triangle ? 0.03 : 0);
+        std::array<double, 2> values{};
+        std::array<double, 6> gradients{};
+        volume.evaluate_field(0, 0, file.first_element(0), xi, values, gradients);
+        for (std::size_t j = 0; j < 2; ++j) {
+            const double h = 1e-3;
+            const auto shifted = [&](double s) {
+                native::Point at = xi;
+                at[j] += s * h;
+                return exact(at);
+            };
+            const Eigen::Vector2d slope = (8 * (shifted(1) - shifted(-1)) - (shifted(2) - shifted(-2))) / (12 * h);
+            for (std::size_t c = 0; c < 2; ++c) {
+                CHECK(values[c] == Approx(exact(xi)[static_cast<Eigen::Index>(c)]).margin(1e-12));
+                CHECK(gradients[3 * c + j] == Approx(slope[static_cast<Eigen::Index>(c)]).margin(1e-8 * (1 + slope.norm())));
+            }
+        }
+    }
+}
+
 TEST_CASE("buffers filled in pieces are the buffer filled at once, and offsets are subtracted") {
     const TestVolume file(all_classes(2, 3, 1), {vector_field("u", native::Transform::none)}, {0.0}, 50);
     const RuntimeVolume volume = file.open();

@@ -214,9 +214,11 @@ void add_ray_kernels(std::vector<KernelUse>& uses) {
         uses.push_back(use("segments/start_at_eye", Element::snippet, {}));
         uses.push_back(use("segments/start_at_eye", Element::snippet, for_segments));
         uses.push_back(use("segments/segments", Element::snippet, for_segments));
-        KernelUse march =
-            use("volume/volume_march", Element::model,
-                {{"CORE_INTEGRATOR", {"0", "1", "2", "3", "4"}}, no_or_yes("CORE_HAS_JUMPS"), {"CORE_FIRST_LEVEL", {"2u"}}});
+        KernelUse march = use("volume/volume_march", Element::model,
+                              {{"CORE_INTEGRATOR", {"0", "1", "2", "3", "4"}},
+                               no_or_yes("CORE_HAS_JUMPS"),
+                               {"CORE_FIRST_LEVEL", {"2u"}},
+                               {"CORE_FIELD_DEGREE", {"6"}}});
         march.buffers.emplace_back("core_models");
         march.text = segment::segment_glsl(segment::fixed_plan(5));
         uses.push_back(march);

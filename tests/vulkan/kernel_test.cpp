@@ -59,6 +59,7 @@ TEST_CASE("A kernel reads its bindings and push constants, and validation has no
     DeviceOptions options;
     options.validation = true;
     options.always_stage = GENERATE(false, true);
+    options.submissions = GENERATE(Submissions::single, Submissions::collected);
     const Device device(options);
     {
         const Axpy test(device);
@@ -77,6 +78,46 @@ TEST_CASE("A kernel reads its bindings and push constants, and validation has no
             REQUIRE(number == 0);
         }
         test.kernel.dispatch(chained, std::as_bytes(std::span(&scale, 1)), 0);
+    }
+    CHECK(device.validation_messages() == std::vector<std::string>{});
+}
+
+TEST_CASE("What is collected keeps its order, its values and its buffers until a result is wanted") {
+    DeviceOptions options;
+    options.validation = true;
+    options.always_stage = GENERATE(false, true);
+    options.submissions = Submissions::collected;
+    const Device device(options);
+    {
+        const Axpy test(device);
+        device.finish();
+        const DeviceWork before = device.work();
+        const Buffer all(device, 5 * 256);
+        for (std::uint32_t round = 0; round < 5; ++round) {
+            // Each round has its own input, which is gone before anything was done, and its own push constant.
+            const Buffer input(device, 256);
+            input.write_items<float>(std::vector<float>(64, static_cast<float>(round)));
+            const std::array<BoundBuffer, 3> bound{BoundBuffer{2, &test.result}, {0, &input}, {1, &test.b}};
+            const float scale = 10.0f * static_cast<float>(round);
+            test.kernel.dispatch(bound, std::as_bytes(std::span(&scale, 1)), 8);
+            device.record([&](VkCommandBuffer commands) {
+                const VkBufferCopy region{0, std::uint64_t{256} * round, 256};
+                vkCmdCopyBuffer(commands, test.result.handle(), all.handle(), 1, &region);
+            });
+            test.b.write_items<float>(std::vector<float>(64, 1.0f)); // For the next rounds.
+        }
+        const auto result = all.read_items<float>(5 * 64);
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            const auto round = static_cast<float>(i / 64);
+            const float b = i < 64 ? static_cast<float>(i) : 1.0f;
+            REQUIRE(result[i] == round + 10 * round * b);
+        }
+        CHECK(device.work().submissions - before.submissions == 1);
+        // More than may be written among commands.
+        const Buffer large(device, 1u << 20u);
+        large.fill(3);
+        large.write_items<std::uint32_t>(std::vector<std::uint32_t>(100000, 7), 1);
+        CHECK(large.read_items<std::uint32_t>(2) == std::vector<std::uint32_t>{3, 7});
     }
     CHECK(device.validation_messages() == std::vector<std::string>{});
 }

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace elvis::oracle {
 
 Volume::Volume(VolumeData data) : m_data(std::move(data)) {
@@ -63,11 +65,14 @@ std::vector<double> Volume::field(std::size_t element, const Vector& xi) const {
     if (m_data.transform != native::Transform::none) {
         Matrix jacobian;
         position(element, xi, &jacobian);
-        const Vector reference(components[0], components[1], components[2]);
+        const bool is_flat = components.size() == 2;
+        if (is_flat)
+            jacobian.col(2) = Vector::UnitZ();
+        const Vector reference(components[0], components[1], is_flat ? 0 : components[2]);
         const Vector u = m_data.transform == native::Transform::covariant
                              ? Vector(jacobian.transpose().inverse() * reference)
                              : Vector(jacobian * reference / jacobian.determinant());
-        components.assign(u.data(), u.data() + 3);
+        std::copy_n(u.data(), components.size(), components.begin());
     }
     return components;
 }

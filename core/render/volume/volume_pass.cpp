@@ -103,16 +103,21 @@ int degree_along_line(const RuntimeVolume& volume, std::uint32_t element_class, 
     return is_simplex ? largest : sum;
 }
 
-/**
- * How often a segment is halved at least by the adaptive rule: so that values and slopes at its samples, two intervals a step,
- * are as many numbers as the field has along a line. With fewer a peak between samples can be missed whole.
- */
-std::uint32_t first_level(const RuntimeVolume& volume, std::uint32_t element_class, const FieldChoice& choice) {
+/** Of what is shown. */
+int degree_along_line(const RuntimeVolume& volume, std::uint32_t element_class, const FieldChoice& choice) {
     const std::vector<std::uint32_t> fields = choice.expression ? choice.expression->fields() : std::vector{choice.field};
     int degree = 1;
     for (const std::uint32_t field : fields) {
         degree = std::max(degree, degree_along_line(volume, element_class, field));
     }
+    return degree;
+}
+
+/**
+ * How often a segment is halved at least by the adaptive rule: so that values and slopes at its samples, two intervals a step,
+ * are as many numbers as the field has along a line. With fewer a peak between samples can be missed whole.
+ */
+std::uint32_t first_level(int degree) {
     constexpr std::uint32_t most = 4;
     std::uint32_t level = 0;
     while (level < most && 2 * ((2 << level) + 1) < degree + 1) {
@@ -184,8 +189,9 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
     request.text += segment::segment_glsl(segment::fixed_plan(step_degree));
     request.defines.emplace_back("CORE_INTEGRATOR", std::to_string(static_cast<int>(m_wanted.integrator)));
     request.defines.emplace_back("CORE_HAS_JUMPS", m_has_jumps ? "1" : "0");
-    request.defines.emplace_back("CORE_FIRST_LEVEL",
-                                 std::to_string(first_level(m_volume, range.element_class, m_wanted.field)) + "u");
+    const int degree = degree_along_line(m_volume, range.element_class, m_wanted.field);
+    request.defines.emplace_back("CORE_FIELD_DEGREE", std::to_string(degree));
+    request.defines.emplace_back("CORE_FIRST_LEVEL", std::to_string(first_level(degree)) + "u");
     request.bindings = buffer_bindings({.uniform = 1, .storage = 7});
     request.push_constant_bytes = sizeof(MarchParameters);
     return m_march[index].try_emplace(key, m_device, request).first->second;

@@ -1,5 +1,14 @@
 // Vector fields stored as uhat: u = J^-T uhat (covariant, NATIVE_TRANSFORM 1) or u = J uhat / det J (contravariant, 2), less the
-// offset in the record's last row.
+// offset in the record's last row. In two dimensions J is that of the first two coordinates: its third column is (0, 0, 1), and
+// uhat's third component 0.
+
+elvis_mat3 native_jacobian(uint element, elvis_vec3 xi) {
+    elvis_mat3 jacobian = elvis_jacobian(element, xi);
+#if ELVIS_SHAPE == ELVIS_SHAPE_QUADRILATERAL || ELVIS_SHAPE == ELVIS_SHAPE_TRIANGLE
+    jacobian[2] = elvis_vec3(0, 0, 1);
+#endif
+    return jacobian;
+}
 
 elvis_vec3 native_transform(elvis_mat3 jacobian, elvis_vec3 hat) {
 #if NATIVE_TRANSFORM == 1
@@ -12,7 +21,7 @@ elvis_vec3 native_transform(elvis_mat3 jacobian, elvis_vec3 hat) {
 elvis_real native_component(elvis_vec3 v, uint component) { return component == 0u ? v.x : component == 1u ? v.y : v.z; }
 
 elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component) {
-    elvis_vec3 u = native_transform(elvis_jacobian(element, xi), native_field(element, 0u, xi));
+    elvis_vec3 u = native_transform(native_jacobian(element, xi), native_field(element, 0u, NATIVE_POINT(xi)));
     return native_component(u - elvis_fetch4_field(element, uint(NATIVE_FIELD_ROWS)).xyz, component);
 }
 
@@ -23,8 +32,8 @@ elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component) {
 #define NATIVE_PAIRS ((max(max(NATIVE_GEOMETRY_P, NATIVE_GEOMETRY_Q), NATIVE_GEOMETRY_R) + 1) / 2)
 #endif
 
-// Derivative of the Jacobian along `line`. J is a polynomial on lines along the axes in hexahedra, prisms and tetrahedra, in
-// pyramids on lines of constant xi3 and on those through the apex: a central difference with enough points is exact there. The
+// Derivative of the Jacobian along `line`. J is a polynomial on lines along the axes in all shapes but pyramids, in
+// these on lines of constant xi3 and on those through the apex: a central difference with enough points is exact there. The
 // points lie within `reach` times `line` of xi.
 elvis_mat3 native_bend(uint element, elvis_vec3 xi, elvis_vec3 line, elvis_real reach) {
     elvis_real spacing = reach / elvis_real(NATIVE_PAIRS);
@@ -32,7 +41,7 @@ elvis_mat3 native_bend(uint element, elvis_vec3 xi, elvis_vec3 line, elvis_real 
     elvis_mat3 sum = elvis_mat3(0);
     for (int i = 1; i <= NATIVE_PAIRS; ++i) {
         elvis_vec3 step = elvis_real(i) * spacing * line;
-        sum += weight * (elvis_jacobian(element, xi + step) - elvis_jacobian(element, xi - step));
+        sum += weight * (native_jacobian(element, xi + step) - native_jacobian(element, xi - step));
         weight *= -elvis_real(i * (NATIVE_PAIRS - i)) / elvis_real((i + 1) * (NATIVE_PAIRS + i + 1));
     }
     return sum / (elvis_real(2) * spacing);
@@ -52,9 +61,9 @@ elvis_real native_derivative(elvis_mat3 jacobian, elvis_mat3 bend, elvis_vec3 ha
 }
 
 void elvis_field_gradient(uint element, elvis_vec3 xi, uint component, out elvis_real value, out elvis_vec3 gradient) {
-    elvis_vec3 hat, hat1, hat2, hat3;
-    native_field_gradient(element, 0u, xi, hat, hat1, hat2, hat3);
-    elvis_mat3 jacobian = elvis_jacobian(element, xi);
+    elvis_vec3 hat, x1, x2, x3;
+    native_field_gradient(element, 0u, NATIVE_POINT(xi), hat, x1, x2, x3);
+    elvis_mat3 jacobian = native_jacobian(element, xi);
 #if ELVIS_SHAPE == ELVIS_SHAPE_PYRAMID
     // Along the line through the apex eta1 and eta2 are constant: d/dxi3 = d/dline + (1 + eta1)/2 d/dxi1 + (1 + eta2)/2 d/dxi2.
     // Points stay on this side of the apex, t > 0.
@@ -70,7 +79,7 @@ void elvis_field_gradient(uint element, elvis_vec3 xi, uint component, out elvis
 #endif
     elvis_vec3 u = native_transform(jacobian, hat) - elvis_fetch4_field(element, uint(NATIVE_FIELD_ROWS)).xyz;
     value = native_component(u, component);
-    gradient = elvis_vec3(native_derivative(jacobian, bend1, hat, hat1, component),
-                          native_derivative(jacobian, bend2, hat, hat2, component),
-                          native_derivative(jacobian, bend3, hat, hat3, component));
+    gradient = elvis_vec3(native_derivative(jacobian, bend1, hat, x1, component),
+                          native_derivative(jacobian, bend2, hat, NATIVE_SECOND, component),
+                          native_derivative(jacobian, bend3, hat, NATIVE_THIRD, component));
 }

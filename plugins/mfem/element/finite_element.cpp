@@ -25,17 +25,18 @@ class TensorElement : public FiniteElement {
 public:
     TensorElement(const Collection& collection, Geometry geometry, const Functionals& dofs)
         : FiniteElement(dofs.size(), 1), m_line(collection.basis, collection.order + 1),
-          m_is_collapsed(geometry == Geometry::pyramid) {
+          m_dimension(static_cast<std::size_t>(dimension(geometry))), m_is_collapsed(geometry == Geometry::pyramid) {
         for (const Functional& dof : dofs) {
             const Point x = collapse(dof.node);
-            m_places.push_back({m_line.nearest(x[0]), m_line.nearest(x[1]), m_line.nearest(x[2])});
+            m_places.push_back({m_line.nearest(x[0]), m_line.nearest(x[1]), m_dimension == 3 ? m_line.nearest(x[2]) : 0});
         }
     }
 
     void evaluate(const Point& x, double* values) const override {
         std::array<std::array<double, max_order + 1>, 3> lines;
         const Point at = collapse(x);
-        for (std::size_t d = 0; d < 3; ++d) {
+        lines[2][0] = 1;
+        for (std::size_t d = 0; d < m_dimension; ++d) {
             m_line.evaluate(at[d], lines[d].data());
         }
         for (const auto& place : m_places) {
@@ -47,15 +48,16 @@ private:
     Point collapse(const Point& x) const { return m_is_collapsed ? collapsed(x) : x; }
 
     Basis1d m_line;
+    std::size_t m_dimension;
     bool m_is_collapsed;
     std::vector<std::array<std::size_t, 3>> m_places;
 };
 
-/** Nedelec and Raviart-Thomas hexahedra: each function has one component, a product of one-dimensional functions. */
-class VectorHexahedron : public FiniteElement {
+/** Nedelec and Raviart-Thomas squares and cubes: each function has one component, a product of one-dimensional functions. */
+class VectorTensorElement : public FiniteElement {
 public:
-    VectorHexahedron(const Collection& collection, const Functionals& dofs)
-        : FiniteElement(dofs.size(), 3), m_is_nd(collection.family == Family::nd),
+    VectorTensorElement(const Collection& collection, std::size_t dimension, const Functionals& dofs)
+        : FiniteElement(dofs.size(), dimension), m_is_nd(collection.family == Family::nd),
           m_closed(collection.basis, collection.polynomial_order() + 1),
           m_open(collection.open_basis, collection.polynomial_order()) {
         for (const Functional& dof : dofs) {
@@ -64,7 +66,7 @@ public:
                 ++function.axis;
             }
             function.sign = dof.direction[function.axis];
-            for (std::size_t d = 0; d < 3; ++d) {
+            for (std::size_t d = 0; d < n_components(); ++d) {
                 function.place[d] = (is_open(d, function.axis) ? m_open : m_closed).nearest(dof.node[d]);
             }
             m_functions.push_back(function);
@@ -73,15 +75,15 @@ public:
 
     void evaluate(const Point& x, double* values) const override {
         std::array<std::array<double, max_order + 1>, 3> closed, open;
-        for (std::size_t d = 0; d < 3; ++d) {
+        for (std::size_t d = 0; d < n_components(); ++d) {
             m_closed.evaluate(x[d], closed[d].data());
             m_open.evaluate(x[d], open[d].data());
         }
-        std::fill_n(values, 3 * n_dofs(), 0.0);
+        std::fill_n(values, n_components() * n_dofs(), 0.0);
         for (std::size_t dof = 0; dof < m_functions.size(); ++dof) {
             const Function& function = m_functions[dof];
             double product = function.sign;
-            for (std::size_t d = 0; d < 3; ++d) {
+            for (std::size_t d = 0; d < n_components(); ++d) {
                 product *= (is_open(d, function.axis) ? open : closed)[d][function.place[d]];
             }
             values[function.axis * n_dofs() + dof] = product;
@@ -149,13 +151,14 @@ private:
     std::vector<double> m_factors;
 };
 
-class BernsteinTetrahedron : public FiniteElement {
+class BernsteinSimplex : public FiniteElement {
 public:
-    BernsteinTetrahedron(const Collection& collection, const std::vector<Point>& nodes)
-        : FiniteElement(nodes.size(), 1), m_functions(collection.order, 3, nodes) {}
-    void evaluate(const Point& x, double* values) const override { m_functions.evaluate(x, 3, values); }
+    BernsteinSimplex(const Collection& collection, std::size_t dimension, const std::vector<Point>& nodes)
+        : FiniteElement(nodes.size(), 1), m_dimension(dimension), m_functions(collection.order, dimension, nodes) {}
+    void evaluate(const Point& x, double* values) const override { m_functions.evaluate(x, m_dimension, values); }
 
 private:
+    std::size_t m_dimension;
     Bernstein m_functions;
 };
 
@@ -167,7 +170,8 @@ public:
         const std::size_t n = dofs.size();
         if (n > max_dofs_of_inverse) {
             throw std::invalid_argument("elements of " + std::to_string(n) + " degrees of freedom are not supported, at most " +
-                                        std::to_string(max_dofs_of_inverse) + " are in shapes that are not hexahedra");
+                                        std::to_string(max_dofs_of_inverse) +
+                                        " are in shapes that are neither hexahedra nor quadrilaterals");
         }
         if (m_set->size() != n) {
             throw std::logic_error("functionals and functions of an element differ in number");
@@ -179,7 +183,7 @@ public:
             m_set->evaluate(dofs[row].node, values.data());
             for (std::size_t column = 0; column < n; ++column) {
                 double product = n_components() == 1 ? values[column] : 0;
-                for (std::size_t c = 0; c < 3 && n_components() == 3; ++c) {
+                for (std::size_t c = 0; c < n_components() && n_components() > 1; ++c) {
                     product += dofs[row].direction[c] * values[c * n + column];
                 }
                 matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = product;
@@ -275,30 +279,34 @@ std::unique_ptr<const FiniteElement> make_element(const Collection& collection, 
     if (geometry == Geometry::pyramid) {
         check_pyramid(collection);
     }
-    if (collection.is_first_cubic && geometry != Geometry::cube && geometry != Geometry::tetrahedron) {
-        throw std::invalid_argument("the collection 'Cubic' is supported on hexahedra and tetrahedra only");
+    if (collection.is_first_cubic && (geometry == Geometry::prism || geometry == Geometry::pyramid)) {
+        throw std::invalid_argument("the collection 'Cubic' is not supported on prisms and pyramids");
     }
     const Functionals dofs = functionals(collection, geometry);
     std::vector<Point> nodes;
     for (const Functional& dof : dofs) {
         nodes.push_back(dof.node);
     }
+    const auto n_axes = static_cast<std::size_t>(dimension(geometry));
     if (collection.is_vector()) {
-        if (geometry == Geometry::cube) {
-            return std::make_unique<VectorHexahedron>(collection, dofs);
+        if (geometry == Geometry::cube || geometry == Geometry::square) {
+            return std::make_unique<VectorTensorElement>(collection, n_axes, dofs);
         }
         return std::make_unique<DualElement>(make_vector_set(collection, geometry), dofs);
     }
     switch (geometry) {
+    case Geometry::square:
     case Geometry::cube:
         return std::make_unique<TensorElement>(collection, geometry, dofs);
     case Geometry::prism:
         return std::make_unique<PrismElement>(collection, dofs);
+    case Geometry::triangle:
     case Geometry::tetrahedron:
         if (collection.basis == Basis::positive) {
-            return std::make_unique<BernsteinTetrahedron>(collection, nodes);
+            return std::make_unique<BernsteinSimplex>(collection, n_axes, nodes);
         }
-        return std::make_unique<DualElement>(make_tetrahedron_set(collection.order), dofs);
+        return std::make_unique<DualElement>(
+            n_axes == 2 ? make_triangle_set(collection.order) : make_tetrahedron_set(collection.order), dofs);
     default:
         if (collection.family == Family::l2) {
             return std::make_unique<TensorElement>(collection, geometry, dofs);

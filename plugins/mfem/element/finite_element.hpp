@@ -20,7 +20,7 @@ public:
     FiniteElement& operator=(const FiniteElement&) = delete;
 
     std::size_t n_dofs() const { return m_n_dofs; }
-    /** 1, or 3 for ND and RT, whose components are those of MFEM's reference frame. */
+    /** 1, or the dimension for ND and RT, whose components are those of MFEM's reference frame. */
     std::size_t n_components() const { return m_n_components; }
 
     /** Values of all shape functions at a reference point of MFEM: values[component * n_dofs + dof]. */

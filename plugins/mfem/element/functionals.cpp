@@ -58,6 +58,9 @@ template <class Visit> void for_box(const Points& x, const Points& y, const Poin
     }
 }
 
+/** What stands for the points of the third direction in two dimensions. */
+const Points plane{0};
+
 /** Gauss-Legendre points, the only open ones of triangles and tetrahedra in ND and RT. */
 Points open_points(int n) { return n > 0 ? points(Basis::gauss_legendre, n) : Points{}; }
 
@@ -65,6 +68,12 @@ void scalar_interior(const Points& c, bool is_whole, Geometry geometry, std::vec
     const Points line = is_whole ? c : inner(c);
     const int first = is_whole ? 0 : 1;
     switch (geometry) {
+    case Geometry::triangle:
+        for_triangle(c, first, [&](double x, double y) { out.push_back({{x, y, 0}, {}}); });
+        break;
+    case Geometry::square:
+        for_box(line, line, plane, [&](const Point& x) { out.push_back({x, {}}); });
+        break;
     case Geometry::cube:
         for_box(line, line, line, [&](const Point& x) { out.push_back({x, {}}); });
         break;
@@ -89,11 +98,17 @@ void nd_interior(const Collection& collection, Geometry geometry, std::vector<Fu
     const Points closed = points(collection.basis, p + 1);
     const Points middle = inner(closed);
     const Points open = points(collection.open_basis, p);
-    if (geometry == Geometry::cube) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto along = [&](std::size_t d) { return d == axis ? open : middle; };
+    if (geometry == Geometry::cube || geometry == Geometry::square) {
+        const auto n_axes = static_cast<std::size_t>(dimension(geometry));
+        for (std::size_t axis = 0; axis < n_axes; ++axis) {
+            const auto along = [&](std::size_t d) { return d >= n_axes ? plane : d == axis ? open : middle; };
             for_box(along(0), along(1), along(2), [&](const Point& x) { out.push_back({x, axes[axis]}); });
         }
+    } else if (geometry == Geometry::triangle) {
+        for_triangle(open_points(p - 1), 0, [&](double x, double y) {
+            out.push_back({{x, y, 0}, axes[0]});
+            out.push_back({{x, y, 0}, axes[1]});
+        });
     } else if (geometry == Geometry::tetrahedron) {
         for_tetrahedron(open_points(p - 2), 0, [&](const Point& x) {
             for (const Point& axis : axes) {
@@ -113,8 +128,40 @@ void nd_interior(const Collection& collection, Geometry geometry, std::vector<Fu
     }
 }
 
+/** Signs as in cubes, but if p is odd those of the middle nodes i = (p+1)/2 change halfway across: format.md, section 4. */
+void rt_square_interior(const Collection& collection, std::vector<Functional>& out) {
+    const auto p = static_cast<std::size_t>(collection.order);
+    const Points middle = inner(points(collection.basis, collection.order + 2));
+    const Points open = points(collection.open_basis, collection.order + 1);
+    const auto sign = [&](std::size_t inner_node, bool is_middle_inward) {
+        const bool is_middle = 2 * inner_node == p + 1;
+        return (is_middle ? is_middle_inward : inner_node <= p / 2) ? -1.0 : 1.0;
+    };
+    for (std::size_t j = 0; j < open.size(); ++j) {
+        for (std::size_t i = 0; i < middle.size(); ++i) {
+            out.push_back({{middle[i], open[j], 0}, {sign(i + 1, j > p / 2), 0, 0}});
+        }
+    }
+    for (std::size_t j = 0; j < middle.size(); ++j) {
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            out.push_back({{open[i], middle[j], 0}, {0, sign(j + 1, i <= p / 2), 0}});
+        }
+    }
+}
+
 void rt_interior(const Collection& collection, Geometry geometry, std::vector<Functional>& out) {
     const int p = collection.order;
+    if (geometry == Geometry::square) {
+        rt_square_interior(collection, out);
+        return;
+    }
+    if (geometry == Geometry::triangle) {
+        for_triangle(open_points(p), 0, [&](double x, double y) {
+            out.push_back({{x, y, 0}, {0, -1, 0}});
+            out.push_back({{x, y, 0}, {-1, 0, 0}});
+        });
+        return;
+    }
     const Points middle = inner(points(collection.basis, p + 2));
     const Points open = points(collection.open_basis, p + 1);
     if (geometry == Geometry::cube) {
@@ -159,6 +206,10 @@ std::vector<FrameFunctional> edge_functionals(const Collection& collection) {
     } else if (collection.family == Family::nd) {
         for (double s : points(collection.open_basis, collection.order)) {
             result.push_back({.s = s, .ds = 1});
+        }
+    } else if (collection.family == Family::rt && collection.dimension == 2) {
+        for (double s : points(collection.open_basis, collection.order + 1)) {
+            result.push_back({.s = s});
         }
     }
     return result;
@@ -217,11 +268,16 @@ std::vector<Functional> functionals(const Collection& collection, Geometry geome
             result.push_back({vertex, {}});
         }
     }
-    const auto on_edge = edge_functionals(collection);
+    Collection of_edges = collection;
+    if (geometry == Geometry::triangle) {
+        of_edges.open_basis = Basis::gauss_legendre;
+    }
+    const auto on_edge = edge_functionals(of_edges);
     for (const auto& edge : edges(geometry)) {
         const Point along = difference(corner(edge[1]), corner(edge[0]));
         for (const FrameFunctional& f : on_edge) {
-            result.push_back({combine(corner(edge[0]), f.s, along), combine({}, f.ds, along)});
+            const Point direction = collection.family == Family::rt ? Point{along[1], -along[0], 0} : combine({}, f.ds, along);
+            result.push_back({combine(corner(edge[0]), f.s, along), direction});
         }
     }
     const auto on_triangle = face_functionals(collection, 3);

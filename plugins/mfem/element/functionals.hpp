@@ -31,7 +31,7 @@ struct FrameFunctional {
     double dt = 0;
 };
 
-/** Functionals of an edge in the direction of its vertices. */
+/** Functionals of an edge in the direction of its vertices: tangents (ND), or in the plane normals to the right of it (RT). */
 std::vector<FrameFunctional> edge_functionals(const Collection& collection);
 
 /** Functionals of a face with 3 or 4 corners. */

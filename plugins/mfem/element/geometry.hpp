@@ -12,26 +12,30 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 
 namespace elvis_mfem {
 
 using Point = std::array<double, 3>;
 
 /** Numbers as in the files. */
-enum class Geometry : std::uint8_t { tetrahedron = 4, cube = 5, prism = 6, pyramid = 7 };
+enum class Geometry : std::uint8_t { triangle = 2, square = 3, tetrahedron = 4, cube = 5, prism = 6, pyramid = 7 };
 
-inline constexpr std::array all_geometries{Geometry::tetrahedron, Geometry::cube, Geometry::prism, Geometry::pyramid};
+inline constexpr std::array all_geometries{Geometry::triangle, Geometry::square, Geometry::tetrahedron,
+                                           Geometry::cube,     Geometry::prism,  Geometry::pyramid};
 
 /** A face by its vertices; the fourth is -1 in triangles. */
 using FaceVertices = std::array<int, 4>;
 
 inline int n_corners(const FaceVertices& face) { return face[3] < 0 ? 3 : 4; }
 
+/** 2 or 3. */
+inline int dimension(Geometry geometry) { return geometry <= Geometry::square ? 2 : 3; }
+
+/** In two dimensions the third coordinate is 0. */
 std::span<const Point> vertices(Geometry geometry);
 std::span<const std::array<int, 2>> edges(Geometry geometry);
+/** None in two dimensions. */
 std::span<const FaceVertices> faces(Geometry geometry);
-const char* name(Geometry geometry);
 
 elvis_shape shape(Geometry geometry);
 /** The MFEM vertex at each corner of the ElVis shape. */

@@ -130,7 +130,7 @@ Space::Space(const Collection& collection, const Mesh& mesh, const Topology* top
     : m_mesh(mesh), m_topology(needs_topology(collection) ? topology : nullptr) {
     m_per_vertex = collection.family == Family::h1 ? 1 : 0;
     m_per_edge = edge_functionals(collection).size();
-    m_reversed_edge_factor = collection.family == Family::nd ? -1 : 1;
+    m_reversed_edge_factor = collection.is_vector() ? -1 : 1;
     std::array<bool, 8> is_present{};
     for (const MeshElement& element : mesh.elements) {
         is_present[static_cast<std::size_t>(element.geometry)] = true;

@@ -249,8 +249,8 @@ std::unique_ptr<const SpanningSet> make_tetrahedron_set(int order) {
 
 std::unique_ptr<const SpanningSet> make_vector_set(const Collection& collection, Geometry geometry) {
     const int degree = collection.family == Family::nd ? collection.order - 1 : collection.order;
-    if (geometry == Geometry::tetrahedron) {
-        return std::make_unique<VectorSimplexSet>(collection.family, degree, 3);
+    if (geometry == Geometry::tetrahedron || geometry == Geometry::triangle) {
+        return std::make_unique<VectorSimplexSet>(collection.family, degree, static_cast<std::size_t>(dimension(geometry)));
     }
     return std::make_unique<VectorPrismSet>(collection.family, degree);
 }

@@ -35,7 +35,7 @@ private:
 std::unique_ptr<const SpanningSet> make_triangle_set(int order);
 std::unique_ptr<const SpanningSet> make_tetrahedron_set(int order);
 
-/** Nedelec and Raviart-Thomas spaces of tetrahedra and prisms. */
+/** Nedelec and Raviart-Thomas spaces of triangles, tetrahedra and prisms. */
 std::unique_ptr<const SpanningSet> make_vector_set(const Collection& collection, Geometry geometry);
 
 /**

@@ -1,9 +1,11 @@
 /*
  * Certified ranges: a polynomial lies between its smallest and largest Bernstein coefficient (Farin, Curves and Surfaces for
- * CAGD). Rounding is bounded as bernstein_tables.hpp says.
+ * CAGD); where these are far apart, values at nodes bound it, too (node_bounds.hpp). Rounding is bounded as
+ * bernstein_tables.hpp says.
  */
 #include "../file/runs.hpp"
 #include "bernstein_tables.hpp"
+#include "node_bounds.hpp"
 
 #include <cassert>
 #include <cmath>
@@ -18,6 +20,7 @@ namespace elvis::native {
 struct RangeBounder::Tables {
     bool convex = false; // modes are >= 0 and sum to 1: the range is that of the coefficients
     std::optional<BernsteinTables> forms;
+    std::optional<NodeBounds> nodes;
 
     explicit Tables(const Space& space);
 };
@@ -41,13 +44,16 @@ std::shared_ptr<const RangeBounder::Tables> tables_of(const Space& space) {
 RangeBounder::Tables::Tables(const Space& space) {
     const bool nodal = space.basis == Basis::modified || space.basis == Basis::tensor || space.basis == Basis::gll_lagrange;
     convex = is_constant(space) || (nodal && *std::max_element(space.order.begin(), space.order.end()) == 1);
-    if (!convex)
-        forms.emplace(space);
+    if (convex)
+        return;
+    forms.emplace(space);
+    nodes.emplace(Sizes{forms->size_outer, forms->size_mid, forms->size_inner});
 }
 
 RangeBounder::RangeBounder(const Space& space) : m_tables(tables_of(space)) {
     if (!m_tables->convex)
-        m_workspace.resize(m_tables->forms->workspace_size() + m_tables->forms->size());
+        m_workspace.resize(std::max(m_tables->forms->workspace_size(), m_tables->nodes->workspace_size()) +
+                           m_tables->forms->size());
 }
 
 Range RangeBounder::operator()(std::span<const double> coefficients) {
@@ -73,10 +79,12 @@ Range RangeBounder::operator()(std::span<const double> coefficients) {
     // Underflow costs each product at most the smallest subnormal number, 5e-324, times the matrices that follow.
     const double error = t.forms->gamma * magnitude + 1e-200;
 
-    double* const sum = m_workspace.data() + t.forms->workspace_size();
+    double* const sum = m_workspace.data() + (m_workspace.size() - t.forms->size());
     t.forms->transform<1>(coefficients.data(), m_workspace.data(), sum);
     for (std::size_t k = 0; k < t.forms->size(); ++k)
         result = {std::min(result.lower, sum[k]), std::max(result.upper, sum[k])};
+    if (const std::optional<Range> other = t.nodes->operator()(sum, result, error, m_workspace.data()))
+        return {std::max(result.lower - error, other->lower), std::min(result.upper + error, other->upper)};
     return {result.lower - error, result.upper + error};
 }
 

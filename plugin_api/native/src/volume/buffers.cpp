@@ -3,7 +3,8 @@
  *
  *   geometry                       number slab_start + 3 * mode + direction, relative to the element's origin
  *   field without transform        component by component: number component_start + slab_start + mode
- *   field with transform           number slab_start + 3 * mode + component of uhat; then one row with the offset of u
+ *   field with transform           number slab_start + 3 * mode + component of uhat; then one row with the offset of u. In two
+ *                                  dimensions the third component is 0
  */
 #include "volume.hpp"
 

@@ -4,6 +4,7 @@
  * Fields with a transform, with J_ij = dx_i/dxi_j and its derivative K = dJ/dxi_k:
  *   covariant       u = J^-T uhat          du/dxi_k = J^-T (duhat/dxi_k - K^T u)
  *   contravariant   u = J uhat / det J     du/dxi_k = (K uhat + J duhat/dxi_k) / det J - u tr(J^-1 K)
+ * In two dimensions J is that of the first two coordinates; its third column is (0, 0, 1) and uhat's third component 0.
  */
 #include "volume.hpp"
 
@@ -48,18 +49,20 @@ private:
     std::vector<double> m_values, m_gradients;
 };
 
-/** The three components' coefficients and the modes they belong to. */
+/** The two or three components' coefficients and the modes they belong to. A third that is missing is 0. */
 class VectorFunction {
 public:
     VectorFunction(const native::Space& space, std::span<const double> coefficients)
-        : m_modes(space), m_coefficients(coefficients) {}
+        : m_modes(space), m_coefficients(coefficients), m_n_components(coefficients.size() / m_modes.size()) {}
 
     void move_to(const Point& xi) { m_modes.evaluate(xi); }
-    Vector3 value() const { return {m_modes.value(part(0)), m_modes.value(part(1)), m_modes.value(part(2))}; }
+    Vector3 value() const {
+        return {m_modes.value(part(0)), m_modes.value(part(1)), m_n_components == 3 ? m_modes.value(part(2)) : 0};
+    }
     /** Entry (i, j) = derivative of component i in direction j. */
     Matrix3 derivatives() const {
-        Matrix3 result;
-        for (std::size_t i = 0; i < 3; ++i)
+        Matrix3 result = Matrix3::Zero();
+        for (std::size_t i = 0; i < m_n_components; ++i)
             for (std::size_t j = 0; j < 3; ++j)
                 result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = m_modes.derivative(part(i), j);
         return result;
@@ -69,6 +72,7 @@ private:
     std::span<const double> part(std::size_t i) const { return m_coefficients.subspan(i * m_modes.size(), m_modes.size()); }
     Modes m_modes;
     std::span<const double> m_coefficients;
+    std::size_t m_n_components;
 };
 
 /**
@@ -92,7 +96,7 @@ Matrix3 derivative_along(VectorFunction& mapping, const Point& xi, const Vector3
 }
 
 /**
- * dJ/dxi_k for all k. In hexahedra, prisms and tetrahedra J is a polynomial on every line. In pyramids it is one on lines of
+ * dJ/dxi_k for all k. In all shapes but pyramids J is a polynomial on every line. In pyramids it is one on lines of
  * constant xi3, and on lines through the apex, where the collapsed coordinates eta1 and eta2 are constant:
  * d/dxi3 = d/dline + (1 + eta1)/2 d/dxi1 + (1 + eta2)/2 d/dxi2.
  */
@@ -168,21 +172,24 @@ void Volume::evaluate_field(std::size_t field, std::size_t time_step, std::uint6
     const native::Space& mapping_space = geometry_space(where.element_class);
     VectorFunction mapping(mapping_space, geometry.numbers);
     VectorFunction reference(space, coefficients.numbers);
+    const auto n_components = static_cast<Eigen::Index>(description().fields[field].n_components);
     for (std::size_t i = 0; i < xi.size() / 3; ++i) {
         const Point at = point(xi, i);
         mapping.move_to(at);
         reference.move_to(at);
-        const Matrix3 jacobian = mapping.derivatives();
+        Matrix3 jacobian = mapping.derivatives();
+        if (n_components == 2)
+            jacobian.col(2) = Vector3::UnitZ();
         const Matrix3 inverse = jacobian.inverse();
         const double determinant = jacobian.determinant();
         const Vector3 hat = reference.value();
         const Vector3 u = covariant ? Vector3(inverse.transpose() * hat) : Vector3(jacobian * hat / determinant);
         if (!values.empty())
-            Eigen::Map<Vector3>(values.data() + 3 * i) = u;
+            std::copy_n(u.data(), n_components, values.data() + static_cast<std::size_t>(n_components) * i);
         if (gradients.empty())
             continue;
         const Matrix3 hat_derivatives = reference.derivatives();
-        Eigen::Map<Matrix3> gradient(gradients.data() + 9 * i);
+        Matrix3 gradient;
         const std::array<Matrix3, 3> bends = jacobian_derivatives(mapping, mapping_space, at);
         for (std::size_t k = 0; k < 3; ++k) {
             const auto column = static_cast<Eigen::Index>(k);
@@ -193,6 +200,8 @@ void Volume::evaluate_field(std::size_t field, std::size_t time_step, std::uint6
                 gradient.col(column) =
                     (bend * hat + jacobian * hat_derivatives.col(column)) / determinant - u * (inverse * bend).trace();
         }
+        const auto n_numbers = static_cast<std::size_t>(3 * n_components);
+        std::copy_n(gradient.data(), n_numbers, gradients.data() + n_numbers * i);
     }
 }
 

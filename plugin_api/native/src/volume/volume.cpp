@@ -38,10 +38,6 @@ api::Error without_name(const native::FileError& error) {
 
 Volume::Volume(const api::Host& host, std::string path, std::shared_ptr<const native::VolumeSource> source)
     : m_host(host), m_path(std::move(path)), m_source(std::move(source)), m_cache(cache_numbers) {
-    for (const native::Field& field : description().fields)
-        if (description().dimension == 2 && field.transform != Transform::none)
-            throw error(ELVIS_ERROR_FORMAT,
-                        "field '" + field.name + "' has a transform, which no plugin serves in two dimensions");
     m_first_elements.push_back(0);
     for (std::size_t i = 0; i < description().classes.size(); ++i) {
         const native::ElementClass& element_class = description().classes[i];

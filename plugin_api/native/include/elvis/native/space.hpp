@@ -111,8 +111,9 @@ struct Range {
 /**
  * Certified range over the closed reference shape: no value of the exact function lies outside, the rounding of this
  * computation included (a rounded evaluation may leave it by its own rounding error). From Bernstein coefficients of the
- * polynomial in collapsed coordinates, where every space of this page is a tensor product. Exact (smallest and largest
- * coefficient) for order 1 in modified, tensor and gll_lagrange bases. Coefficients that are not finite give [-inf, inf].
+ * polynomial in collapsed coordinates, where every space of this page is a tensor product, or from values at nodes: at most
+ * three times as wide as the values are apart. Exact (smallest and largest coefficient) for order 1 in modified, tensor and
+ * gll_lagrange bases. Coefficients that are not finite give [-inf, inf].
  */
 Range range(const Space& space, std::span<const double> coefficients);
 

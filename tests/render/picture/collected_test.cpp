@@ -1,0 +1,73 @@
+// Commands that are collected until a result is wanted draw the same picture as those that are waited for one by one.
+
+#include <tests/support/test_volumes.hpp>
+
+#include <core/render/renderer.hpp>
+#include <core/scene/frame_request.hpp>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+
+namespace elvis::oracle {
+namespace {
+
+DeviceOptions with(Submissions submissions) {
+    DeviceOptions options = DeviceOptions::from_environment();
+    options.validation = true;
+    options.submissions = submissions;
+    return options;
+}
+
+template <class Number> bool is_same(const std::vector<Number>& one, const std::vector<Number>& other) {
+    return one.size() == other.size() && std::memcmp(one.data(), other.data(), one.size() * sizeof(Number)) == 0;
+}
+
+Frame drawn(Renderer& renderer, const RuntimeVolume& volume, const char* scene) {
+    const FrameRequest request = make_frame_request(scene_of(nlohmann::json::parse(scene), "scene"), volume, renderer.ranges());
+    renderer.render(request); // The first one uploads and compiles.
+    return renderer.render(request);
+}
+
+struct Picture {
+    const char* name;
+    const char* scene;
+    /** Of the picture, at most. */
+    std::uint64_t submissions;
+};
+
+constexpr Picture pictures[] = {
+    {"plane", R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "plane", "plane": [0.1, 0.2, 1, 0.1]}]})", 8},
+    {"lines", R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "plane", "plane": [0.1, 0.2, 1, 0.1],
+                  "contours": {"count": 5}, "mesh_lines": {}}]})", 12},
+    {"boundary", R"({"version": 1, "image": {"size": [60, 45]}, "lighting": "default", "surfaces": [{"type": "boundary"}]})", 8},
+    {"isosurface", R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "isosurface", "values": [0.3]}]})", 8},
+    {"volume", R"({"version": 1, "image": {"size": [60, 45]}, "volume_rendering": {}})", 16}};
+
+} // namespace
+
+TEST_CASE("Collected commands draw the same picture in few submissions") {
+    const TemporaryFile file("ball.h5");
+    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
+                 "field": "waves"})",
+             file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    const Device single(with(Submissions::single)), collected(with(Submissions::collected));
+    Renderer one_by_one(single, volume, Precision::float32), together(collected, volume, Precision::float32);
+    for (const Picture& picture : pictures) {
+        const Frame wanted = drawn(one_by_one, volume, picture.scene), frame = drawn(together, volume, picture.scene);
+        INFO(picture.name << ": " << frame.submissions << " submissions, else " << wanted.submissions);
+        std::printf("%s: %llu submissions, else %llu\n", picture.name, static_cast<unsigned long long>(frame.submissions), static_cast<unsigned long long>(wanted.submissions));
+        CHECK(frame.counts.hit_pixels == wanted.counts.hit_pixels);
+        CHECK(is_same(frame.color, wanted.color));
+        CHECK(is_same(frame.value, wanted.value));
+        CHECK(is_same(frame.depth, wanted.depth));
+        CHECK(is_same(frame.element, wanted.element));
+        CHECK(is_same(frame.flags, wanted.flags));
+        CHECK(frame.submissions <= picture.submissions);
+    }
+    CHECK(collected.validation_messages() == std::vector<std::string>{});
+}
+
+} // namespace elvis::oracle
