@@ -38,10 +38,13 @@ struct Picture {
 };
 
 constexpr Picture pictures[] = {
-    {"plane", R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "plane", "plane": [0.1, 0.2, 1, 0.1]}]})", 8},
+    {"plane", R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "plane", "plane": [0.1, 0.2, 1, 0.1]}]})",
+     8},
     {"lines", R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "plane", "plane": [0.1, 0.2, 1, 0.1],
-                  "contours": {"count": 5}, "mesh_lines": {}}]})", 12},
-    {"boundary", R"({"version": 1, "image": {"size": [60, 45]}, "lighting": "default", "surfaces": [{"type": "boundary"}]})", 8},
+                  "contours": {"count": 5}, "mesh_lines": {}}]})",
+     12},
+    {"boundary", R"({"version": 1, "image": {"size": [60, 45]}, "lighting": "default", "surfaces": [{"type": "boundary"}]})",
+     8},
     {"isosurface", R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "isosurface", "values": [0.3]}]})", 8},
     {"volume", R"({"version": 1, "image": {"size": [60, 45]}, "volume_rendering": {}})", 16}};
 
@@ -58,7 +61,8 @@ TEST_CASE("Collected commands draw the same picture in few submissions") {
     for (const Picture& picture : pictures) {
         const Frame wanted = drawn(one_by_one, volume, picture.scene), frame = drawn(together, volume, picture.scene);
         INFO(picture.name << ": " << frame.submissions << " submissions, else " << wanted.submissions);
-        std::printf("%s: %llu submissions, else %llu\n", picture.name, static_cast<unsigned long long>(frame.submissions), static_cast<unsigned long long>(wanted.submissions));
+        std::printf("%s: %llu submissions, else %llu\n", picture.name, static_cast<unsigned long long>(frame.submissions),
+                    static_cast<unsigned long long>(wanted.submissions));
         CHECK(frame.counts.hit_pixels == wanted.counts.hit_pixels);
         CHECK(is_same(frame.color, wanted.color));
         CHECK(is_same(frame.value, wanted.value));
