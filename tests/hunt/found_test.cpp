@@ -1,5 +1,6 @@
 // Scenes in which the hunt found silent errors.
 #include "judge.hpp"
+#include "scenes.hpp"
 #include "volumes.hpp"
 
 #include <tests/support/test_volumes.hpp>
@@ -7,6 +8,7 @@
 #include <core/oracle/samples/exact_volumes.hpp>
 #include <core/oracle/samples/meshes.hpp>
 #include <core/render/renderer.hpp>
+#include <core/scene/frame_request.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -345,6 +347,27 @@ TEST_CASE("Colours that jump do not flag rough fields all over") {
     CHECK(tally.far + tally.near == 0);
     // Was a third of them.
     CHECK(tally.flagged < tally.pixels / 100);
+}
+
+TEST_CASE("The adaptive rule misses no narrow peak in a field of high order") {
+    const TemporaryFile file("rough.h5");
+    const PluginRegistry plugins;
+    make_volume(plugins, 266, {}, file.path());
+    const RuntimeVolume volume = oracle::open_volume(file.path());
+    std::vector<elvis_face> faces(volume.n_faces());
+    volume.faces(0, faces.size(), faces);
+    oracle::SceneVolume answers(file.path(), faces);
+    const SceneGround ground =
+        ground_of(file.path(), volume.fields()[0].name, answers.model(0, 0).volume, volume.n_faces() > 0);
+    Scene scene = make_scene(ground, "volume", 16005);
+    scene.size = {60, 45};
+    REQUIRE(scene.volume_rendering->integrator == Integrator::adaptive_trapezoid);
+    Renderer renderer(test::device(), volume, Precision::float64);
+    const FrameRequest request = make_frame_request(scene, volume, renderer.ranges());
+    const Tally tally = judge_picture(file.path(), request, Precision::float64);
+    CHECK(tally.pixels == 60 * 45);
+    // Was 1 in 100 with three samples an element.
+    CHECK(tally.far + tally.near == 0);
 }
 
 } // namespace elvis::hunt

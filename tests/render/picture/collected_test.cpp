@@ -46,13 +46,13 @@ constexpr Picture pictures[] = {
     {"boundary", R"({"version": 1, "image": {"size": [60, 45]}, "lighting": "default", "surfaces": [{"type": "boundary"}]})",
      8},
     {"isosurface", R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "isosurface", "values": [0.3]}]})", 8},
-    {"volume", R"({"version": 1, "image": {"size": [60, 45]}, "volume_rendering": {}})", 16}};
+    {"volume", R"({"version": 1, "image": {"size": [60, 45]}, "volume_rendering": {}})", 40}};
 
 } // namespace
 
 TEST_CASE("Collected commands draw the same picture in few submissions") {
     const TemporaryFile file("ball.h5");
-    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
+    generate(R"({"generator": 1, "mesh": "ball", "shape": "tetrahedron", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
                  "field": "waves"})",
              file.path());
     const RuntimeVolume volume = open_volume(file.path());

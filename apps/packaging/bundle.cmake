@@ -21,7 +21,7 @@ if(ELVIS_FONT)
 endif()
 
 install(FILES LICENSE CHANGELOG.md DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL)
-install(FILES packaging/README.md DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL)
+install(FILES apps/packaging/README.md DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL)
 install(PROGRAMS tests/gpu/run DESTINATION tests/gpu COMPONENT bundle EXCLUDE_FROM_ALL)
 install(DIRECTORY tests/gpu/scenes DESTINATION tests/gpu COMPONENT bundle EXCLUDE_FROM_ALL)
 install(FILES tests/data/elvis/bulletH1P2.dat tests/data/elvis/LICENSE.ElVis DESTINATION tests/data/elvis COMPONENT bundle EXCLUDE_FROM_ALL)
