@@ -7,8 +7,8 @@
 #ifndef CORE_LEAF_BOUNDS
 #define CORE_LEAF_BOUNDS
 
-// Rounding of a value, relative to the largest, and of a gradient: twice what evaluations of orders up to 10 show.
-#define CORE_VALUE_ROUNDING (elvis_real(16) * CORE_ROUNDOFF)
+// Rounding of a value, relative to the largest, and of a gradient: three times and twice what evaluations of orders up to 10 show.
+#define CORE_VALUE_ROUNDING (elvis_real(24) * CORE_ROUNDOFF)
 #define CORE_GRADIENT_ROUNDING (elvis_real(64) * CORE_ROUNDOFF)
 
 // Of a point that is computed.

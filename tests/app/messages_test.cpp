@@ -53,8 +53,8 @@ TEST_CASE("Info tells the values that a field takes, and what encloses them") {
     const std::string x = maximum["x"].dump();
     const auto probed = nlohmann::json::parse(place.run("probe fichera.h5 --json --point " + x.substr(1, x.size() - 2)).out);
     CHECK(probed["points"][0]["fields"]["sol"][0].get<double>() == Approx(upper).epsilon(1e-9));
-    // The elements' bounds are several times wider.
-    CHECK(field["enclosure_by_component"][0][1] > 2 * upper);
+    // The elements' bounds are wider.
+    CHECK(field["enclosure_by_component"][0][1] > 1.5 * upper);
     CHECK(field["enclosure_certainty"] == "certified");
     CHECK_THAT(place.run("info fichera.h5").out, Catch::Contains("enclosed by the elements' bounds"));
 }
