@@ -57,6 +57,7 @@ FrameRequest volume_itself(std::uint32_t width, const std::array<double, 6>& bou
 
 void draw(const Device& device, Renderer& renderer, const FrameRequest& request, GoalRow& row) {
     renderer.render(request);
+    const std::map<std::string, double> first = device_times(device);
     for (int run = 0; run < n_runs; ++run) {
         const std::optional<double> before = busy_milliseconds(device);
         const Frame frame = renderer.render(request);
@@ -67,6 +68,13 @@ void draw(const Device& device, Renderer& renderer, const FrameRequest& request,
             row.device_milliseconds = std::min(row.device_milliseconds.value_or(busy), busy);
         }
         row.covered_pixels = std::max(frame.counts.hit_pixels, frame.counts.volume_pixels);
+    }
+    for (const auto& [name, milliseconds] : device_times(device)) {
+        const auto before = first.find(name);
+        const double part = (milliseconds - (before != first.end() ? before->second : 0)) / n_runs;
+        if (part > 0) {
+            row.parts[name] = part;
+        }
     }
 }
 

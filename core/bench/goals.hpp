@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,8 @@ struct GoalRow {
     /** The least of some frames after the first: by the device's clock, if it has one; and until the picture is there. */
     std::optional<double> device_milliseconds;
     double wall_milliseconds = 0;
+    /** What a frame's kernels take by the device's clock, and "copies"; the mean. */
+    std::map<std::string, double> parts;
     /** Of the device, for pictures of full size. */
     double goal_milliseconds = 0;
     /** Pixels that something is seen in. */

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/bench/waves.hpp>
-#include <core/vulkan/kernel_inspector.hpp>
+#include <core/vulkan/kernel/kernel_inspector.hpp>
 
 #include <cstdint>
 #include <functional>

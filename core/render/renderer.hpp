@@ -32,7 +32,7 @@ struct RendererMemory {
 /**
  * Keeps the volume's buffers, hierarchies and kernels between frames: the first frame uploads and compiles what it needs, later
  * ones only what changed (field, time step). Device and volume must outlive it. One thread at a time. No dispatch takes long
- * (core/vulkan/dispatch_pace.hpp): other work on the device, a window's, comes in between.
+ * (core/vulkan/kernel/dispatch_pace.hpp): other work on the device, a window's, comes in between.
  */
 class Renderer {
 public:

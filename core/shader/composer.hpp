@@ -36,7 +36,7 @@
 #include <core/base/background.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/vulkan/buffer.hpp>
-#include <core/vulkan/kernel.hpp>
+#include <core/vulkan/kernel/kernel.hpp>
 
 #include <memory>
 #include <optional>

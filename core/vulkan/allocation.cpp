@@ -137,7 +137,8 @@ void Allocation::write(std::uint64_t offset, std::uint64_t bytes, std::uint64_t 
     for (std::uint64_t done = 0; done < bytes; done += piece) {
         const VkBufferCopy region{0, offset + done, std::min(piece, bytes - done)};
         produce(done, {staging.mapped, static_cast<std::size_t>(region.size)});
-        impl.queue->record([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, staging.buffer, m_buffer, 1, &region); });
+        impl.queue->record(CommandQueue::copies,
+                           [&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, staging.buffer, m_buffer, 1, &region); });
         impl.queue->finish(); // The staging buffer is used again.
     }
 }
@@ -168,7 +169,8 @@ void Allocation::read(std::uint64_t offset, std::span<std::byte> data) const {
     const Staging& staging = impl.use_staging();
     for (std::uint64_t done = 0; done < data.size(); done += Device::Impl::staging_bytes) {
         const VkBufferCopy region{offset + done, 0, std::min<std::uint64_t>(Device::Impl::staging_bytes, data.size() - done)};
-        impl.queue->record([&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, m_buffer, staging.buffer, 1, &region); });
+        impl.queue->record(CommandQueue::copies,
+                           [&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, m_buffer, staging.buffer, 1, &region); });
         impl.queue->finish();
         std::memcpy(data.data() + done, staging.mapped, static_cast<std::size_t>(region.size));
     }

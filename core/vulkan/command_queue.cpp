@@ -1,13 +1,24 @@
 #include <core/vulkan/command_queue.hpp>
 
+#include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
 
+#include <chrono>
 #include <utility>
 
 namespace elvis {
 
-CommandQueue::CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, std::string place)
-    : m_device(device), m_clock(physical, device, family, place), m_collects(collects), m_place(std::move(place)) {
+namespace {
+
+/** How long a device is asked whether it is done, before this side sleeps. */
+constexpr double most_asking_milliseconds = 5;
+
+} // namespace
+
+CommandQueue::CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, bool asks,
+                           std::string place)
+    : m_device(device), m_clock(physical, device, family, place), m_collects(collects), m_asks(asks),
+      m_place(std::move(place)) {
     try {
         create(family);
     } catch (...) {
@@ -55,11 +66,12 @@ void CommandQueue::begin() {
     m_is_recording = true;
 }
 
-void CommandQueue::record(const Record& record) {
+void CommandQueue::record(const std::string& name, const Record& record) {
     const std::lock_guard lock(m_mutex);
     if (!m_is_recording) {
         begin();
     }
+    m_clock.begin_part(m_commands, name);
     record(m_commands);
     // What was written becomes visible to everything that follows: later commands and the host.
     VkMemoryBarrier barrier{};
@@ -70,18 +82,18 @@ void CommandQueue::record(const Record& record) {
                          VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
                          nullptr);
     if (!m_collects) {
-        submit_and_wait();
+        submit_and_wait(name);
     }
 }
 
 void CommandQueue::finish() {
     const std::lock_guard lock(m_mutex);
     if (m_is_recording) {
-        submit_and_wait();
+        submit_and_wait({});
     }
 }
 
-void CommandQueue::submit_and_wait() {
+void CommandQueue::submit_and_wait(const std::string& last_name) {
     m_is_recording = false;
     m_clock.stop(m_commands);
     check_vulkan(vkEndCommandBuffer(m_commands), m_place, "recording commands");
@@ -90,17 +102,54 @@ void CommandQueue::submit_and_wait() {
     info.commandBufferCount = 1;
     info.pCommandBuffers = &m_commands;
     ++n_submissions;
+    const auto start = std::chrono::steady_clock::now();
     check_vulkan(vkQueueSubmit(m_queue, 1, &info, m_fence), m_place, "submitting work");
     ++n_host_waits;
-    check_vulkan(vkWaitForFences(m_device, 1, &m_fence, VK_TRUE, UINT64_MAX), m_place, "waiting for the device");
-    m_busy_nanoseconds += m_clock.nanoseconds();
+    wait();
+    take_times(last_name, milliseconds_since(start));
     check_vulkan(vkResetFences(m_device, 1, &m_fence), m_place, "resetting a fence");
     do_what_waits();
 }
 
+void CommandQueue::wait() {
+    // To be woken takes longer than most work does. A device that is not the processor leaves it the time to ask.
+    const auto start = std::chrono::steady_clock::now();
+    while (m_asks && milliseconds_since(start) < most_asking_milliseconds) {
+        const VkResult result = vkGetFenceStatus(m_device, m_fence);
+        if (result == VK_SUCCESS) {
+            return;
+        }
+        if (result != VK_NOT_READY) {
+            check_vulkan(result, m_place, "waiting for the device");
+        }
+    }
+    check_vulkan(vkWaitForFences(m_device, 1, &m_fence, VK_TRUE, UINT64_MAX), m_place, "waiting for the device");
+}
+
+void CommandQueue::take_times(const std::string& last_name, double waited_milliseconds) {
+    for (const DeviceClock::Part& part : m_clock.parts()) {
+        m_times[part.name] += part.milliseconds;
+    }
+    if (!m_clock.is_there() && !last_name.empty()) {
+        m_times[last_name] += waited_milliseconds;
+    }
+}
+
 std::optional<double> CommandQueue::busy_milliseconds() {
     const std::lock_guard lock(m_mutex);
-    return m_clock.is_there() ? std::optional(1e-6 * m_busy_nanoseconds) : std::nullopt;
+    if (!m_clock.is_there()) {
+        return {};
+    }
+    double sum = 0;
+    for (const auto& [name, milliseconds] : m_times) {
+        sum += milliseconds;
+    }
+    return sum;
+}
+
+std::map<std::string, double> CommandQueue::times() {
+    const std::lock_guard lock(m_mutex);
+    return m_times;
 }
 
 void CommandQueue::do_what_waits() noexcept {

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -25,17 +26,20 @@ namespace elvis {
  */
 class CommandQueue {
 public:
-    /** `place`: for errors. */
-    CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, std::string place);
+    /** The name of all that is no kernel. */
+    static constexpr const char* copies = "copies";
+
+    /** `asks`: this side does not sleep while it waits for what takes little time. `place`: for errors. */
+    CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, bool asks, std::string place);
     ~CommandQueue();
     CommandQueue(const CommandQueue&) = delete;
     CommandQueue& operator=(const CommandQueue&) = delete;
 
     bool collects() const { return m_collects; }
 
-    /** Called at once, while no other thread records or submits. */
+    /** Called at once, while no other thread records or submits. `name`: whose time it is. */
     using Record = std::function<void(VkCommandBuffer)>;
-    void record(const Record& record);
+    void record(const std::string& name, const Record& record);
     /** Submits what was collected, if anything was, and waits: then all of it has been done. A lost device is an Error. */
     void finish();
     /** Something was collected that is not done. */
@@ -51,19 +55,26 @@ public:
     std::atomic<std::uint64_t> n_submissions{0}, n_host_waits{0};
     /** How long the device worked on all that was submitted, by its own clock; nothing where it has none. */
     std::optional<double> busy_milliseconds();
+    /**
+     * The same in milliseconds by name. Without a clock, what this side waited, if commands are not collected. A first run may
+     * include a part of the driver's work.
+     */
+    std::map<std::string, double> times();
 
 private:
     void create(std::uint32_t family);
     void begin();
     /** These need the mutex. */
-    void submit_and_wait();
+    void submit_and_wait(const std::string& last_name);
+    void wait();
+    void take_times(const std::string& last_name, double waited_milliseconds);
     void do_what_waits() noexcept;
     void release() noexcept;
 
     VkDevice m_device;
     DeviceClock m_clock;
-    double m_busy_nanoseconds = 0;
-    bool m_collects;
+    std::map<std::string, double> m_times;
+    bool m_collects, m_asks;
     std::string m_place;
     VkQueue m_queue = VK_NULL_HANDLE;
     VkCommandPool m_pool = VK_NULL_HANDLE;

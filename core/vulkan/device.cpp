@@ -107,7 +107,7 @@ void Device::Impl::create_device() {
     const std::uint32_t family = compute_queue_family(physical);
     const bool collects = options.submissions == Submissions::automatic ? summary.type == "discrete"
                                                                         : options.submissions == Submissions::collected;
-    queue = std::make_unique<CommandQueue>(physical, device, family, collects, place());
+    queue = std::make_unique<CommandQueue>(physical, device, family, collects, summary.type != "cpu", place());
     pipelines = std::make_unique<PipelineCache>(device, cache_key);
 }
 
@@ -220,10 +220,11 @@ void Device::add(KernelBuild build) const {
 }
 
 std::vector<KernelTime> Device::kernel_times() const {
-    const std::lock_guard lock(m_impl->times_mutex);
     std::vector<KernelTime> times;
-    for (const auto& [kernel, milliseconds] : m_impl->times) {
-        times.push_back({kernel, milliseconds});
+    for (const auto& [name, milliseconds] : m_impl->queue->times()) {
+        if (name != CommandQueue::copies) {
+            times.push_back({name, milliseconds});
+        }
     }
     return times;
 }
@@ -240,7 +241,9 @@ std::vector<std::string> Device::validation_messages() const {
     return log.messages;
 }
 
-void Device::record(const std::function<void(VkCommandBuffer)>& record) const { m_impl->queue->record(record); }
+void Device::record(const std::function<void(VkCommandBuffer)>& record) const {
+    m_impl->queue->record(CommandQueue::copies, record);
+}
 
 void Device::finish() const { m_impl->queue->finish(); }
 

@@ -3,7 +3,6 @@
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
 
-#include <array>
 #include <vector>
 
 namespace elvis {
@@ -25,34 +24,50 @@ DeviceClock::DeviceClock(VkPhysicalDevice physical, VkDevice device, std::uint32
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = 2;
+    info.queryCount = most_parts + 1;
     check_vulkan(vkCreateQueryPool(device, &info, nullptr, &m_queries), place, "creating its clock");
 }
 
 DeviceClock::~DeviceClock() { vkDestroyQueryPool(m_device, m_queries, nullptr); }
 
-void DeviceClock::start(VkCommandBuffer commands) const {
+void DeviceClock::start(VkCommandBuffer commands) {
+    m_names.clear();
     if (is_there()) {
-        vkCmdResetQueryPool(commands, m_queries, 0, 2);
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, m_queries, 0);
+        vkCmdResetQueryPool(commands, m_queries, 0, most_parts + 1);
+    }
+}
+
+void DeviceClock::begin_part(VkCommandBuffer commands, const std::string& name) {
+    if (is_there() && m_names.size() < most_parts) {
+        const auto number = static_cast<std::uint32_t>(m_names.size());
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, m_queries, number);
+        m_names.push_back(name);
     }
 }
 
 void DeviceClock::stop(VkCommandBuffer commands) const {
     if (is_there()) {
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, m_queries, 1);
+        const auto number = static_cast<std::uint32_t>(m_names.size());
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, m_queries, number);
     }
 }
 
-double DeviceClock::nanoseconds() const {
-    std::array<std::uint64_t, 2> stamps{};
-    if (!is_there() || vkGetQueryPoolResults(m_device, m_queries, 0, 2, sizeof stamps, stamps.data(), sizeof stamps[0],
+std::vector<DeviceClock::Part> DeviceClock::parts() const {
+    std::vector<std::uint64_t> stamps(m_names.size() + 1);
+    std::vector<Part> parts;
+    if (!is_there() || vkGetQueryPoolResults(m_device, m_queries, 0, static_cast<std::uint32_t>(stamps.size()),
+                                             stamps.size() * sizeof stamps[0], stamps.data(), sizeof stamps[0],
                                              VK_QUERY_RESULT_64_BIT) != VK_SUCCESS) {
-        return 0;
+        return parts;
     }
-    return m_period * static_cast<double>((stamps[1] - stamps[0]) & m_mask);
+    for (std::size_t i = 0; i < m_names.size(); ++i) {
+        parts.push_back({m_names[i], 1e-6 * m_period * static_cast<double>((stamps[i + 1] - stamps[i]) & m_mask)});
+    }
+    return parts;
 }
 
 std::optional<double> busy_milliseconds(const Device& device) { return device.impl().queue->busy_milliseconds(); }
+
+std::map<std::string, double> device_times(const Device& device) { return device.impl().queue->times(); }
 
 } // namespace elvis

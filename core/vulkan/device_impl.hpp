@@ -8,7 +8,7 @@
 #include <core/vulkan/command_queue.hpp>
 #include <core/vulkan/device.hpp>
 #include <core/vulkan/instance.hpp>
-#include <core/vulkan/pipeline_pool.hpp>
+#include <core/vulkan/kernel/pipeline_pool.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -81,10 +81,6 @@ struct Device::Impl {
     /** Guards the builds. */
     std::mutex builds_mutex;
     std::vector<KernelBuild> builds;
-    /** Guards the times. */
-    std::mutex times_mutex;
-    /** Milliseconds by kernel. */
-    std::map<std::string, double> times;
     /** Guards the tasks. */
     std::mutex tasks_mutex;
     /** By thread. */

@@ -1,5 +1,5 @@
 // How much of a kernel is given to the device at once, on a device that is made up.
-#include <core/vulkan/dispatch_pace.hpp>
+#include <core/vulkan/kernel/dispatch_pace.hpp>
 
 #include <catch2/catch.hpp>
 

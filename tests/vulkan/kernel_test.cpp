@@ -1,7 +1,7 @@
 #include <core/base/error.hpp>
 #include <core/base/temporary_folder.hpp>
 #include <core/shader/compiler.hpp>
-#include <core/vulkan/kernel.hpp>
+#include <core/vulkan/kernel/kernel.hpp>
 
 #include <catch2/catch.hpp>
 

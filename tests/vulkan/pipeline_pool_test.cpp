@@ -1,6 +1,6 @@
 #include <core/shader/compiler.hpp>
 #include <core/vulkan/device.hpp>
-#include <core/vulkan/pipeline_pool.hpp>
+#include <core/vulkan/kernel/pipeline_pool.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -58,12 +58,16 @@ nlohmann::ordered_json run_goals(const Bench& bench) {
                         {"device_milliseconds", nullptr},
                         {"wall_milliseconds", row.wall_milliseconds},
                         {"goal_milliseconds", row.goal_milliseconds},
-                        {"is_met", is_met}});
+                        {"is_met", is_met},
+                        {"parts", row.parts}});
         if (row.device_milliseconds) {
             list.back()["device_milliseconds"] = *row.device_milliseconds;
         }
         say(arguments, "%-10s %4ux%-4u  %8.3f ms  wall %8.3f ms  goal %6.2f ms: %s\n", row.name.c_str(), row.width, row.height,
             milliseconds, row.wall_milliseconds, row.goal_milliseconds, is_met ? "met" : "not met");
+        for (const auto& [name, part] : row.parts) {
+            say(arguments, "    %8.3f ms  %s\n", part, name.c_str());
+        }
     });
     return list;
 }

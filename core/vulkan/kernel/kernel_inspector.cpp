@@ -1,4 +1,4 @@
-#include <core/vulkan/kernel_inspector.hpp>
+#include <core/vulkan/kernel/kernel_inspector.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
@@ -39,11 +39,14 @@ constexpr std::array<Statistic, 12> known_statistics{Statistic{"VGPRs", &KernelS
                                                      Statistic{"Stack Size", &KernelStatistics::scratch_bytes},
                                                      Statistic{"Binary Size", &KernelStatistics::code_bytes}};
 
-/** Negative and fractional values are none of what is asked for. */
+/**
+ * Negative and fractional values are none of what is asked for. None is as large as 2^32: what is has bits that mean nothing,
+ * as 2^36 in NVIDIA's "Local Memory Size" (580.159).
+ */
 std::uint64_t whole(const VkPipelineExecutableStatisticKHR& statistic) {
     switch (statistic.format) {
     case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR:
-        return statistic.value.u64;
+        return statistic.value.u64 & UINT32_MAX;
     case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR:
         return static_cast<std::uint64_t>(std::max<std::int64_t>(statistic.value.i64, 0));
     default:

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/vulkan/buffer.hpp>
-#include <core/vulkan/kernel_pipeline.hpp>
+#include <core/vulkan/kernel/kernel_pipeline.hpp>
 
 #include <array>
 #include <memory>

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/vulkan/kernel_pipeline.hpp>
+#include <core/vulkan/kernel/kernel_pipeline.hpp>
 
 #include <cstdint>
 #include <map>

@@ -1,5 +1,5 @@
 #include <core/vulkan/check.hpp>
-#include <core/vulkan/descriptor_sets.hpp>
+#include <core/vulkan/kernel/descriptor_sets.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <core/vulkan/kernel_pipeline.hpp>
+#include <core/vulkan/kernel/kernel_pipeline.hpp>
 
 #include <core/vulkan/check.hpp>
 

@@ -1,4 +1,4 @@
-#include <core/vulkan/pipeline_pool.hpp>
+#include <core/vulkan/kernel/pipeline_pool.hpp>
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/vulkan/device.hpp>
-#include <core/vulkan/kernel_pipeline.hpp>
+#include <core/vulkan/kernel/kernel_pipeline.hpp>
 
 #include <cstdint>
 #include <memory>

@@ -1,12 +1,12 @@
-#include <core/vulkan/kernel.hpp>
+#include <core/vulkan/kernel/kernel.hpp>
 
 #include <core/base/cache.hpp>
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
-#include <core/vulkan/descriptor_sets.hpp>
+#include <core/vulkan/kernel/descriptor_sets.hpp>
 #include <core/vulkan/device_impl.hpp>
-#include <core/vulkan/dispatch_pace.hpp>
+#include <core/vulkan/kernel/dispatch_pace.hpp>
 
 #include <algorithm>
 #include <array>
@@ -179,7 +179,7 @@ VkDescriptorSet Kernel::Impl::bound(std::span<const BoundBuffer> bindings) {
 
 void Kernel::Impl::run(const DispatchPart& part, std::span<const BoundBuffer> bindings,
                        std::span<const std::byte> push_constants) {
-    device.record([&](VkCommandBuffer commands) {
+    device.impl().queue->record(name, [&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle());
         if (sets) {
             const VkDescriptorSet set = bound(bindings);
@@ -196,7 +196,6 @@ void Kernel::Impl::run(const DispatchPart& part, std::span<const BoundBuffer> bi
 void Kernel::Impl::run_in_parts(const Groups& first, const Groups& groups, std::span<const BoundBuffer> bindings,
                                 std::span<const std::byte> push_constants) {
     const std::uint64_t n_groups = std::uint64_t{groups[0]} * groups[1] * groups[2];
-    double all_milliseconds = 0;
     for (std::uint64_t done = 0; done < n_groups;) {
         device.check_task();
         DispatchPart part = next_part(groups, done, pace.next(n_groups - done));
@@ -205,11 +204,8 @@ void Kernel::Impl::run_in_parts(const Groups& first, const Groups& groups, std::
         run(part, bindings, push_constants);
         const double milliseconds = milliseconds_since(start);
         pace.took(part.n_groups(), milliseconds);
-        all_milliseconds += milliseconds;
         done += part.n_groups();
     }
-    const std::lock_guard times_lock(device.impl().times_mutex);
-    device.impl().times[name] += all_milliseconds;
 }
 
 std::vector<BindingLayout> buffer_bindings(const BufferCounts& counts) {
