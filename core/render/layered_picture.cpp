@@ -20,7 +20,7 @@ struct LayeredPicture::Setting {
 
 LayeredPicture::LayeredPicture(const Device& device, Precision precision)
     : m_device(device), m_precision(precision), m_color_pass(device, precision), m_merge_pass(device, precision),
-      m_occlusion_pass(device, precision) {}
+      m_occlusion_pass(device, precision), m_flags_pass(device, precision) {}
 
 void LayeredPicture::begin(const FrameRequest& request, const PixelRows& rows, Frame& frame) {
     m_request = &request;

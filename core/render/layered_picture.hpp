@@ -7,6 +7,7 @@
 #include <core/render/device/provide_buffer.hpp>
 #include <core/render/frame.hpp>
 #include <core/render/picture/color_pass.hpp>
+#include <core/render/picture/flags_pass.hpp>
 #include <core/render/picture/merge_pass.hpp>
 #include <core/render/picture/occlusion_pass.hpp>
 #include <core/render/surface_drawing.hpp>
@@ -32,6 +33,9 @@ public:
     /** All surfaces are drawn, and no volume. */
     void finish();
 
+    /** Of all that is drawn: flags as callers know them, and counts of pixels by them. */
+    void settle_flags() const { m_flags_pass.settle(drawn(), m_frame->counts); }
+
     const Layer& drawn() const { return m_is_alone ? *m_layer : m_merge_pass.picture(); }
     std::vector<SpecialValues> special_values() const { return m_color_pass.special_values(); }
 
@@ -49,6 +53,7 @@ private:
     ColorPass m_color_pass;
     MergePass m_merge_pass;
     OcclusionPass m_occlusion_pass;
+    FlagsPass m_flags_pass;
     /** Kept from frame to frame: fresh memory costs a page fault for each page. */
     std::unique_ptr<Layer> m_layer;
     /** Of the layer's pixels. */

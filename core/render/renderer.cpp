@@ -190,6 +190,7 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
         frame.render_milliseconds += timer.wall_milliseconds();
         frame.device_milliseconds += timer.milliseconds();
     }
+    impl.picture.settle_flags();
     impl.times.upload_milliseconds = impl.data.upload_milliseconds();
     frame.special_values = impl.picture.special_values();
     for (std::size_t index = 0; index < frame.is_met.size(); ++index) {

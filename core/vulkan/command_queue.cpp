@@ -2,6 +2,7 @@
 
 #include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
+#include <core/vulkan/device_impl.hpp>
 
 #include <chrono>
 #include <utility>
@@ -14,6 +15,8 @@ namespace {
 constexpr double most_asking_milliseconds = 5;
 
 } // namespace
+
+bool collects_submissions(const Device& device) { return device.impl().queue->collects(); }
 
 CommandQueue::CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, bool asks,
                            std::string place)
@@ -66,12 +69,12 @@ void CommandQueue::begin() {
     m_is_recording = true;
 }
 
-void CommandQueue::record(const std::string& name, const Record& record) {
+void CommandQueue::record(const std::string& name, const Record& record, Took took) {
     const std::lock_guard lock(m_mutex);
     if (!m_is_recording) {
         begin();
     }
-    m_clock.begin_part(m_commands, name);
+    m_clock.begin_part(m_commands, name, std::move(took));
     record(m_commands);
     // What was written becomes visible to everything that follows: later commands and the host.
     VkMemoryBarrier barrier{};
@@ -127,9 +130,7 @@ void CommandQueue::wait() {
 }
 
 void CommandQueue::take_times(const std::string& last_name, double waited_milliseconds) {
-    for (const DeviceClock::Part& part : m_clock.parts()) {
-        m_times[part.name] += part.milliseconds;
-    }
+    m_clock.take_times(m_times);
     if (!m_clock.is_there() && !last_name.empty()) {
         m_times[last_name] += waited_milliseconds;
     }

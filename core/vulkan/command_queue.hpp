@@ -19,6 +19,9 @@
 
 namespace elvis {
 
+/** Whether commands are collected on a device before they are submitted. */
+bool collects_submissions(const Device& device);
+
 /**
  * Commands in the order in which they are recorded: each sees what those before it have written. Either each is submitted and
  * waited for at once, or they are collected until this side wants to see a result (finish): on a device of its own, a
@@ -37,9 +40,13 @@ public:
 
     bool collects() const { return m_collects; }
 
-    /** Called at once, while no other thread records or submits. `name`: whose time it is. */
+    /**
+     * `record`: called at once, while no other thread records or submits. `name`: whose time it is. `took`: called once it has
+     * been done, where the device has a clock.
+     */
     using Record = std::function<void(VkCommandBuffer)>;
-    void record(const std::string& name, const Record& record);
+    using Took = std::function<void(double milliseconds)>;
+    void record(const std::string& name, const Record& record, Took took = {});
     /** Submits what was collected, if anything was, and waits: then all of it has been done. A lost device is an Error. */
     void finish();
     /** Something was collected that is not done. */

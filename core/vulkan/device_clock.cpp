@@ -3,6 +3,7 @@
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
 
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -31,39 +32,44 @@ DeviceClock::DeviceClock(VkPhysicalDevice physical, VkDevice device, std::uint32
 DeviceClock::~DeviceClock() { vkDestroyQueryPool(m_device, m_queries, nullptr); }
 
 void DeviceClock::start(VkCommandBuffer commands) {
-    m_names.clear();
+    m_parts.clear();
     if (is_there()) {
         vkCmdResetQueryPool(commands, m_queries, 0, most_parts + 1);
     }
 }
 
-void DeviceClock::begin_part(VkCommandBuffer commands, const std::string& name) {
-    if (is_there() && m_names.size() < most_parts) {
-        const auto number = static_cast<std::uint32_t>(m_names.size());
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, m_queries, number);
-        m_names.push_back(name);
+void DeviceClock::begin_part(VkCommandBuffer commands, const std::string& name, std::function<void(double)> took) {
+    if (is_there() && m_parts.size() < most_parts) {
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, m_queries,
+                            static_cast<std::uint32_t>(m_parts.size()));
+        m_parts.push_back({name, std::move(took)});
+    } else if (is_there()) {
+        m_parts.back().took = nullptr; // It takes in what comes beyond.
     }
 }
 
 void DeviceClock::stop(VkCommandBuffer commands) const {
     if (is_there()) {
-        const auto number = static_cast<std::uint32_t>(m_names.size());
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, m_queries, number);
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, m_queries,
+                            static_cast<std::uint32_t>(m_parts.size()));
     }
 }
 
-std::vector<DeviceClock::Part> DeviceClock::parts() const {
-    std::vector<std::uint64_t> stamps(m_names.size() + 1);
-    std::vector<Part> parts;
+void DeviceClock::take_times(std::map<std::string, double>& times) {
+    std::vector<std::uint64_t> stamps(m_parts.size() + 1);
     if (!is_there() || vkGetQueryPoolResults(m_device, m_queries, 0, static_cast<std::uint32_t>(stamps.size()),
                                              stamps.size() * sizeof stamps[0], stamps.data(), sizeof stamps[0],
                                              VK_QUERY_RESULT_64_BIT) != VK_SUCCESS) {
-        return parts;
+        return;
     }
-    for (std::size_t i = 0; i < m_names.size(); ++i) {
-        parts.push_back({m_names[i], 1e-6 * m_period * static_cast<double>((stamps[i + 1] - stamps[i]) & m_mask)});
+    for (std::size_t i = 0; i < m_parts.size(); ++i) {
+        const double milliseconds = 1e-6 * m_period * static_cast<double>((stamps[i + 1] - stamps[i]) & m_mask);
+        times[m_parts[i].name] += milliseconds;
+        if (m_parts[i].took) {
+            m_parts[i].took(milliseconds);
+        }
     }
-    return parts;
+    m_parts.clear();
 }
 
 std::optional<double> busy_milliseconds(const Device& device) { return device.impl().queue->busy_milliseconds(); }

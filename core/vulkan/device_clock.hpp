@@ -7,6 +7,7 @@
 #include <vulkan/vulkan.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,16 +30,11 @@ public:
     DeviceClock& operator=(const DeviceClock&) = delete;
 
     void start(VkCommandBuffer commands);
-    /** From here on, until the next one. */
-    void begin_part(VkCommandBuffer commands, const std::string& name);
+    /** From here on, until the next one. `took`: called by take_times(). */
+    void begin_part(VkCommandBuffer commands, const std::string& name, std::function<void(double milliseconds)> took);
     void stop(VkCommandBuffer commands) const;
-
-    struct Part {
-        std::string name;
-        double milliseconds = 0;
-    };
-    /** What the parts took, once they are over; none where the device has no clock. */
-    std::vector<Part> parts() const;
+    /** Once the parts are over: adds what they took, in milliseconds by name; nothing where the device has no clock. */
+    void take_times(std::map<std::string, double>& times);
     bool is_there() const { return m_queries != VK_NULL_HANDLE; }
 
 private:
@@ -47,8 +43,12 @@ private:
     /** Bits of a timestamp that count, and the nanoseconds of one. */
     std::uint64_t m_mask = 0;
     double m_period = 0;
+    struct Part {
+        std::string name;
+        std::function<void(double)> took;
+    };
     /** Begun since the start. */
-    std::vector<std::string> m_names;
+    std::vector<Part> m_parts;
 };
 
 /** All submissions of a device so far; nothing where it has no clock. */

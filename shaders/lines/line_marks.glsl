@@ -49,18 +49,30 @@ void core_doubt_lines(bool is_doubtful, inout core_line_marks lines) {
     lines.has_mesh_line = lines.has_mesh_line && !is_doubtful;
 }
 
-// What is not decided, as bits of a list's word. `is_cut_short`: more would have been looked at.
-uint core_undecided_lines(const core_line_marks lines, bool is_cut_short) {
-    const bool is_contour_undecided = !lines.has_contour && (lines.is_contour_open || (lines.wants_contour && is_cut_short));
-    const bool is_mesh_undecided = !lines.has_mesh_line && (lines.is_mesh_open || (lines.wants_mesh && is_cut_short));
-    return (is_contour_undecided ? CORE_LIST_CONTOUR : 0u) | (is_mesh_undecided ? CORE_LIST_MESH_LINE : 0u);
+// What is not decided. Two truths, and no word of two bits that is compared with zero: NVIDIA's driver 580.159 was seen to lose all pixels
+// of which both were open.
+struct core_undecided {
+    bool is_contour, is_mesh;
+};
+
+// `is_cut_short`: more would have been looked at.
+core_undecided core_undecided_lines(const core_line_marks lines, bool is_cut_short) {
+    return core_undecided(!lines.has_contour && (lines.is_contour_open || (lines.wants_contour && is_cut_short)),
+                          !lines.has_mesh_line && (lines.is_mesh_open || (lines.wants_mesh && is_cut_short)));
+}
+
+bool core_is_any(const core_undecided open) { return open.is_contour || open.is_mesh; }
+
+// Of a list.
+uint core_word_of(uint pixel, const core_undecided open) {
+    return pixel | (open.is_contour ? CORE_LIST_CONTOUR : 0u) | (open.is_mesh ? CORE_LIST_MESH_LINE : 0u);
 }
 
 // `undecided`: what stays so for good.
-void core_mark_lines(uint pixel, const core_line_marks lines, uint undecided) {
+void core_mark_lines(uint pixel, const core_line_marks lines, const core_undecided undecided) {
     const uint flags = (lines.has_contour ? CORE_FLAG_CONTOUR : 0u) | (lines.has_mesh_line ? CORE_FLAG_MESH_LINE : 0u) |
-                       ((undecided & CORE_LIST_CONTOUR) != 0u ? CORE_FLAG_CONTOUR_UNDECIDED : 0u) |
-                       ((undecided & CORE_LIST_MESH_LINE) != 0u ? CORE_FLAG_MESH_UNDECIDED : 0u) |
+                       (undecided.is_contour ? CORE_FLAG_CONTOUR_UNDECIDED : 0u) |
+                       (undecided.is_mesh ? CORE_FLAG_MESH_UNDECIDED : 0u) |
                        (lines.is_estimated ? CORE_FLAG_ESTIMATED : 0u);
     if (flags != 0u) {
         core_marks[pixel].flags |= flags;

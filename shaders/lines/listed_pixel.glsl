@@ -80,13 +80,13 @@ void core_store_or_relist(core_listed_pixel listed, core_line_search search) {
     const core_cut_square square =
         core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, elvis_real(0.5LF)));
     core_doubt_lines(core_may_end_near(listed.pixel, square, listed.tangent), search.lines);
-    const uint open = core_undecided_lines(search.lines, is_cut_short);
+    const core_undecided open = core_undecided_lines(search.lines, is_cut_short);
     const bool is_last = core_open_count == 0u;
-    if (listed.is_pixel && !is_last && open != 0u) {
-        core_open[atomicAdd(core_counts[core_open_count], 1u)] = listed.pixel | open;
+    if (listed.is_pixel && !is_last && core_is_any(open)) {
+        core_open[atomicAdd(core_counts[core_open_count], 1u)] = core_word_of(listed.pixel, open);
     }
     if (listed.is_pixel) {
-        core_mark_lines(listed.pixel, search.lines, is_last ? open : 0u);
+        core_mark_lines(listed.pixel, search.lines, core_undecided(is_last && open.is_contour, is_last && open.is_mesh));
     }
     core_count(0u, search.n_evaluations);
 }

@@ -98,12 +98,12 @@ void core_settle(uvec2 at, uint pixel) {
     lines.is_contour_open = lines.wants_contour && !(is_filled && test.is_excluded);
     lines.is_estimated = !is_outside && (is_estimated || test.is_estimated);
     core_doubt_lines(may_end_near, lines);
-    core_mark_lines(pixel, lines, 0u);
-    const uint open = core_undecided_lines(lines, false);
-    if (open != 0u) {
+    core_mark_lines(pixel, lines, core_undecided(false, false));
+    const core_undecided open = core_undecided_lines(lines, false);
+    if (core_is_any(open)) {
         core_places[pixel].class_and_face |=
             (square.enters ? CORE_PLACE_ENTERS : 0u) | (is_filled ? CORE_PLACE_FILLED : 0u);
-        core_list[atomicAdd(core_counts[1], 1u)] = pixel | open;
+        core_list[atomicAdd(core_counts[1], 1u)] = core_word_of(pixel, open);
     }
 }
 

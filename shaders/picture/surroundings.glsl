@@ -3,7 +3,8 @@
 
 #include "picture/tangent_square.glsl"
 
-// How far neighbours may lie from the tangent plane of a smooth surface, relative to their distance.
+// How far neighbours may lie from the tangent plane of a smooth surface, relative to their distance, and to twice that at which their
+// rays meet the plane: seen edge on, what lies far in front is near the plane, too.
 #define CORE_SMOOTH elvis_real(0.1LF)
 
 elvis_vec3 core_shown_normal(uint pixel) {
@@ -15,6 +16,13 @@ elvis_real core_shown_t(uint pixel, core_cut_ray ray) { return core_samples[pixe
 
 core_tangent core_shown_tangent(uint pixel, core_cut_ray ray) {
     return core_tangent(ray.base + core_shown_t(pixel, ray) * ray.direction, core_shown_normal(pixel));
+}
+
+// The square of the distance from `tangent.point` at which a ray meets the plane; zero if it does not. `base`: relative to that point.
+elvis_real core_square_to_plane(core_tangent tangent, elvis_vec3 base, elvis_vec3 ray) {
+    const elvis_real slope = dot(tangent.normal, ray), t = -dot(tangent.normal, base) / slope;
+    const elvis_vec3 point = base + t * ray;
+    return slope < elvis_real(0) && t + core_reference.w > elvis_real(0) ? dot(point, point) : elvis_real(0);
 }
 
 struct core_surroundings {
@@ -34,7 +42,7 @@ core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_
     around.may_be_hidden = false;
     elvis_real turning = elvis_real(0);
     const core_cut_ray own = core_cut_ray_at(elvis_real(place.x), elvis_real(place.y));
-    const elvis_vec3 base = own.base - tangent.point, direction = own.direction;
+    const elvis_vec3 own_base = own.base - tangent.point, direction = own.direction;
     const ivec2 last = ivec2(core_size) - 1;
     for (uint i = 0u; i < (is_pixel ? 8u : 0u); ++i) {
         const uint k = i < 4u ? i : i + 1u;
@@ -45,9 +53,10 @@ core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_
         const elvis_real right = elvis_real(there.x - int(place.x)), below = elvis_real(there.y - int(place.y));
         const elvis_vec3 ray = direction + right * core_direction_column.xyz + below * core_direction_row.xyz;
         const elvis_real t = core_samples[other].depth / length(ray) - core_reference.w;
-        const elvis_vec3 to_other = base + right * core_base_column.xyz + below * core_base_row.xyz + t * ray;
+        const elvis_vec3 base = own_base + right * core_base_column.xyz + below * core_base_row.xyz, to_other = base + t * ray;
         const elvis_real height = dot(tangent.normal, to_other), square = dot(to_other, to_other);
-        const bool is_far = height * height > CORE_SMOOTH * CORE_SMOOTH * square;
+        const elvis_real expected = elvis_real(4) * core_square_to_plane(tangent, base, ray);
+        const bool is_far = height * height > CORE_SMOOTH * CORE_SMOOTH * min(square, expected);
         const bool is_near = is_seen && !is_far;
         around.is_smooth = around.is_smooth && (other == pixel || is_near);
         around.may_be_hidden = around.may_be_hidden || (other != pixel && is_seen && is_far && height > elvis_real(0));

@@ -34,7 +34,7 @@ layout(push_constant) uniform core_parameters {
 #define CORE_RAYS_BINDING 3
 #else
 #define CORE_GROUPS_BINDING 3
-#include "tiles/ray_group.glsl"
+#include "tiles/listed_group.glsl"
 #endif
 #include "segments/source_ray.glsl"
 #include "arithmetic/driver_limit.glsl"
@@ -121,7 +121,7 @@ void main() {
 #else
     const uvec2 place = core_group_pixel(core_first_group, core_size.x);
 #endif
-    const bool is_pixel = place.x < core_size.x;
+    const bool is_pixel = place.x < core_size.x && place.y < core_size.y;
     const uint pixel = is_pixel ? place.y * core_size.x + place.x : 0u;
     core_walk_state walk = core_states[pixel].walk;
     const bool is_mine = is_pixel && walk.status == CORE_RAY_SEEKS;

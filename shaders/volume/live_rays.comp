@@ -3,6 +3,7 @@
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
+#include "tiles/ray_group.glsl"
 #include "volume/volume_state.glsl"
 
 layout(set = 0, binding = 0, std430) buffer core_states_block { core_volume_state core_states[]; };
@@ -37,11 +38,11 @@ void main() {
     }
     barrier();
     for (uint i = first; i < end; ++i) {
-        const uint group = core_groups[i], tile = group % tiles_a_row, row = group / tiles_a_row;
-        const bool has_starts = core_has_starts[row / CORE_TILE_HEIGHT * tiles_a_row + tile] != 0u;
-        const uint column = tile * CORE_TILE_WIDTH + lane;
-        const bool is_pixel = column < core_size.x;
-        const uint pixel = is_pixel ? row * core_size.x + column : 0u;
+        const uvec2 place = core_pixel_in_group(core_groups[i], lane, core_size.x);
+        const bool is_pixel = place.x < core_size.x && place.y < core_size.y;
+        const uint pixel = is_pixel ? place.y * core_size.x + place.x : 0u;
+        const uint tile = place.y / CORE_TILE_HEIGHT * tiles_a_row + place.x / CORE_TILE_WIDTH;
+        const bool has_starts = is_pixel && core_has_starts[tile] != 0u;
         const uint status = core_states[pixel].walk.status, global_element = core_states[pixel].walk.global_element;
         const bool has_sought = status == CORE_RAY_HAS_SOUGHT;
         const bool ends = core_seeks != 0u ? status == CORE_RAY_SEEKS && !has_starts : has_sought && global_element == CORE_NO_ELEMENT;

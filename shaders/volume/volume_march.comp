@@ -40,7 +40,7 @@ layout(push_constant) uniform core_parameters {
 
 #define CORE_CENTRE core_reference.xyz
 #define CORE_GROUPS_BINDING 7
-#include "tiles/ray_group.glsl"
+#include "tiles/listed_group.glsl"
 #include "arithmetic/driver_limit.glsl"
 // Where elements are more curved, segments are estimated.
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
@@ -93,7 +93,7 @@ bool core_has_time(uint n_elements, uint work) { return n_elements < CORE_MOST_E
 
 void main() {
     const uvec2 place = core_group_pixel(core_first_group, core_size.x);
-    const bool is_pixel = place.x < core_size.x;
+    const bool is_pixel = place.x < core_size.x && place.y < core_size.y;
     const uint pixel = is_pixel ? place.y * core_size.x + place.x : 0u;
     const core_cut_column column = core_cut_begin(elvis_real(place.x));
     const core_traced_ray ray = core_traced_ray_of(core_pixel_ray(column, elvis_real(place.y)), elvis_real(core_extent));

@@ -159,6 +159,33 @@ TEST_CASE("Beyond the diagonal of a triangle its field makes no contour") {
     CHECK(tally.far + tally.near == 0);
 }
 
+TEST_CASE("A face that is seen edge on shows no line where another one far in front begins") {
+    const auto block = [](const oracle::Vector& lower, const oracle::Vector& upper) -> oracle::Map {
+        return [=](const oracle::Vector& xi) -> oracle::Vector {
+            return lower + 0.5 * (upper - lower).cwiseProduct(oracle::Vector::Ones() + xi);
+        };
+    };
+    const TemporaryFile file("blocks.h5");
+    std::vector<native::Face> faces;
+    for (const std::int64_t element : {0, 1})
+        for (std::int32_t face = 0; face < 6; ++face)
+            faces.push_back({element, -1, face, -1, -1});
+    write_hexahedra(file.path(), {block({0, -2, -1}, {9, 2, 0}), block({0, 0.1, 0.2}, {0.2, 2, 2})}, faces);
+    FrameRequest request = request_from({-3, 0, 0.7}, {2, 0.13, 0.2});
+    request.camera.up = {0, 0, 1};
+    request.camera.field_of_view = 25;
+    Surface surface = colored_surface();
+    surface.geometry = BoundaryFaces{};
+    surface.contours.emplace();
+    for (int i = 0; i < 200; ++i)
+        surface.contours->values.push_back(0.0501 * i);
+    request.surfaces = {surface};
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const Tally tally = judge_picture(file.path(), request, precision);
+    CHECK(tally.lines > 100);
+    CHECK(tally.far + tally.near == 0);
+}
+
 TEST_CASE("Surfaces through the eye are not seen, and are no reason for a flag") {
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
     const TemporaryFile file("bulge.h5");

@@ -10,6 +10,7 @@ namespace {
 const Choice pixel_group{"CORE_GROUP_SIZE", {"256u"}};
 const Choice width{"CORE_TILE_WIDTH", {"8u"}};
 const Choice height{"CORE_TILE_HEIGHT", {"16u"}};
+const Choice group_width{"CORE_GROUP_WIDTH", {"4u"}};
 const Choice element_class{"CORE_CLASS", {"3u"}};
 const Choice no_or_yes(const char* name) { return {name, {"0", "1"}}; }
 const Choice yes(const char* name) { return {name, {"1"}}; }
@@ -24,16 +25,16 @@ const std::vector<std::string> chains{"core_nodes", "core_links", "core_elements
 const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_cones", "core_elements"};
 
 void add_pixel_kernels(std::vector<KernelUse>& uses) {
-    for (const char* kernel :
-         {"picture/blend", "isosurface/list_open_pixels", "picture/merge", "picture/occlude", "picture/order_layers",
-          "picture/take_layer", "volume/volume_begin", "volume/volume_finish", "volume/volume_transparency"}) {
+    for (const char* kernel : {"picture/blend", "isosurface/list_open_pixels", "picture/merge", "picture/occlude",
+                               "picture/order_layers", "picture/settle_flags", "picture/take_layer", "volume/volume_begin",
+                               "volume/volume_finish", "volume/volume_transparency"}) {
         uses.push_back({.kernel = kernel, .choices = {pixel_group}});
     }
     uses.push_back(
         {.kernel = "picture/color",
          .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES"), no_or_yes("CORE_IS_CLIPPED")}});
     uses.push_back({.kernel = "picture/list_pixels", .choices = {pixel_group, width, height}});
-    uses.push_back({.kernel = "volume/live_rays", .choices = {width, height, {"CORE_GROUPS", {"16u"}}}});
+    uses.push_back({.kernel = "volume/live_rays", .choices = {width, height, group_width, {"CORE_GROUPS", {"16u"}}}});
     uses.push_back({.kernel = "cut_surface/surface_outside", .choices = {pixel_group, no_or_yes("CORE_ON_PLANE")}});
 }
 
@@ -199,8 +200,11 @@ void add_isosurface_kernels(std::vector<KernelUse>& uses) {
 void add_ray_kernels(std::vector<KernelUse>& uses) {
     for (const bool is_curved : {false, true}) {
         const std::vector<std::string>& buffers = is_curved ? curved_chains : chains;
-        const std::vector<Choice> common{
-            width, height, {"CORE_LEAF_WORD", {"index"}}, is_curved ? yes("CORE_HAS_CURVED") : no("CORE_HAS_CURVED")};
+        const std::vector<Choice> common{width,
+                                         height,
+                                         group_width,
+                                         {"CORE_LEAF_WORD", {"index"}},
+                                         is_curved ? yes("CORE_HAS_CURVED") : no("CORE_HAS_CURVED")};
         const auto use = [&](const char* kernel, Element element, const std::vector<Choice>& more) {
             KernelUse made{.kernel = kernel, .element = element, .buffers = buffers, .choices = common};
             made.choices.insert(made.choices.end(), more.begin(), more.end());

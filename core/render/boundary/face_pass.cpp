@@ -10,7 +10,6 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t tile_height = 16;
 /** Words of a tile's list: shaders/tiles/ray_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
@@ -54,8 +53,9 @@ const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draw
 }
 
 FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet& faces)
-    : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)), m_listed(device),
-      m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)) {
+    : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)),
+      m_tile_height(tile_height_on(device)), m_listed(device), m_frame(view_buffer(device, data.precision())),
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const FaceSet::ClassFaces& own = faces.of_class(index);
         if (own.n_faces == 0) {
@@ -66,7 +66,7 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         request.precision = m_precision;
         request.buffers = {{"core_nodes", own.nodes.get()}};
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
-                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(m_tile_height) + "u"},
                            {"CORE_LISTS_TILES", "1"}};
         request.name = "ray_tiles";
         request.kernel = "tiles/ray_tiles.comp";
@@ -96,13 +96,13 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                     const LayerTarget& target, FrameCounts& counts) {
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
+    const std::uint32_t tile_rows = divided_up(layer.height, m_tile_height);
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
-    const TileRows wanted = target.tile_rows(tile_height);
+    const TileRows wanted = target.tile_rows(m_tile_height);
     const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const Buffer& list = provide_buffer(m_list, m_device, std::uint64_t{layer.width} * layer.height * sizeof(std::uint32_t));
     write_view(m_frame, m_precision, view);
-    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
+    const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, pixels_a_dispatch / (m_tile_width * m_tile_height));
     // The last one is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     const Buffer& places = target.places ? *target.places : layer.normals;
@@ -138,11 +138,12 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
         draw_tiles(Draws::pixels, ranges.shallow);
         draw_tiles(Draws::deep_pixels, ranges.deep);
         const std::uint32_t n_careful = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts];
-        in_batches(n_careful, careful_pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-            parameters.first = first;
-            kernels.provide(m_device, Draws::careful)
-                .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
-        });
+        in_batches(n_careful, items_a_dispatch(m_device, careful_pixels_a_dispatch, group_size),
+                   [&](std::uint32_t first, std::uint32_t count) {
+                       parameters.first = first;
+                       kernels.provide(m_device, Draws::careful)
+                           .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+                   });
         add_pass_counts(m_counts, counts);
         counts.careful_pixels += n_careful;
     }

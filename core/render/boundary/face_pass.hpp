@@ -46,7 +46,7 @@ private:
 
     const Device& m_device;
     Precision m_precision;
-    std::uint32_t m_tile_width;
+    std::uint32_t m_tile_width, m_tile_height;
     std::vector<ClassKernels> m_kernels;
     TileList m_listed;
     Buffer m_frame;

@@ -12,7 +12,6 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t tile_height = 16;
 /** Nodes of a tile and their number: shaders/tiles/node_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 32;
 constexpr std::uint32_t tiles_group_size = 32;
@@ -59,14 +58,15 @@ constexpr std::uint32_t listed_a_dispatch = 1u << 15;
 CutPlanePass::CutPlanePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, bool with_lines,
                            const KernelEdit& edit)
     : m_device(device), m_data(data), m_precision(data.precision()), m_with_lines(with_lines),
-      m_tile_width(tile_width_on(device)), m_listed(device), m_frame(view_buffer(device, data.precision())),
-      m_counts(device, n_pass_counts * sizeof(std::uint32_t)), m_others(device, data), m_open(device, volume, data, true) {
+      m_tile_width(tile_width_on(device)), m_tile_height(tile_height_on(device)), m_listed(device),
+      m_frame(view_buffer(device, data.precision())), m_counts(device, n_pass_counts * sizeof(std::uint32_t)),
+      m_others(device, data), m_open(device, volume, data, true) {
     compile(volume, data, edit);
 }
 
 void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data, const KernelEdit& edit) {
     const std::vector<std::pair<std::string, std::string>> tile_size = {
-        {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"}, {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
+        {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"}, {"CORE_TILE_HEIGHT", std::to_string(m_tile_height) + "u"}};
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -157,7 +157,7 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
                                std::uint32_t n_isovalues, const LayerTarget& target, FrameCounts& counts) {
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
+    const std::uint32_t tile_rows = divided_up(layer.height, m_tile_height);
     provide_buffer(kernels.tile_nodes, m_device, std::uint64_t{tiles_a_row} * tile_rows * tile_stride * sizeof(std::uint32_t));
     const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows};
     const Buffer& listed = m_listed.begin(tiles.n_tiles);
@@ -176,7 +176,7 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
                                                     &m_others.begin(layer.n_pixels(), component),
                                                     open,
                                                     wanted_reaches};
-    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
+    const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, pixels_a_dispatch / (m_tile_width * m_tile_height));
     const TileList::Range range = m_listed.read().shallow;
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
         const PixelsParameters pixels{layer.width,
@@ -208,18 +208,20 @@ void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent&
     counts.refined_pixels += n_listed;
     const std::array<const Buffer*, 6> bindings = {&m_frame,  &*kernels.tile_nodes, &*m_list,
                                                    &m_counts, &layer.marks,         &*m_isovalues};
-    in_batches(n_listed, listed_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-        const LinesParameters parameters{layer.width,
-                                         tiles_a_row,
-                                         first,
-                                         count,
-                                         component.first(),
-                                         component.end(),
-                                         static_cast<std::uint32_t>(lines.isovalues.size()),
-                                         lines.mesh_lines ? 1u : 0u,
-                                         lines.subdivisions};
-        kernels.lines->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, lines_group_size));
-    });
+    in_batches(n_listed, items_a_dispatch(m_device, listed_a_dispatch, lines_group_size),
+               [&](std::uint32_t first, std::uint32_t count) {
+                   const LinesParameters parameters{layer.width,
+                                                    tiles_a_row,
+                                                    first,
+                                                    count,
+                                                    component.first(),
+                                                    component.end(),
+                                                    static_cast<std::uint32_t>(lines.isovalues.size()),
+                                                    lines.mesh_lines ? 1u : 0u,
+                                                    lines.subdivisions};
+                   kernels.lines->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                           divided_up(count, lines_group_size));
+               });
 }
 
 } // namespace elvis

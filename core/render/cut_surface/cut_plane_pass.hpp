@@ -60,7 +60,7 @@ private:
     const DeviceVolume& m_data;
     Precision m_precision;
     bool m_with_lines;
-    std::uint32_t m_tile_width;
+    std::uint32_t m_tile_width, m_tile_height;
     std::vector<ClassKernels> m_kernels;
     std::optional<ComposedKernel> m_list_pixels;
     TileList m_listed;

@@ -112,10 +112,11 @@ void OpenPoints::dispatch(const ComposedKernel& kernel, const Buffer& output, co
         }
     }
     PointParameters parameters(surface.target, surface.number, surface.component, surface.most_error);
-    in_batches(n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-        parameters.first = first;
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
-    });
+    in_batches(n_listed, items_a_dispatch(m_device, pixels_a_dispatch, group_size),
+               [&](std::uint32_t first, std::uint32_t count) {
+                   parameters.first = first;
+                   kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+               });
 }
 
 } // namespace elvis

@@ -53,10 +53,11 @@ void OtherValues::compare(std::uint32_t element_class, const ShownComponent& com
                           FrameCounts& counts) {
     const std::uint32_t n_listed = component.is_discontinuous ? m_list->read_items<std::uint32_t>(1)[0] : 0;
     const std::array<const Buffer*, 3> bindings = {&layer.samples, &layer.marks, &*m_list};
-    in_batches(n_listed, entries_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-        const Parameters parameters{first, component.first(), component.end(), component.value_tolerance};
-        kernel(element_class).dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
-    });
+    in_batches(
+        n_listed, items_a_dispatch(m_device, entries_a_dispatch, group_size), [&](std::uint32_t first, std::uint32_t count) {
+            const Parameters parameters{first, component.first(), component.end(), component.value_tolerance};
+            kernel(element_class).dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+        });
     counts.field_evaluations += std::uint64_t{n_listed} * (component.end() - component.first());
 }
 

@@ -109,7 +109,8 @@ std::uint32_t SurfacePass::find_hits(const Picture& picture, std::uint32_t round
     const std::array<const Buffer*, 7> bindings = {
         &*m_hits, &layer.normals, &*m_bending, &*m_boxes, &layer.marks, &m_hit_counts, beyond != nullptr ? beyond : &m_nothing};
     const std::uint32_t tile_pixels = tile_width_on(m_device) * surface_tile_height;
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (picture.tiles_a_row * tile_pixels));
+    const std::uint32_t rows_a_dispatch =
+        items_a_dispatch(m_device, std::max(1u, pixels_a_dispatch / (picture.tiles_a_row * tile_pixels)));
     m_hit_counts.fill(0);
     for (std::uint32_t first_row = picture.wanted.first; first_row < picture.wanted.end; first_row += rows_a_dispatch) {
         const HitsParameters hits{layer.width, layer.height, first_row, picture.surface, round, beyond != nullptr ? 1u : 0u};
@@ -136,7 +137,8 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
     const std::array<const Buffer*, 11> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,  &*m_hits,
                                                     &others,  &places,        &listed,   open,      wanted_reaches};
     const TileList::Range range = m_listed.read().shallow;
-    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height);
+    const std::uint32_t tiles_a_dispatch =
+        items_a_dispatch(m_device, pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height));
     PointParameters pixels(picture.target, picture.surface, picture.component, static_cast<float>(picture.most_error));
     in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
         pixels.first = range.first + first;

@@ -19,7 +19,7 @@ struct Parameters {
 } // namespace
 
 PointValuePass::PointValuePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_counts(device, sizeof(std::uint32_t)) {
+    : m_device(device), m_counts(device, sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -41,10 +41,11 @@ void PointValuePass::draw(const ShownComponent& component, const LayerTarget& ta
     const auto n_pixels = static_cast<std::uint32_t>(target.layer.n_pixels());
     const std::array<const Buffer*, 4> bindings = {&target.layer.samples, &target.layer.marks, target.places, &m_counts};
     for (const std::unique_ptr<ComposedKernel>& kernel : m_kernels) {
-        in_batches(n_pixels, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-            const Parameters parameters{first, n_pixels, component.first(), component.end()};
-            kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
-        });
+        in_batches(n_pixels, items_a_dispatch(m_device, pixels_a_dispatch, group_size),
+                   [&](std::uint32_t first, std::uint32_t count) {
+                       const Parameters parameters{first, n_pixels, component.first(), component.end()};
+                       kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+                   });
     }
     counts.field_evaluations += m_counts.read_items<std::uint32_t>(1)[0];
 }

@@ -22,6 +22,7 @@ public:
     void draw(const ShownComponent& component, const LayerTarget& target, FrameCounts& counts);
 
 private:
+    const Device& m_device;
     /** Of the classes that have elements. */
     std::vector<std::unique_ptr<ComposedKernel>> m_kernels;
     Buffer m_counts;

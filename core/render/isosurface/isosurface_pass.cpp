@@ -11,8 +11,6 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t tile_height = 16;
-/** Rows of an invocation: all its pixels share the iterations that drivers grant. */
-constexpr std::uint32_t rows_an_invocation = 4;
 /** Of a tile's list, and its words: shaders/tiles/ray_tiles.glsl. */
 constexpr std::uint32_t tile_capacity = 127;
 constexpr std::uint32_t tile_stride = 2 * tile_capacity + 2;
@@ -67,8 +65,9 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
 
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)),
-      m_extent(static_cast<float>(diagonal_of(data.bounds()))), m_isovalue_set(device, volume, data), m_projection(device),
-      m_listed(device), m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)) {
+      m_rows(rows_an_invocation(device, 4, 1)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
+      m_isovalue_set(device, volume, data), m_projection(device), m_listed(device),
+      m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -82,7 +81,7 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
         data.add_field(request, index, true);
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                           {"CORE_ROWS", std::to_string(rows_an_invocation) + "u"},
+                           {"CORE_ROWS", std::to_string(m_rows) + "u"},
                            {"CORE_TILE_CAPACITY", std::to_string(tile_capacity) + "u"},
                            {"CORE_TESTS_ISOVALUES", "1"},
                            {"CORE_CLASS", std::to_string(index) + "u"}};
@@ -161,7 +160,7 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
     const TileRows wanted = target.tile_rows(tile_height);
     const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
-    const std::uint32_t tiles_a_dispatch = pixels_a_dispatch / (m_tile_width * tile_height);
+    const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, pixels_a_dispatch / (m_tile_width * tile_height));
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
@@ -195,7 +194,7 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
             in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 parameters.first_listed = range.first + first;
                 kernels.provide(m_device, role, m_values.size() == 1)
-                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / rows_an_invocation);
+                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / m_rows);
             });
         };
         const TileList::Ranges ranges = m_listed.read();

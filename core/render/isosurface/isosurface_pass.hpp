@@ -63,6 +63,8 @@ private:
     const Device& m_device;
     Precision m_precision;
     std::uint32_t m_tile_width;
+    /** Of an invocation: all its pixels share the iterations that drivers grant. */
+    std::uint32_t m_rows;
     /** The diagonal of the volume's bounds. */
     float m_extent;
     IsovalueSet m_isovalue_set;

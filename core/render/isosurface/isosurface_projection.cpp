@@ -77,18 +77,19 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
                                                     &layer.marks,          &*m_list,         &picture.isovalues, &beyond,
                                                     picture.target.places, &picture.bending, &picture.last};
     m_counts.fill(0);
-    in_batches(m_n_listed, pixels_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-        const Parameters parameters{layer.width,
-                                    first,
-                                    first + count,
-                                    surface,
-                                    picture.component.first,
-                                    picture.component.end,
-                                    picture.n_isovalues,
-                                    picture.target.beyond ? 1u : 0u,
-                                    picture.round};
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
-    });
+    in_batches(m_n_listed, items_a_dispatch(m_device, pixels_a_dispatch, group_size),
+               [&](std::uint32_t first, std::uint32_t count) {
+                   const Parameters parameters{layer.width,
+                                               first,
+                                               first + count,
+                                               surface,
+                                               picture.component.first,
+                                               picture.component.end,
+                                               picture.n_isovalues,
+                                               picture.target.beyond ? 1u : 0u,
+                                               picture.round};
+                   kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+               });
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     counts.field_evaluations += found[evaluations];
     counts.certified_segments += found[certified];

@@ -208,7 +208,8 @@ void LinePass::settle(const Picture& picture) const {
     }
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
     const TileRows wanted = picture.target.tile_rows(tile_height);
-    const std::uint32_t rows_a_dispatch = std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height));
+    const std::uint32_t rows_a_dispatch =
+        items_a_dispatch(m_device, std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height)));
     for (const ClassKernels& of_class : picture.kernels) {
         for (std::uint32_t first_row = wanted.first; first_row < wanted.end; first_row += rows_a_dispatch) {
             const SettleParameters parameters{layer.width,
@@ -291,7 +292,8 @@ void LinePass::look_closer(const Picture& picture, std::uint32_t n_listed, bool 
         const bool is_last = round + 1 == rounds.size();
         const Buffer* to = from == &*m_open ? &*m_still_open : &*m_open;
         const std::uint32_t open_count = is_last ? 0 : 2 + round;
-        const std::uint32_t most_a_dispatch = round == 0 ? listed_a_dispatch : open_a_dispatch;
+        const std::uint32_t most_a_dispatch =
+            items_a_dispatch(m_device, round == 0 ? listed_a_dispatch : open_a_dispatch, group_width);
         look_closer(picture, rounds[round], {*from, *to, n_left, most_a_dispatch, open_count, is_closed});
         from = to;
         n_left = is_last ? 0 : n_of(open_count);

@@ -9,40 +9,14 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/** Flags as callers know them, and their counts. */
-void settle_flags(std::vector<Mark>& marks, FrameCounts& counts) {
-    for (Mark& mark : marks) {
-        // The upper half: of surfaces that are not seen there (shaders/picture/merge.comp).
-        mark.flags = (mark.flags | (mark.flags >> 16u)) & 0xffffu;
-        // One element may decide what another leaves open.
-        mark.flags &= (mark.flags & pixel_flag::contour) != 0 ? ~pixel_flag::contour_undecided : ~0u;
-        mark.flags &= (mark.flags & pixel_flag::mesh_line) != 0 ? ~pixel_flag::mesh_line_undecided : ~0u;
-        const auto has = [&mark](std::uint32_t flag) { return (mark.flags & flag) != 0 ? 1u : 0u; };
-        counts.hit_pixels += mark.surface() != 0 ? 1 : 0;
-        counts.undecided_pixels += has(pixel_flag::undecided);
-        counts.overlap_pixels += has(pixel_flag::overlap);
-        counts.nan_pixels += has(pixel_flag::nan);
-        counts.work_limit_pixels += has(pixel_flag::work_limit);
-        counts.estimated_pixels += has(pixel_flag::estimated);
-        counts.isosurface_pixels += has(pixel_flag::isosurface);
-        counts.undecided_isosurface_pixels += has(pixel_flag::isosurface_undecided);
-        counts.inexact_volume_pixels += has(pixel_flag::volume_tolerance);
-        counts.contour_pixels += has(pixel_flag::contour);
-        counts.undecided_contour_pixels += has(pixel_flag::contour_undecided);
-        counts.mesh_line_pixels += has(pixel_flag::mesh_line);
-        counts.undecided_mesh_line_pixels += has(pixel_flag::mesh_line_undecided);
-    }
-}
-
 template <class Real> void read_as(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) {
     const std::size_t n_pixels = frame.counts.pixels;
     const std::vector<Real> colors = from.colors.read_items<Real>(4 * n_pixels);
     frame.color.assign(colors.begin(), colors.end());
-    std::vector<Mark> marks = from.marks.read_items<Mark>(n_pixels);
-    settle_flags(marks, frame.counts);
     if (!with_buffers) {
         return;
     }
+    const std::vector<Mark> marks = from.marks.read_items<Mark>(n_pixels);
     const std::vector<Sample<Real>> samples = from.samples.read_items<Sample<Real>>(n_pixels);
     const std::vector<Real> normals = from.normals.read_items<Real>(3 * n_pixels);
     frame.value.assign(n_pixels, not_a_number);

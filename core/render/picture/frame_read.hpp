@@ -20,7 +20,7 @@ struct SurfaceFacts {
 };
 
 /**
- * Reads colours and counts of flags, and with `with_buffers` values, depths, normals, elements and flags, into `frame`, whose
+ * Reads colours, and with `with_buffers` values, depths, normals, elements and flags, into `frame`, whose
  * size and number of pixels are set. `facts`: by surface.
  */
 void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers,

@@ -146,7 +146,9 @@ std::vector<std::vector<bool>> SegmentPass::elements_with(const std::array<doubl
 template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, SegmentCounts& counts, const Take& take) const {
     const std::uint32_t tiles_a_row = kernels.search.tiles_a_row(rays.walk.width);
     AllRayGroups all;
-    const RayGroups groups = rays.walk.given ? RayGroups{} : all.of(m_device, tiles_a_row, rays.walk.height);
+    const RayGroups groups = rays.walk.given
+                                 ? RayGroups{}
+                                 : all.of(m_device, GroupShape(kernels.search.tile_width()), rays.walk.width, rays.walk.height);
     counts.seek_evaluations += kernels.search.start_at_eyes(rays.walk, groups);
     bool is_open = true;
     for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {

@@ -64,6 +64,7 @@ KernelRequest WalkSearch::request(const Range& range, const char* kernel) const 
     request.buffers.push_back(m_data.elements(range.element_class));
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                       GroupShape(m_tile_width).define(),
                        {"CORE_LEAF_WORD", "index"},
                        m_walk_data.curved_define(range.element_class)};
     request.defines.insert(request.defines.end(), m_defines.begin(), m_defines.end());

@@ -9,12 +9,25 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
+#include <string>
 
 namespace elvis {
 
 /** Whole subgroups, as drivers pack lanes along x, and no wider: a narrow tile has a short list of nodes. */
 inline std::uint32_t tile_width_on(const Device& device) { return std::clamp(device.subgroup_size(), 8u, 64u); }
+
+/**
+ * Rows of pixels that an invocation draws one after the other, each from where the last one's search ended, of `many` that it
+ * may. A processor gains by that. A GPU would be half idle, and wait for the time of each search: it takes `few`.
+ */
+inline std::uint32_t rows_an_invocation(const Device& device, std::uint32_t many, std::uint32_t few) {
+    return device.summary().type == "cpu" ? many : few;
+}
+
+/** Of tiles whose lanes go down all rows, and of the pictures of which they are parts (part_rows). */
+inline std::uint32_t tile_height_on(const Device& device) { return rows_an_invocation(device, 16, 2); }
 
 /**
  * Tiles that see something, as kernels put them there (shaders/tiles/list_tile.glsl): where many pixels share each

@@ -20,8 +20,6 @@ struct LiveRays::Parameters {
 
 namespace {
 
-/** What all devices take in one direction. */
-constexpr std::uint32_t groups_a_dispatch = 1u << 15;
 /** Groups of rays that a work group of the kernel looks at: CORE_GROUPS. */
 constexpr std::uint32_t groups_a_work_group = 16;
 /** Of m_counts. */
@@ -31,28 +29,39 @@ KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::ui
     KernelRequest request = pixel_kernel("volume/live_rays", precision, {.storage = 6}, push_bytes);
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                       {"CORE_GROUPS", std::to_string(groups_a_work_group) + "u"}};
+                       {"CORE_GROUPS", std::to_string(groups_a_work_group) + "u"},
+                       GroupShape(tile_width).define()};
     return request;
 }
 
 } // namespace
 
-void RayGroups::in_batches(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const {
-    elvis::in_batches(count, groups_a_dispatch, dispatch);
+GroupShape::GroupShape(std::uint32_t tile_width) : width(tile_width), height(1) {
+    while (width > 2 * height) {
+        width /= 2;
+        height *= 2;
+    }
 }
 
-RayGroups AllRayGroups::of(const Device& device, std::uint32_t tiles_a_row, std::uint32_t height) {
-    const std::uint64_t bytes = std::uint64_t{tiles_a_row} * height * sizeof(std::uint32_t);
+std::pair<std::string, std::string> GroupShape::define() const { return {"CORE_GROUP_WIDTH", std::to_string(width) + "u"}; }
+
+void RayGroups::in_batches(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const {
+    elvis::in_batches(count, most_groups, dispatch);
+}
+
+RayGroups AllRayGroups::of(const Device& device, const GroupShape& shape, std::uint32_t width, std::uint32_t height) {
+    const std::uint32_t n_groups = divided_up(width, shape.width) * divided_up(height, shape.height);
+    const std::uint64_t bytes = std::uint64_t{n_groups} * sizeof(std::uint32_t);
     if (!m_list || m_list->bytes() != bytes) {
-        std::vector<std::uint32_t> all(std::size_t{tiles_a_row} * height);
+        std::vector<std::uint32_t> all(n_groups);
         std::iota(all.begin(), all.end(), 0u);
         provide_buffer(m_list, device, bytes).write_items(std::span<const std::uint32_t>(all));
     }
-    return {&*m_list, tiles_a_row * height};
+    return {&*m_list, n_groups};
 }
 
 LiveRays::LiveRays(const Device& device, Precision precision, std::uint32_t tile_width, std::uint32_t tile_height)
-    : m_device(device), m_tile_width(tile_width), m_tile_height(tile_height),
+    : m_device(device), m_shape(tile_width),
       m_kernel(device, request_for(precision, tile_width, tile_height, sizeof(Parameters))),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
@@ -61,7 +70,7 @@ void LiveRays::begin(const Buffer& states, const Buffer& has_starts, std::uint32
     m_has_starts = &has_starts;
     m_width = width;
     m_height = height;
-    m_all = m_all_groups.of(m_device, divided_up(width, m_tile_width), height);
+    m_all = m_all_groups.of(m_device, m_shape, width, height);
     m_open = m_all;
     for (std::optional<Buffer>* list : {&m_live, &m_open_lists[0], &m_open_lists[1]}) {
         provide_buffer(*list, m_device, m_all.list->bytes());

@@ -10,13 +10,23 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace elvis {
 
 /**
- * Rays of pixels, in groups: as many neighbours in a row of pixels as a tile is wide. `list` holds the number of each group,
- * row * tiles_a_row + tile.
+ * Of a group of rays: as many pixels as a tile is wide, in a rectangle that divides the tile (shaders/tiles/ray_group.glsl).
  */
+struct GroupShape {
+    std::uint32_t width = 0, height = 0;
+
+    explicit GroupShape(std::uint32_t tile_width);
+    /** For kernels. */
+    std::pair<std::string, std::string> define() const;
+};
+
+/** Rays of pixels, in groups. `list` holds the number of each group, row by row. */
 struct RayGroups {
     const Buffer* list = nullptr;
     std::uint32_t count = 0;
@@ -29,7 +39,7 @@ struct RayGroups {
 class AllRayGroups {
 public:
     /** Good until the next call. */
-    RayGroups of(const Device& device, std::uint32_t tiles_a_row, std::uint32_t height);
+    RayGroups of(const Device& device, const GroupShape& shape, std::uint32_t width, std::uint32_t height);
 
 private:
     std::optional<Buffer> m_list;
@@ -54,7 +64,7 @@ private:
     RayGroups run(std::uint32_t seeks, std::uint32_t first_element, std::uint32_t n_elements);
 
     const Device& m_device;
-    std::uint32_t m_tile_width, m_tile_height;
+    GroupShape m_shape;
     ComposedKernel m_kernel;
     Buffer m_counts;
     AllRayGroups m_all_groups;

@@ -4,8 +4,8 @@
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
-#include <core/vulkan/kernel/descriptor_sets.hpp>
 #include <core/vulkan/device_impl.hpp>
+#include <core/vulkan/kernel/descriptor_sets.hpp>
 #include <core/vulkan/kernel/dispatch_pace.hpp>
 
 #include <algorithm>
@@ -31,6 +31,12 @@ std::uint64_t groups_at_once(const Device& device) {
     // Any real GPU has fewer than 256 processors, with room for some groups each.
     constexpr std::uint64_t of_gpu = 1024;
     return device.summary().type == "cpu" ? std::max(1u, std::thread::hardware_concurrency()) : of_gpu;
+}
+
+std::shared_ptr<DispatchPace> pace_on(const Device& device) {
+    return std::make_shared<DispatchPace>(groups_at_once(device), collects_submissions(device)
+                                                                      ? DispatchPace::wanted_collected_milliseconds
+                                                                      : DispatchPace::wanted_milliseconds);
 }
 
 /** All that a pipeline of a device depends on. */
@@ -87,13 +93,14 @@ struct Kernel::Impl {
     PipelinePool::Pipeline pipeline;
     /** With the pipeline, whose layout they have; none if there is nothing to bind. */
     std::shared_ptr<DescriptorSets> sets;
-    /** Guards the pace, and the order of a dispatch's parts. */
+    /** Guards the order of a dispatch's parts. */
     std::mutex mutex;
-    DispatchPace pace;
+    /** Also of dispatches that are under way when the kernel ends. */
+    std::shared_ptr<DispatchPace> pace;
 
     Impl(const Device& on, std::vector<BindingLayout> bindings, std::uint32_t push_bytes, std::string called)
         : device(on), layout(std::move(bindings)), push_constant_bytes(push_bytes), name(std::move(called)),
-          place("kernel '" + name + "' on " + on.impl().place()), pace(groups_at_once(on)) {
+          place("kernel '" + name + "' on " + on.impl().place()), pace(pace_on(on)) {
         ++device.impl().n_kernels;
     }
 
@@ -121,7 +128,8 @@ struct Kernel::Impl {
     void check_bindings(std::span<const BoundBuffer> bindings) const;
     /** Bound in a set of its own. */
     VkDescriptorSet bound(std::span<const BoundBuffer> bindings);
-    void run(const DispatchPart& part, std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants);
+    void run(const DispatchPart& part, std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants,
+             CommandQueue::Took took);
     void run_in_parts(const Groups& first, const Groups& groups, std::span<const BoundBuffer> bindings,
                       std::span<const std::byte> push_constants);
 };
@@ -178,8 +186,8 @@ VkDescriptorSet Kernel::Impl::bound(std::span<const BoundBuffer> bindings) {
 }
 
 void Kernel::Impl::run(const DispatchPart& part, std::span<const BoundBuffer> bindings,
-                       std::span<const std::byte> push_constants) {
-    device.impl().queue->record(name, [&](VkCommandBuffer commands) {
+                       std::span<const std::byte> push_constants, CommandQueue::Took took) {
+    const auto record = [&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle());
         if (sets) {
             const VkDescriptorSet set = bound(bindings);
@@ -190,7 +198,8 @@ void Kernel::Impl::run(const DispatchPart& part, std::span<const BoundBuffer> bi
                                static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
         }
         vkCmdDispatchBase(commands, part.first[0], part.first[1], part.first[2], part.count[0], part.count[1], part.count[2]);
-    });
+    };
+    device.impl().queue->record(name, record, std::move(took));
 }
 
 void Kernel::Impl::run_in_parts(const Groups& first, const Groups& groups, std::span<const BoundBuffer> bindings,
@@ -198,12 +207,16 @@ void Kernel::Impl::run_in_parts(const Groups& first, const Groups& groups, std::
     const std::uint64_t n_groups = std::uint64_t{groups[0]} * groups[1] * groups[2];
     for (std::uint64_t done = 0; done < n_groups;) {
         device.check_task();
-        DispatchPart part = next_part(groups, done, pace.next(n_groups - done));
+        DispatchPart part = next_part(groups, done, pace->next(n_groups - done));
         std::transform(first.begin(), first.end(), part.first.begin(), part.first.begin(), std::plus<>());
-        const auto start = std::chrono::steady_clock::now();
-        run(part, bindings, push_constants);
-        const double milliseconds = milliseconds_since(start);
-        pace.took(part.n_groups(), milliseconds);
+        if (device.impl().queue->collects()) {
+            run(part, bindings, push_constants,
+                [held = pace, n = part.n_groups()](double milliseconds) { held->took(n, milliseconds); });
+        } else {
+            const auto start = std::chrono::steady_clock::now();
+            run(part, bindings, push_constants, {});
+            pace->took(part.n_groups(), milliseconds_since(start));
+        }
         done += part.n_groups();
     }
 }
@@ -249,12 +262,7 @@ void Kernel::dispatch_from(const Groups& first, std::span<const BoundBuffer> bin
     }
     impl.check_bindings(bindings);
     const std::lock_guard lock(impl.mutex);
-    if (impl.device.impl().queue->collects()) {
-        impl.device.check_task();
-        impl.run({first, groups}, bindings, push_constants);
-    } else {
-        impl.run_in_parts(first, groups, bindings, push_constants);
-    }
+    impl.run_in_parts(first, groups, bindings, push_constants);
 }
 
 } // namespace elvis

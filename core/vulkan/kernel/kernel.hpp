@@ -42,10 +42,10 @@ public:
 
     /**
      * Runs with these bindings and push constants: whoever reads a buffer afterwards sees what it has written. Every binding of
-     * the layout must be given. Groups: number of work groups in x, y, z; zero in any is nothing to do. With
-     * Submissions::single they are given to the device in parts of bounded time, from the first to the last
-     * (dispatch_pace.hpp), in which gl_WorkGroupID counts from the first of all and gl_NumWorkGroups is that of the part.
-     * Throws Cancelled between parts if this thread's task is to stop (DeviceTask).
+     * the layout must be given. Groups: number of work groups in x, y, z; zero in any is nothing to do. They are given to the
+     * device in parts of bounded time, from the first to the last (dispatch_pace.hpp), in which gl_WorkGroupID counts from the
+     * first of all and gl_NumWorkGroups is that of the part. Throws Cancelled between parts if this thread's task is to stop
+     * (DeviceTask).
      */
     void dispatch(std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
                   std::uint32_t groups_y = 1, std::uint32_t groups_z = 1) const;

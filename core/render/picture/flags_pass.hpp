@@ -1,0 +1,27 @@
+/**
+ * @file flags_pass.hpp
+ * Flags of a picture that is drawn.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+#include <core/render/picture/layer.hpp>
+#include <core/shader/composer.hpp>
+#include <core/vulkan/buffer.hpp>
+
+namespace elvis {
+
+class FlagsPass {
+public:
+    FlagsPass(const Device& device, Precision precision);
+
+    /** Makes the layer's flags those that callers know, and counts pixels by them: on the device, so that flags need not be
+     * read. */
+    void settle(const Layer& layer, FrameCounts& counts) const;
+
+private:
+    ComposedKernel m_kernel;
+    Buffer m_counts;
+};
+
+} // namespace elvis
