@@ -129,4 +129,11 @@ void LayeredPicture::finish() {
     }
 }
 
+void LayeredPicture::settle() const {
+    m_flags_pass.settle(drawn());
+    const auto words = Buffer::read_words({&m_flags_pass.counts(), &m_color_pass.special()});
+    FlagsPass::add(words[0], m_frame->counts);
+    m_frame->special_values = m_color_pass.special_values(words[1]);
+}
+
 } // namespace elvis

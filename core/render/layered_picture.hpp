@@ -33,11 +33,10 @@ public:
     /** All surfaces are drawn, and no volume. */
     void finish();
 
-    /** Of all that is drawn: flags as callers know them, and counts of pixels by them. */
-    void settle_flags() const { m_flags_pass.settle(drawn(), m_frame->counts); }
+    /** Of all that is drawn: flags as callers know them, counts of pixels by them, and the frame's special values. */
+    void settle() const;
 
     const Layer& drawn() const { return m_is_alone ? *m_layer : m_merge_pass.picture(); }
-    std::vector<SpecialValues> special_values() const { return m_color_pass.special_values(); }
 
 private:
     /** How a surface is drawn beside the others. */

@@ -190,9 +190,8 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
         frame.render_milliseconds += timer.wall_milliseconds();
         frame.device_milliseconds += timer.milliseconds();
     }
-    impl.picture.settle_flags();
+    impl.picture.settle();
     impl.times.upload_milliseconds = impl.data.upload_milliseconds();
-    frame.special_values = impl.picture.special_values();
     for (std::size_t index = 0; index < frame.is_met.size(); ++index) {
         frame.is_met[index] = frame.is_met[index] || frame.special_values[index].is_shown;
     }

@@ -109,6 +109,11 @@ void ComposedKernel::dispatch_from(const std::array<std::uint32_t, 2>& first, st
     watched([&] { kernel().dispatch_from({first[0], first[1], 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
 }
 
+void ComposedKernel::dispatch_indirect(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
+                                       const Buffer& size) const {
+    watched([&] { kernel().dispatch_indirect(bound(bindings), push_constants, size); });
+}
+
 std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {
     assert(bindings.size() == m_n_bindings);
     std::vector<BoundBuffer> all = m_records;

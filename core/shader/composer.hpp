@@ -120,6 +120,10 @@ public:
     void dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings,
                        std::span<const std::byte> push_constants, std::uint32_t groups_x, std::uint32_t groups_y) const;
 
+    /** Kernel::dispatch_indirect(). */
+    void dispatch_indirect(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
+                           const Buffer& size) const;
+
 private:
     std::vector<BoundBuffer> bound(std::span<const Buffer* const> bindings) const;
     /** Dispatches by a call; an Error that it throws, but for Cancelled, is given the names of the snippets. */

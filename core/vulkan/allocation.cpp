@@ -40,7 +40,8 @@ Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageF
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = std::max<std::uint64_t>(bytes, 16); // Vulkan knows no empty buffers.
-    info.usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    info.usage =
+        usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     check_vulkan(vkCreateBuffer(impl.device, &info, nullptr, &m_buffer), impl.place(), "creating a buffer");
     ++impl.n_buffers;
     try {
@@ -122,7 +123,9 @@ void Allocation::write(std::uint64_t offset, std::uint64_t bytes, std::uint64_t 
         return;
     }
     Device::Impl& impl = m_device->impl();
-    if (impl.queue->is_pending() && write_in_turn(offset, bytes, produce)) {
+    // What is mapped is written at once, unless commands that are pending read what is there.
+    const bool waits = m_mapped != nullptr ? !impl.queue->is_pending() : !impl.queue->collects();
+    if (!waits && write_in_turn(offset, bytes, produce)) {
         return;
     }
     if (m_mapped != nullptr) {
@@ -173,6 +176,36 @@ void Allocation::read(std::uint64_t offset, std::span<std::byte> data) const {
                            [&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, m_buffer, staging.buffer, 1, &region); });
         impl.queue->finish();
         std::memcpy(data.data() + done, staging.mapped, static_cast<std::size_t>(region.size));
+    }
+}
+
+void Allocation::read_together(std::span<const Read> reads) {
+    if (reads.empty() || reads.front().from->m_mapped != nullptr) {
+        for (const Read& read : reads) {
+            read.from->read(0, read.data);
+        }
+        return;
+    }
+    Device::Impl& impl = reads.front().from->m_device->impl();
+    const std::lock_guard lock(impl.staging_mutex);
+    const Staging& staging = impl.use_staging();
+    VkBufferCopy region{};
+    for (const Read& read : reads) {
+        region.size = read.data.size();
+        if (region.size == 0) {
+            continue;
+        }
+        assert(region.dstOffset + region.size <= Device::Impl::staging_bytes);
+        impl.queue->record(CommandQueue::copies, [&](VkCommandBuffer commands) {
+            vkCmdCopyBuffer(commands, read.from->m_buffer, staging.buffer, 1, &region);
+        });
+        region.dstOffset += region.size;
+    }
+    impl.queue->finish();
+    const std::byte* at = staging.mapped;
+    for (const Read& read : reads) {
+        std::memcpy(read.data.data(), at, read.data.size());
+        at += read.data.size();
     }
 }
 

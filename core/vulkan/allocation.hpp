@@ -35,6 +35,12 @@ public:
      */
     void write(std::uint64_t offset, std::uint64_t bytes, std::uint64_t granularity, const Producer& produce) const;
     void read(std::uint64_t offset, std::span<std::byte> data) const;
+    /** The beginnings of allocations of one device, with one wait; together no more than Device::Impl::staging_bytes. */
+    struct Read {
+        const Allocation* from;
+        std::span<std::byte> data;
+    };
+    static void read_together(std::span<const Read> reads);
     void fill(std::uint32_t word) const;
 
 private:

@@ -34,6 +34,19 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) const 
 
 void Buffer::read(std::uint64_t offset, std::span<std::byte> data) const { m_impl->allocation.read(offset, data); }
 
+std::vector<std::vector<std::uint32_t>> Buffer::read_words(std::initializer_list<const Buffer*> buffers) {
+    std::vector<std::vector<std::uint32_t>> words;
+    std::vector<Allocation::Read> reads;
+    for (const Buffer* buffer : buffers) {
+        words.emplace_back(static_cast<std::size_t>(buffer->bytes() / sizeof(std::uint32_t)));
+    }
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        reads.push_back({&buffers.begin()[i]->m_impl->allocation, std::as_writable_bytes(std::span(words[i]))});
+    }
+    Allocation::read_together(reads);
+    return words;
+}
+
 void Buffer::fill(std::uint32_t word) const { m_impl->allocation.fill(word); }
 
 } // namespace elvis

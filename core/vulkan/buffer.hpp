@@ -41,6 +41,9 @@ public:
         return items;
     }
 
+    /** All of small buffers of one device, with one wait. */
+    static std::vector<std::vector<std::uint32_t>> read_words(std::initializer_list<const Buffer*> buffers);
+
 private:
     struct Impl;
     std::unique_ptr<Impl> m_impl;

@@ -13,7 +13,7 @@ layout(set = 0, binding = 2, std430) readonly buffer core_groups_block { uint co
 // Groups with rays that have something to do; with rays that have not ended.
 layout(set = 0, binding = 3, std430) writeonly buffer core_live_block { uint core_live[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer core_open_block { uint core_open[]; };
-// How many there are of each.
+// How many there are of each: live ones, and behind the other words of a dispatch's size, open ones.
 layout(set = 0, binding = 5, std430) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
@@ -67,7 +67,7 @@ void main() {
             core_live[atomicAdd(core_counts[0], 1u)] = group;
         }
         if (core_seeks != 0u && core_is_open[i] != 0u) {
-            core_open[atomicAdd(core_counts[1], 1u)] = group;
+            core_open[atomicAdd(core_counts[3], 1u)] = group;
         }
     }
 }

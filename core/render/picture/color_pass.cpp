@@ -90,10 +90,9 @@ void ColorPass::begin(std::size_t n_surfaces) {
     m_special->fill(0);
 }
 
-std::vector<SpecialValues> ColorPass::special_values() const {
-    const std::vector<std::uint32_t> words = m_special->read_items<std::uint32_t>(n_special * m_n_surfaces);
+std::vector<SpecialValues> ColorPass::special_values(std::span<const std::uint32_t> words) const {
     std::vector<SpecialValues> result;
-    for (std::size_t at = 0; at < words.size(); at += n_special) {
+    for (std::size_t at = 0; at < n_special * m_n_surfaces; at += n_special) {
         result.push_back({words[at] != 0, words[at + 1] != 0, words[at + 2] != 0, words[at + 3] != 0});
     }
     return result;

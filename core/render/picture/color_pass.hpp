@@ -34,8 +34,9 @@ public:
     /** The kernel for surfaces like this one; compiled when it is first asked for. */
     const ComposedKernel& provide(const Surface& surface, bool is_lit);
 
-    /** Of the surfaces drawn since begin. */
-    std::vector<SpecialValues> special_values() const;
+    /** What the kernels have noted of the surfaces drawn since begin(), and what that means. */
+    const Buffer& special() const { return *m_special; }
+    std::vector<SpecialValues> special_values(std::span<const std::uint32_t> words) const;
 
 private:
     const Device& m_device;

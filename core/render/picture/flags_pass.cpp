@@ -2,7 +2,6 @@
 #include <core/render/picture/flags_pass.hpp>
 
 #include <bit>
-#include <span>
 
 namespace elvis {
 
@@ -21,12 +20,14 @@ FlagsPass::FlagsPass(const Device& device, Precision precision)
     : m_kernel(device, pixel_kernel("picture/settle_flags", precision, {.storage = 2}, sizeof(Parameters))),
       m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
-void FlagsPass::settle(const Layer& layer, FrameCounts& counts) const {
+void FlagsPass::settle(const Layer& layer) const {
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const Parameters parameters{n_pixels, pixel_groups_x};
     dispatch_pixels(m_kernel, {&layer.marks, &m_counts}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+}
+
+void FlagsPass::add(std::span<const std::uint32_t> found, FrameCounts& counts) {
     const auto with = [&](std::uint32_t flag) { return found[static_cast<std::size_t>(std::countr_zero(flag))]; };
     counts.hit_pixels += found[hits];
     counts.undecided_pixels += with(pixel_flag::undecided);

@@ -27,6 +27,7 @@ MergePass::MergePass(const Device& device, Precision precision)
       m_take(device, pixel_kernel("picture/take_layer", precision, {.storage = 5}, sizeof(PixelParameters))),
       m_order(device, pixel_kernel("picture/order_layers", precision, {.storage = 4}, sizeof(PixelParameters))),
       m_blend(device, pixel_kernel("picture/blend", precision, {.storage = 4}, sizeof(PixelParameters))),
+      m_fill(device, pixel_kernel("picture/background", precision, {.storage = 2}, sizeof(PixelParameters))),
       m_counts(device, 3 * sizeof(std::uint32_t)), m_background_color(device, 4 * real_bytes(precision)) {}
 
 void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background) {
@@ -38,7 +39,6 @@ void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows
     }
     m_picture->rows = rows;
     m_n_transparent_layers = 0;
-    m_background = background;
     write_reals(m_background_color, m_precision, background);
     m_is_empty = true;
 }
@@ -89,11 +89,9 @@ void MergePass::keep(const Layer& layer) {
 
 void MergePass::fill_empty() {
     if (m_is_empty) {
-        std::vector<double> colors(4 * m_picture->n_pixels());
-        for (std::size_t i = 0; i < colors.size(); ++i) {
-            colors[i] = m_background[i % 4];
-        }
-        write_reals(m_picture->colors, m_precision, colors);
+        const auto n_pixels = static_cast<std::uint32_t>(m_picture->n_pixels());
+        const PixelParameters parameters{n_pixels, pixel_groups_x};
+        dispatch_pixels(m_fill, {&m_picture->colors, &m_background_color}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
         m_picture->marks.fill(0);
     }
 }

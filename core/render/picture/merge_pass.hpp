@@ -54,14 +54,13 @@ private:
 
     const Device& m_device;
     Precision m_precision;
-    ComposedKernel m_merge, m_take, m_order, m_blend;
+    ComposedKernel m_merge, m_take, m_order, m_blend, m_fill;
     std::unique_ptr<Layer> m_picture;
     std::unique_ptr<Buffer> m_depths, m_beyond;
     Buffer m_counts, m_background_color;
     /** Kept from frame to frame; the first m_n_transparent_layers are in use. */
     std::vector<TransparentLayer> m_transparent_layers;
     std::size_t m_n_transparent_layers = 0;
-    Color m_background{};
     bool m_is_empty = true;
 };
 

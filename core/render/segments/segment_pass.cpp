@@ -153,13 +153,14 @@ template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, 
     bool is_open = true;
     for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
         const DeviceTimer timer(m_device);
-        is_open = false;
         bool is_full = false;
+        kernels.search.begin_search();
         for (std::size_t index = 0; index < kernels.march.size(); ++index) {
-            const WalkSearch::Found found = kernels.search.seek(index, rays.walk, groups);
-            counts.seek_evaluations += found.evaluations;
-            is_open = is_open || found.is_seeking;
+            kernels.search.seek(index, rays.walk, groups);
         }
+        const WalkSearch::Found found_starts = kernels.search.found();
+        counts.seek_evaluations += found_starts.evaluations;
+        is_open = found_starts.is_seeking;
         for (std::size_t index = 0; index < kernels.march.size(); ++index) {
             const WalkSearch::Range& range = kernels.search.ranges()[index];
             m_counts.fill(0);

@@ -14,7 +14,6 @@ namespace {
 /** Words of a tile's list: shaders/tiles/ray_tiles.glsl. */
 constexpr std::uint32_t tile_stride = 64;
 constexpr std::uint32_t group_size = 32;
-enum Count : std::size_t { seeking, evaluations, n_counts };
 enum EyeCount : std::size_t { eye_evaluations, eye_overlaps };
 
 struct TilesParameters {
@@ -125,48 +124,44 @@ const ComposedKernel& WalkSearch::eye_kernel(std::size_t index) {
 }
 
 std::uint64_t WalkSearch::start_at_eyes(const WalkRays& rays, const RayGroups& groups) {
-    m_counts.fill(0);
+    bool is_any = false;
     for (std::size_t index = 0; index < m_ranges.size(); ++index) {
         if (!m_walk_data.may_hold_eye(m_ranges[index].element_class)) {
             continue;
         }
-        EyeParameters parameters{rays.width, rays.height, 0, m_ranges[index].first_element, 0, m_extent};
+        if (!is_any) {
+            begin_search();
+        }
+        is_any = true;
+        const EyeParameters parameters{rays.width, rays.height, 0, m_ranges[index].first_element, 0, m_extent};
         const std::array<const Buffer*, 4> bindings = {&rays.frame, &rays.states, &m_counts,
                                                        m_are_given ? rays.given : groups.list};
-        const auto dispatch = [&](std::uint32_t first, std::uint32_t count) {
-            parameters.first_group = first;
-            eye_kernel(index).dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
-        };
-        if (m_are_given) {
-            dispatch(0, tiles_a_row(rays.width));
-        } else {
-            groups.in_batches(dispatch);
-        }
+        dispatch(eye_kernel(index), bindings, parameters, rays, groups);
     }
-    return m_counts.read_items<std::uint32_t>(n_counts)[eye_evaluations];
+    return is_any ? m_counts.read_items<std::uint32_t>(n_counts)[eye_evaluations] : 0;
 }
 
-WalkSearch::Found WalkSearch::seek(std::size_t index, const WalkRays& rays, const RayGroups& groups) {
+void WalkSearch::seek(std::size_t index, const WalkRays& rays, const RayGroups& groups) {
     if (m_walk_data.n_starts(m_ranges[index].element_class) == 0) {
-        return {};
+        return;
     }
-    m_counts.fill(0);
-    SeekParameters parameters{rays.width, rays.height, tiles_a_row(rays.width), 0, m_ranges[index].first_element, 0, m_extent};
+    const SeekParameters parameters{rays.width, rays.height, tiles_a_row(rays.width), 0, m_ranges[index].first_element,
+                                    0,          m_extent};
     // No lists are read where rays are given: anything.
     const std::array<const Buffer*, 5> bindings = {&rays.frame, &rays.states,
                                                    m_are_given ? &m_counts : &*m_kernels[index].lists, &m_counts,
                                                    m_are_given ? rays.given : groups.list};
-    const auto dispatch = [&](std::uint32_t first, std::uint32_t count) {
-        parameters.first_group = first;
-        m_kernels[index].seek->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
-    };
+    dispatch(*m_kernels[index].seek, bindings, parameters, rays, groups);
+}
+
+template <class Parameters>
+void WalkSearch::dispatch(const ComposedKernel& kernel, std::span<const Buffer* const> bindings, const Parameters& parameters,
+                          const WalkRays& rays, const RayGroups& groups) const {
     if (m_are_given) {
-        dispatch(0, tiles_a_row(rays.width));
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row(rays.width));
     } else {
-        groups.in_batches(dispatch);
+        groups.dispatch(kernel, bindings, parameters);
     }
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
-    return {found[seeking] > 0, found[evaluations]};
 }
 
 } // namespace elvis

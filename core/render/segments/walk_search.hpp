@@ -65,14 +65,20 @@ public:
     /** Rays that begin in an element; before the first seek(). Evaluations that it took. */
     std::uint64_t start_at_eyes(const WalkRays& rays, const RayGroups& groups);
 
+    /** Of the searches since begin_search(). */
     struct Found {
-        /** Whether any ray looked for a start here. */
+        /** Whether any ray looked for a start. */
         bool is_seeking = false;
         std::uint32_t evaluations = 0;
     };
+    void begin_search() const { m_counts.fill(0); }
     /** The nearest start in elements of ranges()[index] of each ray that looks for one: of those given, which are one row, or
      * in these groups. */
-    Found seek(std::size_t index, const WalkRays& rays, const RayGroups& groups);
+    void seek(std::size_t index, const WalkRays& rays, const RayGroups& groups);
+    Found found() const { return found_in(m_counts.read_items<std::uint32_t>(n_counts)); }
+    /** The same, of what counts() holds. */
+    static Found found_in(std::span<const std::uint32_t> counts) { return {counts[seeking] > 0, counts[evaluations]}; }
+    const Buffer& counts() const { return m_counts; }
 
 private:
     struct Kernels {
@@ -82,7 +88,13 @@ private:
         std::optional<Buffer> lists;
     };
 
+    enum Count : std::size_t { seeking, evaluations, n_counts };
+
     const ComposedKernel& eye_kernel(std::size_t index);
+    /** Of a kernel that goes through rays that are given, or through groups. */
+    template <class Parameters>
+    void dispatch(const ComposedKernel& kernel, std::span<const Buffer* const> bindings, const Parameters& parameters,
+                  const WalkRays& rays, const RayGroups& groups) const;
 
     const Device& m_device;
     const DeviceVolume& m_data;

@@ -22,8 +22,9 @@ namespace {
 
 /** Groups of rays that a work group of the kernel looks at: CORE_GROUPS. */
 constexpr std::uint32_t groups_a_work_group = 16;
-/** Of m_counts. */
-enum Count : std::size_t { live, open, n_counts };
+/** Of m_counts: in front, the size of a dispatch for the live ones. */
+enum Count : std::size_t { live, live_y, live_z, open, n_counts };
+constexpr std::array<std::uint32_t, n_counts> none_yet = {0, 1, 1, 0};
 
 KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::uint32_t tile_height, std::size_t push_bytes) {
     KernelRequest request = pixel_kernel("volume/live_rays", precision, {.storage = 6}, push_bytes);
@@ -44,10 +45,6 @@ GroupShape::GroupShape(std::uint32_t tile_width) : width(tile_width), height(1) 
 }
 
 std::pair<std::string, std::string> GroupShape::define() const { return {"CORE_GROUP_WIDTH", std::to_string(width) + "u"}; }
-
-void RayGroups::in_batches(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const {
-    elvis::in_batches(count, most_groups, dispatch);
-}
 
 RayGroups AllRayGroups::of(const Device& device, const GroupShape& shape, std::uint32_t width, std::uint32_t height) {
     const std::uint32_t n_groups = divided_up(width, shape.width) * divided_up(height, shape.height);
@@ -72,19 +69,24 @@ void LiveRays::begin(const Buffer& states, const Buffer& has_starts, std::uint32
     m_height = height;
     m_all = m_all_groups.of(m_device, m_shape, width, height);
     m_open = m_all;
+    m_is_indirect = collects_submissions(m_device) && m_all.count <= m_device.limits().maxComputeWorkGroupCount[0];
     for (std::optional<Buffer>* list : {&m_live, &m_open_lists[0], &m_open_lists[1]}) {
         provide_buffer(*list, m_device, m_all.list->bytes());
     }
 }
 
 RayGroups LiveRays::run(std::uint32_t seeks, std::uint32_t first_element, std::uint32_t n_elements) {
-    m_counts.fill(0);
+    m_counts.write_items<std::uint32_t>(none_yet);
     const Buffer& next_open = *m_open_lists[m_next_open];
     const std::array<const Buffer*, 6> bindings = {m_states, m_has_starts, m_open.list, &*m_live, &next_open, &m_counts};
-    m_open.in_batches([&](std::uint32_t first, std::uint32_t count) {
+    in_batches(m_open.count, most_groups, [&](std::uint32_t first, std::uint32_t count) {
         const Parameters parameters{m_width, m_height, first, count, seeks, first_element, n_elements};
         m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, groups_a_work_group));
     });
+    if (m_is_indirect) {
+        // Of all groups each time: what is open is not known here.
+        return {&*m_live, m_all.count, &m_counts};
+    }
     const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
     if (seeks != 0) {
         m_open = {&next_open, found[open]};

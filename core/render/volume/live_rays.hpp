@@ -4,12 +4,13 @@
  */
 #pragma once
 
+#include <core/render/device/in_batches.hpp>
 #include <core/shader/composer.hpp>
 #include <core/vulkan/buffer.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -29,10 +30,25 @@ struct GroupShape {
 /** Rays of pixels, in groups. `list` holds the number of each group, row by row. */
 struct RayGroups {
     const Buffer* list = nullptr;
+    /** If the device alone knows it, the most that it can be. */
     std::uint32_t count = 0;
+    /** Then, what it knows: the size of a dispatch. */
+    const Buffer* size = nullptr;
 
-    /** Calls `dispatch` with batches of the list that a device can take at once, as their first place and their number. */
-    void in_batches(const std::function<void(std::uint32_t first, std::uint32_t count)>& dispatch) const;
+    /** Of a kernel with a work group for each group of rays; `parameters` tell it by `first_group` where in the list it begins.
+     */
+    template <class Parameters>
+    void dispatch(const ComposedKernel& kernel, std::span<const Buffer* const> bindings, Parameters parameters) const {
+        parameters.first_group = 0;
+        if (size != nullptr) {
+            kernel.dispatch_indirect(bindings, std::as_bytes(std::span(&parameters, 1)), *size);
+            return;
+        }
+        in_batches(count, most_groups, [&](std::uint32_t first, std::uint32_t n) {
+            parameters.first_group = first;
+            kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), n);
+        });
+    }
 };
 
 /** All groups of a picture, by ascending number. */
@@ -54,6 +70,8 @@ public:
     void begin(const Buffer& states, const Buffer& has_starts, std::uint32_t width, std::uint32_t height);
     /** All groups of the picture. */
     RayGroups all() const { return m_all; }
+    /** What seeking() and going() give has a size that the device alone knows, and this side need not wait for it. */
+    bool is_indirect() const { return m_is_indirect; }
     /** Groups in which rays look for a start, in no order. Those that can find none end. Good until the next call. */
     RayGroups seeking();
     /** Of those that go on in these elements, likewise. Rays that have looked for a start in vain end. */
@@ -73,6 +91,7 @@ private:
     RayGroups m_open;
     std::optional<Buffer> m_live, m_open_lists[2];
     std::size_t m_next_open = 0;
+    bool m_is_indirect = false;
     const Buffer *m_states = nullptr, *m_has_starts = nullptr;
     std::uint32_t m_width = 0, m_height = 0;
 };

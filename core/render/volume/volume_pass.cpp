@@ -197,43 +197,44 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
     return m_march[index].try_emplace(key, m_device, request).first->second;
 }
 
-bool VolumePass::march(std::size_t index, const Picture& picture, const RayGroups& groups, FrameCounts& counts) {
-    m_counts.fill(0);
-    MarchParameters parameters{picture.layer.width,
-                               picture.layer.height,
-                               0,
-                               m_search.ranges()[index].first_element,
-                               m_search.ranges()[index].n_elements,
-                               m_component.first(),
-                               m_component.end(),
-                               m_n_breakpoints,
-                               picture.depths ? 1u : 0u,
-                               picture.stops ? 1u : 0u,
-                               m_wanted.skips_by_range ? 1u : 0u,
-                               0,
-                               m_search.extent(),
-                               static_cast<float>(m_wanted.tolerance),
-                               static_cast<float>(m_steepest),
-                               static_cast<float>(m_wanted.step)};
+void VolumePass::march(std::size_t index, const Picture& picture, const RayGroups& groups) {
+    const MarchParameters parameters{picture.layer.width,
+                                     picture.layer.height,
+                                     0,
+                                     m_search.ranges()[index].first_element,
+                                     m_search.ranges()[index].n_elements,
+                                     m_component.first(),
+                                     m_component.end(),
+                                     m_n_breakpoints,
+                                     picture.depths ? 1u : 0u,
+                                     picture.stops ? 1u : 0u,
+                                     m_wanted.skips_by_range ? 1u : 0u,
+                                     0,
+                                     m_search.extent(),
+                                     static_cast<float>(m_wanted.tolerance),
+                                     static_cast<float>(m_steepest),
+                                     static_cast<float>(m_wanted.step)};
     // What is not there is not read: anything of reals.
     const Buffer& depths = picture.depths ? *picture.depths : picture.layer.normals;
     const Buffer& stops = picture.stops ? *picture.stops : picture.layer.normals;
     const std::array<const Buffer*, 8> bindings = {&m_frame,   &*m_states, &depths, &*m_breakpoints,
                                                    &*m_pieces, &m_counts,  &stops,  groups.list};
-    const ComposedKernel& kernel = march_kernel(index);
-    groups.in_batches([&](std::uint32_t first, std::uint32_t count) {
-        parameters.first_group = first;
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
-    });
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+    groups.dispatch(march_kernel(index), bindings, parameters);
+}
+
+/** Whether rays have moved, or look for a start. */
+bool VolumePass::count(FrameCounts& counts) const {
+    const std::vector<std::vector<std::uint32_t>> words = Buffer::read_words({&m_search.counts(), &m_counts});
+    const WalkSearch::Found starts = WalkSearch::found_in(words[0]);
+    const std::vector<std::uint32_t>& found = words[1];
     counts.field_evaluations += found[evaluations];
-    counts.mapping_evaluations += found[mappings];
+    counts.mapping_evaluations += found[mappings] + starts.evaluations;
     counts.volume_segments += found[segments];
     counts.empty_segments += found[empty_segments];
     counts.volume_steps += found[steps];
     counts.volume_breakpoints += found[breakpoints];
     counts.newton_failures += found[failures];
-    return found[moved] > 0;
+    return starts.is_seeking || found[moved] > 0;
 }
 
 void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
@@ -242,25 +243,24 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
     const auto spare = [&] { counts.spared_pixels += std::uint64_t{all.count - live.count} * m_search.tile_width(); };
     bool is_open = true;
     for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
-        bool is_seeking = false;
+        m_search.begin_search();
+        m_counts.fill(0);
         if (picture.only_live) {
             live = m_live.seeking();
         }
         for (std::size_t index = 0; index < m_march.size(); ++index) {
             spare();
-            const WalkSearch::Found found = m_search.seek(index, picture.rays, live);
-            counts.mapping_evaluations += found.evaluations;
-            is_seeking = is_seeking || found.is_seeking;
+            m_search.seek(index, picture.rays, live);
         }
-        is_open = is_seeking;
         for (std::size_t index = 0; index < m_march.size(); ++index) {
             if (picture.only_live) {
                 const WalkSearch::Range& range = m_search.ranges()[index];
                 live = m_live.going(range.first_element, range.n_elements);
             }
             spare();
-            is_open = march(index, picture, live, counts) || is_open;
+            march(index, picture, live);
         }
+        is_open = count(counts);
     }
 }
 

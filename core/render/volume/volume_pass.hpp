@@ -43,7 +43,8 @@ private:
     struct Picture;
     /** `index`: among the search's ranges of elements. */
     const ComposedKernel& march_kernel(std::size_t index);
-    bool march(std::size_t index, const Picture& picture, const RayGroups& groups, FrameCounts& counts);
+    void march(std::size_t index, const Picture& picture, const RayGroups& groups);
+    bool count(FrameCounts& counts) const;
     void march_all(const Picture& picture, FrameCounts& counts);
 
     const Device& m_device;

@@ -128,8 +128,9 @@ struct Kernel::Impl {
     void check_bindings(std::span<const BoundBuffer> bindings) const;
     /** Bound in a set of its own. */
     VkDescriptorSet bound(std::span<const BoundBuffer> bindings);
-    void run(const DispatchPart& part, std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants,
-             CommandQueue::Took took);
+    /** `dispatch`: the command itself. */
+    void run(const CommandQueue::Record& dispatch, std::span<const BoundBuffer> bindings,
+             std::span<const std::byte> push_constants, CommandQueue::Took took);
     void run_in_parts(const Groups& first, const Groups& groups, std::span<const BoundBuffer> bindings,
                       std::span<const std::byte> push_constants);
 };
@@ -185,7 +186,7 @@ VkDescriptorSet Kernel::Impl::bound(std::span<const BoundBuffer> bindings) {
     return set;
 }
 
-void Kernel::Impl::run(const DispatchPart& part, std::span<const BoundBuffer> bindings,
+void Kernel::Impl::run(const CommandQueue::Record& dispatch, std::span<const BoundBuffer> bindings,
                        std::span<const std::byte> push_constants, CommandQueue::Took took) {
     const auto record = [&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle());
@@ -197,7 +198,7 @@ void Kernel::Impl::run(const DispatchPart& part, std::span<const BoundBuffer> bi
             vkCmdPushConstants(commands, pipeline->layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
         }
-        vkCmdDispatchBase(commands, part.first[0], part.first[1], part.first[2], part.count[0], part.count[1], part.count[2]);
+        dispatch(commands);
     };
     device.impl().queue->record(name, record, std::move(took));
 }
@@ -209,12 +210,16 @@ void Kernel::Impl::run_in_parts(const Groups& first, const Groups& groups, std::
         device.check_task();
         DispatchPart part = next_part(groups, done, pace->next(n_groups - done));
         std::transform(first.begin(), first.end(), part.first.begin(), part.first.begin(), std::plus<>());
+        const auto dispatch = [&part](VkCommandBuffer commands) {
+            vkCmdDispatchBase(commands, part.first[0], part.first[1], part.first[2], part.count[0], part.count[1],
+                              part.count[2]);
+        };
         if (device.impl().queue->collects()) {
-            run(part, bindings, push_constants,
+            run(dispatch, bindings, push_constants,
                 [held = pace, n = part.n_groups()](double milliseconds) { held->took(n, milliseconds); });
         } else {
             const auto start = std::chrono::steady_clock::now();
-            run(part, bindings, push_constants, {});
+            run(dispatch, bindings, push_constants, {});
             pace->took(part.n_groups(), milliseconds_since(start));
         }
         done += part.n_groups();
@@ -243,6 +248,17 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> spirv, std::
 Kernel::~Kernel() = default;
 Kernel::Kernel(Kernel&&) noexcept = default;
 Kernel& Kernel::operator=(Kernel&&) noexcept = default;
+
+void Kernel::dispatch_indirect(std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants,
+                               const Buffer& size) const {
+    Impl& impl = *m_impl;
+    assert(push_constants.size() == impl.push_constant_bytes);
+    impl.check_bindings(bindings);
+    const std::lock_guard lock(impl.mutex);
+    impl.device.check_task();
+    impl.run([&size](VkCommandBuffer commands) { vkCmdDispatchIndirect(commands, size.handle(), 0); }, bindings, push_constants,
+             {});
+}
 
 void Kernel::dispatch(std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants, std::uint32_t groups_x,
                       std::uint32_t groups_y, std::uint32_t groups_z) const {

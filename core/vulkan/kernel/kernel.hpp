@@ -53,6 +53,10 @@ public:
     void dispatch_from(const std::array<std::uint32_t, 3>& first, std::span<const BoundBuffer> bindings,
                        std::span<const std::byte> push_constants, const std::array<std::uint32_t, 3>& groups) const;
 
+    /** The same for as many groups as the first three words of `size` say when it is its turn, all at once. */
+    void dispatch_indirect(std::span<const BoundBuffer> bindings, std::span<const std::byte> push_constants,
+                           const Buffer& size) const;
+
 private:
     struct Impl;
     std::unique_ptr<Impl> m_impl;
