@@ -2,6 +2,8 @@
 
 #include <elvis/plugin.hpp>
 
+#include <cmath>
+
 namespace elvis_nek5000 {
 
 namespace {
@@ -45,7 +47,7 @@ void set_numbers(const ByteFile& file, const Numbers& numbers, PartHeader& heade
     header.n_elements =
         static_cast<std::uint64_t>(in_range(file, "the number of elements in this part", numbers.sizes[4], 0, most));
     header.content.n_elements = static_cast<std::uint64_t>(in_range(file, "the number of elements", numbers.sizes[5], 1, most));
-    if (!numbers.time) {
+    if (!numbers.time || !std::isfinite(*numbers.time)) {
         fail(file, "the time is missing or no number");
     }
     header.content.time = *numbers.time;
