@@ -25,7 +25,8 @@ void add(std::vector<Content>& contents, const Numbers& numbers, std::string_vie
         content.n_nodes[direction] = static_cast<std::uint32_t>(*n);
     }
     const auto blocks = parse_old_code(code);
-    if (!numbers.sizes[0] || *numbers.sizes[0] < 1 || *numbers.sizes[0] > 9999999999 || !numbers.time || !std::isfinite(*numbers.time) || !blocks) {
+    if (!numbers.sizes[0] || *numbers.sizes[0] < 1 || *numbers.sizes[0] > 9999999999 || !numbers.time ||
+        !std::isfinite(*numbers.time) || !blocks) {
         return;
     }
     content.n_elements = static_cast<std::uint64_t>(*numbers.sizes[0]);

@@ -74,30 +74,37 @@ PartSnapshot::PartSnapshot(std::vector<Part> parts, OpenFiles& files)
       m_parts(std::move(parts)) {}
 
 PartSnapshot::Places PartSnapshot::read_places() const {
-    Places places(content().n_elements, {no_part, 0});
+    // Solvers count from 1, some tools from 0: with room for both, one number stays without an element.
+    Places places(content().n_elements + 1, {no_part, 0});
     std::vector<char> bytes;
     for (std::uint32_t part = 0; part < m_parts.size(); ++part) {
         const auto file = m_files.open(m_parts[part].path);
         const PartHeader& header = m_parts[part].header;
         for (std::uint64_t first = 0; first < header.n_elements; first += block_size) {
             const std::uint64_t count = std::min(block_size, header.n_elements - first);
+            const std::uint64_t start = PartHeader::numbers_place + 4 * first;
             bytes.resize(4 * count);
-            file->read(PartHeader::numbers_place + 4 * first, bytes.data(), bytes.size());
+            file->read(start, bytes.data(), bytes.size());
             for (std::uint64_t index = 0; index < count; ++index) {
-                // From 1.
                 const std::uint32_t number = decode_integer(header.format, &bytes[4 * index]);
-                if (number == 0 || number > places.size() || places[number - 1].part != no_part) {
-                    throw elvis::api::Error(ELVIS_ERROR_FORMAT, file->path(),
-                                            "byte " + std::to_string(PartHeader::numbers_place + 4 * (first + index)) +
-                                                ": element number " + std::to_string(static_cast<std::int32_t>(number)) +
-                                                (number == 0 || number > places.size()
-                                                     ? " is not in 1.." + std::to_string(places.size())
-                                                     : " was there before"));
+                const bool is_known = number < places.size();
+                if (!is_known || places[number].part != no_part) {
+                    throw elvis::api::Error(
+                        ELVIS_ERROR_FORMAT, file->path(),
+                        "byte " + std::to_string(start + 4 * index) + ": element number " +
+                            std::to_string(static_cast<std::int32_t>(number)) +
+                            (is_known ? " was there before" : " is not in 1.." + std::to_string(content().n_elements)));
                 }
-                places[number - 1] = {part, static_cast<std::uint32_t>(first + index)};
+                places[number] = {part, static_cast<std::uint32_t>(first + index)};
             }
         }
     }
+    const auto missing = std::ranges::find(places, no_part, &Place::part);
+    if (missing != places.begin() && missing + 1 != places.end()) {
+        throw elvis::api::Error(ELVIS_ERROR_FORMAT, path(),
+                                "element number " + std::to_string(missing - places.begin()) + " is missing, but 0 is there");
+    }
+    places.erase(missing);
     return places;
 }
 

@@ -50,7 +50,8 @@ TEST_CASE("Elements that are missing or there twice are refused", "[nek5000]") {
     file.numbers = {1, 2, 2};
     CHECK_THAT(of(folder, file.content()), Contains("byte 144") && Contains("element number 2 was there before"));
     const std::string good = WrittenFile{}.content();
-    CHECK_THAT(of(folder, replaced(good, 136, integer_bytes(0, false))), Contains("byte 136") && Contains("0 is not in 1..3"));
+    CHECK_THAT(of(folder, replaced(good, 136, integer_bytes(4, false))), Contains("byte 136") && Contains("4 is not in 1..3"));
+    CHECK_THAT(of(folder, replaced(good, 140, integer_bytes(0, false))), Contains("number 2 is missing, but 0 is there"));
     CHECK_THAT(of(folder, replaced(good, 140, integer_bytes(-7, false))),
                Contains("byte 140") && Contains("-7 is not in 1..3"));
 }

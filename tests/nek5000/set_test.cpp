@@ -130,6 +130,15 @@ TEST_CASE("Parts may hold other elements at every step, and lie in folders", "[n
     CHECK(difference(listed, 1, 2) < 10 * round_off);
 }
 
+TEST_CASE("Elements may be counted from 0", "[nek5000]") {
+    const TemporaryFolder folder;
+    WrittenFile file;
+    file.numbers = {2, 3, 1};
+    std::string content = file.content();
+    content.replace(136, 12, integer_bytes(1, false) + integer_bytes(2, false) + integer_bytes(0, false));
+    CHECK(difference(open_nek5000({folder.write("a0.f00001", content)}), 0, 1.5) < round_off);
+}
+
 TEST_CASE("A list names the steps of a run, of which some may be missing", "[nek5000]") {
     const TemporaryFolder folder;
     WrittenFile file;
