@@ -76,6 +76,7 @@ DataSet::DataSet(const std::vector<std::string>& paths, const elvis::api::Host& 
     find_fields();
     check_coordinates();
     find_boundary();
+    make_tables();
 }
 
 void DataSet::find_geometry() {
@@ -187,6 +188,19 @@ void DataSet::find_boundary() {
                                               std::to_string(n_elements()) + "; its boundary conditions are not used");
         } catch (const elvis::api::Error& error) {
             m_host.log(ELVIS_LOG_WARNING, path + ": " + error.what() + "; its boundary conditions are not used");
+        }
+    }
+}
+
+void DataSet::make_tables() {
+    const auto add = [&](const Snapshot& step, const Block& block) {
+        const NodeSet set = step.nodes(*step.content().find(block));
+        m_tables.try_emplace(set, set);
+    };
+    add(geometry(), {Quantity::coordinates, 0});
+    for (const auto& step : m_steps) {
+        for (const Block& field : m_fields) {
+            add(*step, field);
         }
     }
 }

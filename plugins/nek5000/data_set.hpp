@@ -11,6 +11,7 @@
 #include <elvis/plugin.hpp>
 
 #include <atomic>
+#include <map>
 
 namespace elvis_nek5000 {
 
@@ -47,6 +48,7 @@ private:
     void find_fields();
     void check_coordinates();
     void find_boundary();
+    void make_tables();
     void begin_step(std::size_t step) const;
     /** That an element of a step with coordinates of its own lies where it does in all others. */
     void check_element(const Snapshot& step, std::uint64_t element) const;
@@ -61,7 +63,7 @@ private:
     double m_largest_coordinate = 0;
     double m_corner_tolerance = 0;
     Boundary m_boundary;
-    PointTables m_tables;
+    std::map<NodeSet, PointTables> m_tables;
     /** The step that was sampled last: tables of others are not kept. */
     mutable std::atomic<std::size_t> m_current = 0;
 };

@@ -9,10 +9,12 @@ namespace {
 
 using Eigen::Index;
 
-/** Numbers that all tables may hold: 128 MiB. */
-constexpr std::size_t capacity = std::size_t{1} << 24;
+/** Numbers that all tables may hold: 64 MiB. */
+constexpr std::size_t capacity = std::size_t{1} << 23;
 /** A conversion has two or three sets of points, and one for each way to look at a face. */
 constexpr std::size_t max_tables = 96;
+/** Smaller sets are those of a search for a position, which come once. */
+constexpr std::size_t least_points = 16;
 /** Smaller grids are cheaper as single points. */
 constexpr std::size_t least_grid = 16;
 
@@ -53,13 +55,13 @@ std::size_t product(const std::array<std::size_t, 3>& grid) { return grid[0] * g
 
 } // namespace
 
-PointTable::PointTable(const NodeSet& set, std::span<const double> xi) : m_set(set), m_xi(xi.begin(), xi.end()) {
+PointTable::PointTable(const NodeLines& lines, std::span<const double> xi) : m_xi(xi.begin(), xi.end()) {
     std::size_t first_scattered = 0;
     std::size_t at = 0;
     const std::size_t n_points = xi.size() / 3;
     const auto end_scattered = [&] {
         if (at > first_scattered) {
-            m_runs.push_back(make_scattered(xi.subspan(3 * first_scattered, 3 * (at - first_scattered))));
+            m_runs.push_back(make_scattered(lines, xi.subspan(3 * first_scattered, 3 * (at - first_scattered))));
         }
     };
     while (at < n_points) {
@@ -69,25 +71,24 @@ PointTable::PointTable(const NodeSet& set, std::span<const double> xi) : m_set(s
             continue;
         }
         end_scattered();
-        m_runs.push_back(make_grid(&xi[3 * at], grid));
+        m_runs.push_back(make_grid(lines, &xi[3 * at], grid));
         at += product(grid);
         first_scattered = at;
     }
     end_scattered();
 }
 
-PointTable::Matrix PointTable::tabulate(std::size_t direction, std::span<const double> x) const {
-    const std::vector<double> points = nodes(m_set.family, m_set.n[direction]);
-    std::vector<double> values(points.size());
-    Matrix table(static_cast<Index>(x.size()), static_cast<Index>(points.size()));
+PointTable::Matrix PointTable::tabulate(const std::vector<double>& line, std::span<const double> x) {
+    std::vector<double> values(line.size());
+    Matrix table(static_cast<Index>(x.size()), static_cast<Index>(line.size()));
     for (std::size_t row = 0; row < x.size(); ++row) {
-        evaluate_lagrange(points, x[row], values);
+        evaluate_lagrange(line, x[row], values);
         table.row(static_cast<Index>(row)) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), table.cols());
     }
     return table;
 }
 
-PointTable::Run PointTable::make_grid(const double* first, const std::array<std::size_t, 3>& grid) const {
+PointTable::Run PointTable::make_grid(const NodeLines& lines, const double* first, const std::array<std::size_t, 3>& grid) {
     Run run;
     run.n_points = static_cast<Index>(product(grid));
     std::size_t step = 1;
@@ -96,13 +97,13 @@ PointTable::Run PointTable::make_grid(const double* first, const std::array<std:
         for (std::size_t i = 0; i < grid[direction]; ++i) {
             x.push_back(first[3 * i * step + direction]);
         }
-        run.along[direction] = tabulate(direction, x);
+        run.along[direction] = tabulate(lines[direction], x);
         step *= grid[direction];
     }
     return run;
 }
 
-PointTable::Run PointTable::make_scattered(std::span<const double> points) const {
+PointTable::Run PointTable::make_scattered(const NodeLines& lines, std::span<const double> points) {
     Run run;
     const std::size_t n_points = points.size() / 3;
     run.n_points = static_cast<Index>(n_points);
@@ -112,9 +113,9 @@ PointTable::Run PointTable::make_scattered(std::span<const double> points) const
         for (std::size_t point = 0; point < n_points; ++point) {
             x.push_back(points[3 * point + direction]);
         }
-        along[direction] = tabulate(direction, x);
+        along[direction] = tabulate(lines[direction], x);
     }
-    run.all.resize(run.n_points, static_cast<Index>(m_set.size()));
+    run.all.resize(run.n_points, along[0].cols() * along[1].cols() * along[2].cols());
     Index node = 0;
     for (Index k = 0; k < along[2].cols(); ++k) {
         for (Index j = 0; j < along[1].cols(); ++j) {
@@ -137,7 +138,6 @@ std::size_t PointTable::size() const {
 }
 
 void PointTable::interpolate(std::span<const double> at_nodes, double* at_points, std::size_t stride) const {
-    const auto n0 = static_cast<Index>(m_set.n[0]), n1 = static_cast<Index>(m_set.n[1]), n2 = static_cast<Index>(m_set.n[2]);
     Matrix first, second, third;
     for (const Run& run : m_runs) {
         using Target = Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<>>;
@@ -148,7 +148,8 @@ void PointTable::interpolate(std::span<const double> at_nodes, double* at_points
             continue;
         }
         const auto& [a, b, c] = run.along;
-        first.noalias() = a * Eigen::Map<const Matrix>(at_nodes.data(), n0, n1 * n2);
+        const Index n1 = b.cols(), n2 = c.cols();
+        first.noalias() = a * Eigen::Map<const Matrix>(at_nodes.data(), a.cols(), n1 * n2);
         second.resize(a.rows(), b.rows() * n2);
         for (Index k = 0; k < n2; ++k) {
             second.middleCols(k * b.rows(), b.rows()).noalias() = first.middleCols(k * n1, n1) * b.transpose();
@@ -158,24 +159,28 @@ void PointTable::interpolate(std::span<const double> at_nodes, double* at_points
     }
 }
 
-std::shared_ptr<const PointTable> PointTables::table(const NodeSet& set, std::span<const double> xi) const {
+PointTables::PointTables(const NodeSet& set) {
+    for (std::size_t direction = 0; direction < 3; ++direction) {
+        m_lines[direction] = nodes(set.family, set.n[direction]);
+    }
+}
+
+std::shared_ptr<const PointTable> PointTables::table(std::span<const double> xi) const {
+    if (xi.size() < 3 * least_points) {
+        return std::make_shared<const PointTable>(m_lines, xi);
+    }
     {
         const std::shared_lock lock(m_mutex);
-        const auto [first, last] = m_tables.equal_range(set);
-        const auto found = std::find_if(first, last, [&](const auto& entry) { return entry.second->is_of(xi); });
-        if (found != last) {
-            return found->second;
+        const auto found = std::ranges::find_if(m_tables, [&](const auto& table) { return table->is_of(xi); });
+        if (found != m_tables.end()) {
+            return *found;
         }
     }
-    auto table = std::make_shared<const PointTable>(set, xi);
+    auto table = std::make_shared<const PointTable>(m_lines, xi);
     const std::unique_lock lock(m_mutex);
-    if (table->size() <= capacity / 4) {
-        if (m_n_held + table->size() > capacity || m_tables.size() == max_tables) {
-            m_tables.clear();
-            m_n_held = 0;
-        }
+    if (m_tables.size() < max_tables && m_n_held + table->size() <= capacity) {
         m_n_held += table->size();
-        m_tables.emplace(set, table);
+        m_tables.push_back(table);
     }
     return table;
 }

@@ -8,11 +8,13 @@
 
 #include <Eigen/Core>
 
-#include <map>
 #include <memory>
 #include <shared_mutex>
 
 namespace elvis_nek5000 {
+
+/** Nodes of each direction. */
+using NodeLines = std::array<std::vector<double>, 3>;
 
 /**
  * Values at points from values at nodes. Points that form a grid, as those of quadrature do, are reached by one direction after
@@ -20,12 +22,12 @@ namespace elvis_nek5000 {
  */
 class PointTable {
 public:
-    PointTable(const NodeSet& set, std::span<const double> xi);
+    PointTable(const NodeLines& lines, std::span<const double> xi);
 
     bool is_of(std::span<const double> xi) const;
     /** Numbers that it holds. */
     std::size_t size() const;
-    /** One component: set.size() values at nodes; a value each `stride` numbers for the points. */
+    /** One component: values at all nodes; a value each `stride` numbers for the points. */
     void interpolate(std::span<const double> at_nodes, double* at_points, std::size_t stride) const;
 
 private:
@@ -40,11 +42,10 @@ private:
         Matrix all;
     };
 
-    Matrix tabulate(std::size_t direction, std::span<const double> x) const;
-    Run make_grid(const double* first, const std::array<std::size_t, 3>& grid) const;
-    Run make_scattered(std::span<const double> points) const;
+    static Matrix tabulate(const std::vector<double>& line, std::span<const double> x);
+    static Run make_grid(const NodeLines& lines, const double* first, const std::array<std::size_t, 3>& grid);
+    static Run make_scattered(const NodeLines& lines, std::span<const double> points);
 
-    NodeSet m_set;
     std::vector<double> m_xi;
     std::vector<Run> m_runs;
 };
@@ -52,11 +53,15 @@ private:
 /** Any thread may ask. */
 class PointTables {
 public:
-    std::shared_ptr<const PointTable> table(const NodeSet& set, std::span<const double> xi) const;
+    /** For nodes of this set alone. */
+    explicit PointTables(const NodeSet& set);
+
+    std::shared_ptr<const PointTable> table(std::span<const double> xi) const;
 
 private:
+    NodeLines m_lines;
     mutable std::shared_mutex m_mutex;
-    mutable std::multimap<NodeSet, std::shared_ptr<const PointTable>> m_tables;
+    mutable std::vector<std::shared_ptr<const PointTable>> m_tables;
     mutable std::size_t m_n_held = 0;
 };
 

@@ -21,7 +21,7 @@ void DataSet::evaluate_mapping(std::uint64_t element, std::span<const double> xi
     const NodeSet set = geometry().nodes(block);
     std::vector<double> at_nodes(dimension() * set.size());
     geometry().read(block, element, at_nodes);
-    const auto table = m_tables.table(set, xi);
+    const auto table = m_tables.at(set).table(xi);
     std::ranges::fill(positions, 0.0);
     for (std::size_t axis = 0; axis < dimension(); ++axis) {
         table->interpolate(std::span(at_nodes).subspan(axis * set.size(), set.size()), &positions[axis], 3);
@@ -77,7 +77,7 @@ void DataSet::sample(std::size_t step, std::uint64_t element, std::span<const do
         at_nodes.resize(n_components(field) * n_points);
         snapshot.read(block, element, at_nodes);
         const NodeSet set = snapshot.nodes(block);
-        const auto table = m_tables.table(set, xi);
+        const auto table = m_tables.at(set).table(xi);
         for (std::size_t component = 0; component < n_components(field); ++component, ++values) {
             // Of pressure at Gauss-Legendre points only the first numbers mean something.
             table->interpolate(std::span(at_nodes).subspan(component * n_points, set.size()), values, m_n_values);

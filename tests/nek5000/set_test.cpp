@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstring>
 
 using namespace elvis;
 using Catch::Contains;
@@ -128,6 +129,27 @@ TEST_CASE("Parts may hold other elements at every step, and lie in folders", "[n
     const auto listed = open_nek5000({folder.path("list.nek5000")});
     REQUIRE(listed.times() == std::vector<double>{1, 2});
     CHECK(difference(listed, 1, 2) < 10 * round_off);
+}
+
+TEST_CASE("Neighbours are found though their copies of a point are rounded to neighbouring numbers", "[nek5000]") {
+    const TemporaryFolder folder;
+    WrittenFile file;
+    file.real_size = 4;
+    // Far from the origin, where numbers are 2e-6 apart.
+    file.shift = 20;
+    std::string content = file.content();
+    // x of the second of three elements with 5^3 nodes.
+    const std::size_t first = 136 + 4 * 3 + 4 * 3 * 125;
+    for (std::size_t node = 0; node < 125; ++node) {
+        float x = 0;
+        std::memcpy(&x, &content[first + 4 * node], 4);
+        x = std::nextafter(x, 100.0F);
+        std::memcpy(&content[first + 4 * node], &x, 4);
+    }
+    const ConvertedVolume volume(open_nek5000({folder.write("a0.f00001", content)}));
+    CHECK(volume.report().n_unknown_faces == 0);
+    CHECK(volume.report().n_boundary_faces == 3 * 6 - 2 * 2);
+    CHECK(volume.report().fields.at(0).max_jump < 1e-5);
 }
 
 TEST_CASE("Elements may be counted from 0", "[nek5000]") {
