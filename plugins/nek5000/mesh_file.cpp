@@ -62,8 +62,8 @@ std::uint64_t MeshFile::take_count(std::uint64_t& place, std::uint64_t record_si
         count = decode_integer(m_format, bytes.data());
     }
     const std::uint64_t first = place + m_format.real_size;
-    const auto most = static_cast<double>((m_file.size() - std::min(m_file.size(), first)) / record_size);
-    if (!(count >= 0 && count <= most && count == std::floor(count))) {
+    const std::uint64_t most = (m_file.size() - std::min(m_file.size(), first)) / record_size;
+    if (!(count >= 0 && count <= static_cast<double>(most) && count == std::floor(count))) {
         throw elvis::api::Error(ELVIS_ERROR_FORMAT, m_file.path(),
                                 "byte " + std::to_string(place) + ": " + std::to_string(count) +
                                     " records, but there is room for " + std::to_string(most));

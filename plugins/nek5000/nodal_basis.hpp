@@ -5,9 +5,9 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace elvis_nek5000 {
@@ -19,7 +19,8 @@ struct NodeSet {
     std::array<std::uint32_t, 3> n{};
     NodeFamily family = NodeFamily::gauss_lobatto;
 
-    auto operator<=>(const NodeSet&) const = default;
+    bool operator==(const NodeSet&) const = default;
+    bool operator<(const NodeSet& other) const { return std::tie(n, family) < std::tie(other.n, other.family); }
     std::size_t size() const { return std::size_t{n[0]} * n[1] * n[2]; }
 };
 

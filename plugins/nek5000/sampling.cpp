@@ -40,6 +40,9 @@ void DataSet::check_element(const Snapshot& step, std::uint64_t element) const {
     if (!block || &step == m_geometry.get()) {
         return;
     }
+    const auto fail = [&](const std::string& cause) {
+        throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, step.path(), "element " + std::to_string(element + 1) + " " + cause);
+    };
     const Content &here = step.content(), &there = geometry().content();
     std::vector<double> own(dimension() * here.n_points()), first(dimension() * there.n_points());
     step.read(*block, element, own);
@@ -54,15 +57,15 @@ void DataSet::check_element(const Snapshot& step, std::uint64_t element) const {
             const std::size_t a = has_same_nodes ? check : here.corner_node(check);
             const std::size_t b = has_same_nodes ? check : there.corner_node(check);
             const double moved = std::abs(own[axis * here.n_points() + a] - first[axis * there.n_points() + b]);
-            // A number that is not finite is no distance.
-            distance = moved <= distance ? distance : moved;
+            if (!std::isfinite(moved)) {
+                fail("has a coordinate that is not finite");
+            }
+            distance = std::max(distance, moved);
         }
     }
-    if (!(distance <= tolerance)) {
-        throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, step.path(),
-                                "element " + std::to_string(element + 1) + " lies elsewhere than in " + geometry().path() +
-                                    " (by " + shown(distance) +
-                                    "); meshes that move are not supported, so convert time steps one by one");
+    if (distance > tolerance) {
+        fail("lies elsewhere than in " + geometry().path() + " (by " + shown(distance) +
+             "); meshes that move are not supported, so convert time steps one by one");
     }
 }
 

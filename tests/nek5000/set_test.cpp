@@ -232,6 +232,11 @@ TEST_CASE("Meshes that move are refused, those written again are not", "[nek5000
     file.n = 5;
     CHECK_THAT(failure({first, folder.write("a0.f00005", file.content())}), Contains("element 1 ") && Contains("move"));
     CHECK(failure({folder.path("a0.f00005")}) == "no failure");
+    file = {};
+    std::string content = file.content();
+    content.replace(136 + 4 * 3 + 8 * 130, 8, real_bytes(std::nan(""), 8, false));
+    CHECK_THAT(failure({first, folder.write("a0.f00006", content)}),
+               Contains("a0.f00006") && Contains("element 1 has a coordinate that is not finite"));
 }
 
 TEST_CASE("Steps of different orders are converted at the highest", "[nek5000]") {
