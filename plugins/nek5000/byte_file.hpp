@@ -35,7 +35,7 @@ private:
     std::uint64_t m_size = 0;
 };
 
-/** The files that were used last stay open: a process may not have all parts of all time steps open at once. */
+/** The files that were opened last stay open: a process may not have all parts of all time steps open at once. */
 class OpenFiles {
 public:
     std::shared_ptr<const ByteFile> open(const std::string& path);

@@ -96,6 +96,23 @@ std::array<double, 7> interpolated(const SourceVolume& exact, std::uint64_t elem
     return values;
 }
 
+/** Area of a plane volume, by Gauss points that integrate the Jacobian's determinant, of order up to 13, exactly. */
+double area(const ConvertedVolume& volume) {
+    std::vector<double> points(9), weights(9);
+    native::gauss_legendre(points, weights);
+    double sum = 0;
+    for (std::uint64_t element = 0; element < volume.n_elements(); ++element) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            for (std::size_t j = 0; j < points.size(); ++j) {
+                std::array<Point, 3> jacobian;
+                volume.position(element, {points[i], points[j], 0}, &jacobian);
+                sum += weights[i] * weights[j] * (jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0]);
+            }
+        }
+    }
+    return sum;
+}
+
 } // namespace
 
 TEST_CASE("Fields at interior points are the closed form's interpolants, before and after conversion", "[nek5000]") {
@@ -173,6 +190,7 @@ TEST_CASE("Meshes of two dimensions are squares with fields of two components", 
     CHECK(volume.report().n_unknown_faces == 0);
     // Six squares a side.
     CHECK(volume.report().n_boundary_faces == 24);
+    CHECK(area(volume) == Approx(1).margin(1e-6));
 
     const SourceVolume cylinder = open_nek5000({sample_file("cylinder_mesh0.f00000")});
     REQUIRE(cylinder.fields().size() == 1);
@@ -180,6 +198,8 @@ TEST_CASE("Meshes of two dimensions are squares with fields of two components", 
     const ConvertedVolume round(cylinder);
     CHECK(round.report().geometry_exact);
     CHECK(round.report().n_unknown_faces == 0);
+    // A rectangle without a circle of radius 1/2, which elements of order 5 come near.
+    CHECK(area(round) == Approx(40 * 30 - pi / 4).margin(1e-4));
     // The circle of radius 1/2, whose nodes lie within 2.3e-5 of it.
     double nearest = 1e9;
     for (std::uint64_t element = 0; element < cylinder.info().n_elements; ++element) {
