@@ -52,17 +52,28 @@ void set_numbers(const ByteFile& file, const Numbers& numbers, PartHeader& heade
     }
     header.content.time = *numbers.time;
     header.n_parts = static_cast<std::uint32_t>(in_range(file, "the number of parts", numbers.places[2], 1, max_parts));
-    header.part =
-        static_cast<std::uint32_t>(in_range(file, "the number of this part", numbers.places[1], 0, header.n_parts - 1));
+    // Of a single part Neko says that it is part 1.
+    const std::int64_t last = header.n_parts == 1 ? max_parts : header.n_parts - 1;
+    const std::int64_t part = in_range(file, "the number of this part", numbers.places[1], 0, last);
+    header.part = header.n_parts == 1 ? 0 : static_cast<std::uint32_t>(part);
 }
 
 /**
- * Columns of 2006: 4x,i2,3i3,2i10,e20.13,i9,2i6,20a1. In the later ones column 75 is a blank between the last two numbers, here
- * it is the last digit of the number of parts.
+ * Whether the header is one of before 2008: the number of parts, the eleventh word, ends in column 75. Later it ends in column
+ * 81, or further where programs write wider numbers.
  */
+bool is_in_columns(std::string_view text) {
+    constexpr std::size_t width = 76;
+    constexpr std::string_view digits = "0123456789";
+    const std::string_view numbers = columns(text, 0, width), rest = columns(text, width, 1);
+    const bool ends_there = numbers.size() == width && digits.find(numbers.back()) != std::string_view::npos &&
+                            (rest.empty() || digits.find(rest.front()) == std::string_view::npos);
+    return ends_there && words(numbers).size() == 11;
+}
+
+/** Columns of before 2008: 4x,i2,3i3,2i10,e20.13,i9,2i6,20a1. */
 bool read_columns(const ByteFile& file, std::string_view text, PartHeader& header) {
-    const std::string_view last = columns(text, 75, 1);
-    if (last.empty() || last[0] < '0' || last[0] > '9') {
+    if (!is_in_columns(text)) {
         return false;
     }
     const Numbers numbers{

@@ -111,6 +111,21 @@ TEST_CASE("Sessions whose name ends in _reg have equidistant points", "[nek5000]
     CHECK(ConvertedVolume(source).report().fields.at(0).exact);
 }
 
+TEST_CASE("A single part may have any number, and numbers may be wider", "[nek5000]") {
+    const TemporaryFolder folder;
+    WrittenFile file;
+    file.code = "XUP";
+    // Neko counts parts from 1, others end the code with a line.
+    const auto header = [](int more) {
+        return "#std 8  5  5  5 " + in_columns("3", 10 + static_cast<std::size_t>(more)) +
+               "          3  1.5000000000000E+00         7      1      1 XUP\n";
+    };
+    for (const int more : {0, 1, 2}) {
+        INFO(more << " columns more");
+        CHECK(pressure_error(open_nek5000({folder.write("field0.f00000", with_header(file, header(more)))})) < 1e-13);
+    }
+}
+
 TEST_CASE("What follows the numbers is not needed", "[nek5000]") {
     const TemporaryFolder folder;
     WrittenFile file;

@@ -33,7 +33,7 @@ TEST_CASE("Headers that cannot be are refused", "[nek5000]") {
     CHECK_THAT(of(folder, replaced(good, 38, "never")), Contains("time"));
     CHECK_THAT(of(folder, replaced(good, 38, "                 nan")), Contains("time"));
     CHECK_THAT(of(folder, replaced(good, 76, "     0")), Contains("number of parts is 0"));
-    CHECK_THAT(of(folder, replaced(good, 69, "     1")), Contains("number of this part is 1"));
+    CHECK_THAT(of(folder, replaced(good, 69, "     2      2")), Contains("number of this part is 2"));
     CHECK_THAT(of(folder, replaced(good, 83, "XVPT")), Contains("'XVPTS02' is no list of fields"));
     CHECK_THAT(of(folder, replaced(good, 83, "UXPT")), Contains("no list of fields"));
     CHECK_THAT(of(folder, replaced(good, 83, "XUPTS99")), Contains("promises"));
