@@ -1,7 +1,6 @@
 #include "boundary.hpp"
 
-#include <elvis/plugin.hpp>
-
+#include <filesystem>
 #include <limits>
 #include <map>
 
@@ -75,6 +74,27 @@ Boundary::Boundary(const MeshFile& mesh) {
 std::int32_t Boundary::group(std::uint64_t element, int local_face) const {
     const std::int32_t group = m_groups.empty() ? ELVIS_GROUP_NONE : m_groups[element][static_cast<std::size_t>(local_face)];
     return std::max(group, ELVIS_GROUP_NONE);
+}
+
+Boundary find_boundary(const std::vector<std::string>& mesh_paths, std::uint64_t n_elements, std::uint32_t dimension,
+                       const elvis::api::Host& host) {
+    for (const std::string& path : mesh_paths) {
+        std::error_code ignored;
+        if (!std::filesystem::exists(path, ignored)) {
+            continue;
+        }
+        std::string cause = "has another number of elements or dimensions than the fields";
+        try {
+            const MeshFile mesh(path);
+            if (mesh.n_elements() == n_elements && mesh.dimension() == dimension) {
+                return Boundary(mesh);
+            }
+        } catch (const elvis::api::Error& error) {
+            cause = error.what();
+        }
+        host.log(ELVIS_LOG_WARNING, path + ": " + cause + "; its boundary conditions are not used");
+    }
+    return {};
 }
 
 } // namespace elvis_nek5000

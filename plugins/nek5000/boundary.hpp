@@ -6,6 +6,8 @@
 
 #include "mesh_file.hpp"
 
+#include <elvis/plugin.hpp>
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -29,5 +31,12 @@ private:
     std::vector<std::string> m_names;
     std::vector<std::array<std::int16_t, 6>> m_groups;
 };
+
+/**
+ * The groups of the first of these meshes that is there and has as many elements. The host is told of one that is not used,
+ * which is no reason to refuse the fields: it was found by its name alone.
+ */
+Boundary find_boundary(const std::vector<std::string>& mesh_paths, std::uint64_t n_elements, std::uint32_t dimension,
+                       const elvis::api::Host& host);
 
 } // namespace elvis_nek5000

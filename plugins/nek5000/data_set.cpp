@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -75,7 +74,8 @@ DataSet::DataSet(const std::vector<std::string>& paths, const elvis::api::Host& 
     check_steps();
     find_fields();
     check_coordinates();
-    find_boundary();
+    m_boundary =
+        find_boundary(mesh_paths(m_steps.front()->path(), m_steps.front()->n_parts()), n_elements(), dimension(), host);
     make_tables();
 }
 
@@ -119,17 +119,11 @@ void DataSet::check_steps() const {
 }
 
 void DataSet::find_fields() {
-    std::set<std::string> left_out;
     m_fields = fields_of(m_steps.front()->content());
-    for (const auto& step : m_steps) {
-        const auto is_missing = [&](const Block& field) { return !step->content().find(field); };
-        for (const Block& field : m_fields) {
-            if (is_missing(field)) {
-                left_out.insert(name(field));
-            }
-        }
-        std::erase_if(m_fields, is_missing);
-    }
+    std::erase_if(m_fields, [&](const Block& field) {
+        return std::ranges::any_of(m_steps, [&](const auto& step) { return !step->content().find(field); });
+    });
+    std::set<std::string> left_out;
     for (const auto& step : m_steps) {
         for (const Block& field : fields_of(step->content())) {
             if (std::ranges::find(m_fields, field) == m_fields.end()) {
@@ -169,26 +163,6 @@ void DataSet::check_coordinates() {
     if (geometry().precision().mantissa_bits < double_precision.mantissa_bits) {
         // Copies of a corner may be rounded to neighbouring numbers, but corners of an element stay apart.
         m_corner_tolerance = std::min(2 * geometry().precision().spacing * m_largest_coordinate, 0.1 * shortest);
-    }
-}
-
-void DataSet::find_boundary() {
-    for (const std::string& path : mesh_paths(m_steps.front()->path(), m_steps.front()->n_parts())) {
-        std::error_code ignored;
-        if (!std::filesystem::exists(path, ignored)) {
-            continue;
-        }
-        try {
-            const MeshFile mesh(path);
-            if (mesh.n_elements() == n_elements() && mesh.dimension() == dimension()) {
-                m_boundary = Boundary(mesh);
-                return;
-            }
-            m_host.log(ELVIS_LOG_WARNING, path + ": has " + std::to_string(mesh.n_elements()) + " elements, the fields have " +
-                                              std::to_string(n_elements()) + "; its boundary conditions are not used");
-        } catch (const elvis::api::Error& error) {
-            m_host.log(ELVIS_LOG_WARNING, path + ": " + error.what() + "; its boundary conditions are not used");
-        }
     }
 }
 

@@ -47,7 +47,6 @@ private:
     void check_steps() const;
     void find_fields();
     void check_coordinates();
-    void find_boundary();
     void make_tables();
     void begin_step(std::size_t step) const;
     /** That an element of a step with coordinates of its own lies where it does in all others. */
