@@ -76,34 +76,34 @@ TEST_CASE("Damaged files neither crash nor hang nor take memory", "[nek5000][fuz
     std::size_t n_read = 0, n_refused = 0;
     const auto count = [&](const std::vector<std::string>& paths) { ++(use(paths) ? n_read : n_refused); };
     WrittenFile part;
+    part.n = 4;
     part.n_parts = 2;
     part.numbers = {3, 1};
-    WrittenFile other = part;
-    other.part = 1;
-    other.numbers = {2};
-    WrittenFile later = part;
-    later.code = "UPTS02";
+    const std::string first = part.content();
+    part.code = "UPTS02";
+    const std::string first_later = part.content();
+    part.part = 1;
+    part.numbers = {2};
+    const std::string second_later = part.content();
+    part.code = "XUPTS02";
+    const std::string second = part.content();
     const std::string list = "filetemplate: a%01d.f%05d\nfirsttimestep: 1\nnumtimesteps: 3\ntype: binary\n";
     const std::string mesh = read_file(sample_file("io_test.re2"));
-    folder.write("b.re2", mesh);
+    folder.write("m22io_test0.f00003", read_file(sample_file("m22io_test0.f00003")));
+    folder.write("m22io_test1.f00003", read_file(sample_file("m22io_test1.f00003")));
     for (int variant = 0; variant < 1500; ++variant) {
         INFO("variant " << variant);
         const int which = variant % 5;
         const auto write = [&](const char* name, int index, const std::string& content) {
             return folder.write(name, which == index ? damaged(content, random) : content);
         };
-        write("a0.f00001", 0, part.content());
-        write("a1.f00001", 1, other.content());
-        write("a0.f00002", 2, later.content());
-        WrittenFile rest = later;
-        rest.part = 1;
-        rest.numbers = {2};
-        write("a1.f00002", 0, rest.content());
+        write("a0.f00001", 0, first);
+        write("a1.f00001", 1, second);
+        write("a0.f00002", 2, first_later);
+        write("a1.f00002", 0, second_later);
         count({write("a.nek5000", 3, list)});
         if (which == 4) {
             folder.write("m22io_test.re2", damaged(mesh, random));
-            folder.write("m22io_test0.f00003", read_file(sample_file("m22io_test0.f00003")));
-            folder.write("m22io_test1.f00003", read_file(sample_file("m22io_test1.f00003")));
             count({folder.path("m22io_test0.f00003")});
         }
     }
@@ -119,5 +119,5 @@ TEST_CASE("Damaged files neither crash nor hang nor take memory", "[nek5000][fuz
     WARN(n_refused << " refused, " << n_read << " read, at most " << usage.ru_maxrss / 1024 << " MiB of memory");
     CHECK(n_refused > 400);
     CHECK(n_read > 200);
-    CHECK(usage.ru_maxrss < 1024 * 1024);
+    CHECK(usage.ru_maxrss < 256 * 1024);
 }
