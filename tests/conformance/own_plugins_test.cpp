@@ -61,6 +61,7 @@ TEST_CASE("The conversion plugins pass every check") {
     check(place, "elvis_nektarpp", volumes({"nektarpp/CubeAllElements.xml", "nektarpp/CubeAllElements.fld"}));
     check(place, "elvis_mfem", volumes({"mfem/poisson-inline-tet-p6/mesh.mesh", "mfem/poisson-inline-tet-p6/sol.gf"}));
     check(place, "elvis_vtk", volumes({"vtk/cells3.vtu"}));
+    check(place, "elvis_nek5000", volumes({"nek5000/m22io_test0.f00003"}));
 }
 
 TEST_CASE("Checks of an interface that a plugin lacks do not count, unless they are asked for") {
