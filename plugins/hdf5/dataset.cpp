@@ -77,6 +77,9 @@ public:
         if (!member.empty()) {
             m_place.fail("has no member '" + member.front() + "'");
         }
+        if (!is_number(type)) {
+            m_place.fail("holds numbers of an unknown kind");
+        }
         if (H5Tget_class(m_number) == H5T_INTEGER && H5Tget_class(type) != H5T_INTEGER) {
             m_place.fail("holds floating-point numbers where integers are expected");
         }

@@ -1,6 +1,7 @@
 #include "file.hpp"
 
 #include "object.hpp"
+#include "plain_driver.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +52,7 @@ File::File(const std::string& path) {
     m_impl = locked(path, [&] {
         auto impl = std::make_unique<Impl>();
         impl->path = path;
-        impl->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+        impl->file = open_plainly(path);
         if (!impl->file.is_valid()) {
             impl->place("").fail_with_stack("is not a readable HDF5 file: of another format, truncated or damaged");
         }
@@ -141,8 +142,7 @@ std::vector<double> File::numbers_of_attribute(const std::string& object, const 
         const Handle attribute = m_impl->open_attribute(object, name);
         const Handle type(check(H5Aget_type(attribute.id()), place, "has no type"), H5Tclose);
         const Handle space(check(H5Aget_space(attribute.id()), place, "has no shape"), H5Sclose);
-        const H5T_class_t kind = H5Tget_class(type.id());
-        if (kind != H5T_FLOAT && kind != H5T_INTEGER) {
+        if (!is_number(type.id())) {
             place.fail("does not hold numbers");
         }
         constexpr std::uint64_t most = std::uint64_t{1} << 22;

@@ -1,5 +1,6 @@
 #include "object.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace elvis::hdf5 {
@@ -86,6 +87,14 @@ std::optional<std::uint64_t> n_entries(const std::vector<std::uint64_t>& shape) 
         n *= extent;
     }
     return n;
+}
+
+bool is_number(hid_t type) {
+    const hid_t numbers[] = {H5T_STD_I8LE,  H5T_STD_I16LE, H5T_STD_I32LE, H5T_STD_I64LE,  H5T_STD_U8LE,
+                             H5T_STD_U16LE, H5T_STD_U32LE, H5T_STD_U64LE, H5T_IEEE_F32LE, H5T_IEEE_F64LE,
+                             H5T_STD_I8BE,  H5T_STD_I16BE, H5T_STD_I32BE, H5T_STD_I64BE,  H5T_STD_U8BE,
+                             H5T_STD_U16BE, H5T_STD_U32BE, H5T_STD_U64BE, H5T_IEEE_F32BE, H5T_IEEE_F64BE};
+    return std::ranges::any_of(numbers, [&](hid_t number) { return H5Tequal(type, number) > 0; });
 }
 
 std::string trimmed(std::string text) {

@@ -38,6 +38,12 @@ std::vector<std::uint64_t> extents(const Handle& space, const Place& place);
 /** Entries in all; nothing if that is more than 2^60. */
 std::optional<std::uint64_t> n_entries(const std::vector<std::uint64_t>& shape);
 
+/**
+ * Whether a type is that of integers of 1 to 8 bytes or of floating-point numbers of 4 or 8, in either byte order. Damaged
+ * files describe others, at which HDF5 1.10 reads beyond its memory.
+ */
+bool is_number(hid_t type);
+
 /** A text without blanks and zeros at its end. */
 std::string trimmed(std::string text);
 
