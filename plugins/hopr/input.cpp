@@ -10,7 +10,8 @@ namespace elvis_hopr {
 namespace {
 
 std::string find_mesh(const std::string& state) {
-    const std::string name = State(elvis::hdf5::File(state)).mesh_file();
+    elvis::nodal::NodalSpaces spaces;
+    const std::string name = State(elvis::hdf5::File(state), spaces).mesh_file();
     // The solver ran elsewhere: of its path only the name counts.
     const std::filesystem::path beside = std::filesystem::path(state).parent_path() / std::filesystem::path(name).filename();
     std::error_code ignored;

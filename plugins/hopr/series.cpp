@@ -37,7 +37,7 @@ std::vector<SourceField> fields_of(const State& state) {
 
 Series::Series(const std::vector<std::string>& paths, const Mesh& mesh) : m_paths(paths) {
     for (const std::string& path : paths) {
-        add(State(elvis::hdf5::File(path)), mesh);
+        add(State(elvis::hdf5::File(path), m_spaces), mesh);
     }
 }
 
@@ -73,7 +73,7 @@ std::uint64_t Series::n_ever_finite_volume() const { return static_cast<std::uin
 std::shared_ptr<const Series::Step> Series::step(std::size_t step) const {
     const std::lock_guard lock(m_mutex);
     if (!m_open || m_open_step != step) {
-        State state{elvis::hdf5::File(m_paths[step])};
+        State state(elvis::hdf5::File(m_paths[step]), m_spaces);
         std::vector<bool> finite_volume = state.read_finite_volume();
         m_open = std::make_shared<const Step>(Step{std::move(state), std::move(finite_volume)});
         m_open_step = step;

@@ -54,6 +54,7 @@ private:
     std::uint32_t m_order = 0;
     unsigned m_mantissa_bits = 53;
     std::vector<bool> m_ever;
+    mutable elvis::nodal::NodalSpaces m_spaces;
     mutable std::mutex m_mutex;
     mutable std::size_t m_open_step = 0;
     mutable std::shared_ptr<const Step> m_open;

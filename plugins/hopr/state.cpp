@@ -43,7 +43,7 @@ bool is_state(const elvis::hdf5::File& file) {
            std::ranges::any_of(nodal_datasets, [&](const auto& one) { return file.has(one[0]); });
 }
 
-State::State(elvis::hdf5::File file) : m_file(std::move(file)) {
+State::State(elvis::hdf5::File file, elvis::nodal::NodalSpaces& spaces) : m_file(std::move(file)) {
     if (m_file.has_attribute("/", "Time")) {
         const std::vector<double> time = m_file.numbers_of_attribute("/", "Time");
         m_time = time.size() == 1 && std::isfinite(time.front()) ? time.front() : 0;
@@ -53,7 +53,7 @@ State::State(elvis::hdf5::File file) : m_file(std::move(file)) {
     for (const auto& [dataset, attribute] : nodal_datasets) {
         if (m_file.has(dataset)) {
             std::vector<std::string> names = names_in(attribute);
-            add_nodal(dataset, names.empty() ? names_in(dataset) : names);
+            add_nodal(dataset, names.empty() ? names_in(dataset) : names, spaces);
         }
     }
     if (!m_nodes) {
@@ -75,7 +75,7 @@ void State::add_name(const std::string& name, const std::string& dataset) {
     m_names.push_back(is_new ? name : name + " (" + dataset + ")");
 }
 
-void State::add_nodal(const std::string& name, const std::vector<std::string>& names) {
+void State::add_nodal(const std::string& name, const std::vector<std::string>& names, elvis::nodal::NodalSpaces& spaces) {
     elvis::hdf5::Dataset data = m_file.dataset(name);
     const std::vector<std::uint64_t>& shape = data.shape();
     if (shape.size() != 5 || shape[2] != shape[3] || (shape[1] != shape[2] && shape[1] != 1)) {
@@ -98,7 +98,7 @@ void State::add_nodal(const std::string& name, const std::vector<std::string>& n
                             "'; known are GAUSS, GAUSS-LOBATTO and CHEBYSHEV-GAUSS-LOBATTO, the last two from order 1");
         }
         m_n_elements = shape[0];
-        m_nodes = std::make_unique<const elvis::nodal::NodalSpace>(elvis::native::Shape::hexahedron, order, cube_of(line));
+        m_nodes = spaces.get(elvis::native::Shape::hexahedron, order, cube_of(line));
     }
     if (shape[0] != m_n_elements || order != m_nodes->order()) {
         data.fail("has other elements or another order than the dataset before it");

@@ -20,7 +20,8 @@ namespace elvis_hopr {
 /** Any thread may read. */
 class State {
 public:
-    explicit State(elvis::hdf5::File file);
+    /** Nodes are taken from `spaces`, if others have had the same. */
+    State(elvis::hdf5::File file, elvis::nodal::NodalSpaces& spaces);
 
     const std::string& path() const { return m_file.path(); }
     double time() const { return m_time; }
@@ -54,7 +55,7 @@ private:
         bool is_flat;
     };
 
-    void add_nodal(const std::string& dataset, const std::vector<std::string>& names);
+    void add_nodal(const std::string& dataset, const std::vector<std::string>& names, elvis::nodal::NodalSpaces& spaces);
     void add_constants();
     void add_name(const std::string& name, const std::string& dataset);
     /** Texts of an attribute; none if it is not there. */
@@ -66,7 +67,7 @@ private:
     double m_time = 0;
     std::uint64_t m_n_elements = 0;
     unsigned m_mantissa_bits = 53;
-    std::unique_ptr<const elvis::nodal::NodalSpace> m_nodes;
+    std::shared_ptr<const elvis::nodal::NodalSpace> m_nodes;
     std::unique_ptr<const FiniteVolumeCells> m_cells;
     std::vector<std::string> m_names;
     std::size_t m_n_nodal = 0;

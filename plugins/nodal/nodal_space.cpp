@@ -66,4 +66,15 @@ std::shared_ptr<const Matrix> NodalSpace::at(std::span<const double> xi) const {
     return m_matrices.get({}, xi, [&]() -> Matrix { return modes(xi) * m_to_modes; });
 }
 
+std::shared_ptr<const NodalSpace> NodalSpaces::get(native::Shape shape, std::uint32_t order, std::vector<double> nodes) {
+    const std::lock_guard lock(m_mutex);
+    for (const auto& space : m_spaces) {
+        if (space->shape() == shape && space->order() == order && space->nodes() == nodes) {
+            return space;
+        }
+    }
+    m_spaces.push_back(std::make_shared<const NodalSpace>(shape, order, std::move(nodes)));
+    return m_spaces.back();
+}
+
 } // namespace elvis::nodal

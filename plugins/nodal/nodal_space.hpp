@@ -9,6 +9,7 @@
 #include <elvis/native/space.hpp>
 
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,17 @@ private:
         friend bool operator==(const Nothing&, const Nothing&) = default;
     };
     mutable MatrixCache<Nothing> m_matrices;
+};
+
+/** Spaces that several files of a series have in common, made once. Any thread may use it. */
+class NodalSpaces {
+public:
+    /** As the constructor of NodalSpace. */
+    std::shared_ptr<const NodalSpace> get(native::Shape shape, std::uint32_t order, std::vector<double> nodes);
+
+private:
+    std::mutex m_mutex;
+    std::vector<std::shared_ptr<const NodalSpace>> m_spaces;
 };
 
 } // namespace elvis::nodal

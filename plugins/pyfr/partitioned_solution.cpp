@@ -6,7 +6,8 @@
 
 namespace elvis_pyfr {
 
-PartitionedSolution::PartitionedSolution(elvis::hdf5::File file) : Solution(std::move(file)) {
+PartitionedSolution::PartitionedSolution(elvis::hdf5::File file, elvis::nodal::NodalSpaces& spaces)
+    : Solution(std::move(file), spaces) {
     m_names = split(m_stats.find("data", "fields").value_or(""), ',');
     if (m_names.empty()) {
         m_file.fail("stats", "names no fields: [data] fields is missing");

@@ -10,7 +10,7 @@ namespace elvis_pyfr {
 
 class PartitionedSolution : public Solution {
 public:
-    explicit PartitionedSolution(elvis::hdf5::File file);
+    PartitionedSolution(elvis::hdf5::File file, elvis::nodal::NodalSpaces& spaces);
 
     void check(const Mesh& mesh) const override;
     std::vector<double> read(const ElementSet& set, std::uint64_t first, std::uint64_t count) const override;

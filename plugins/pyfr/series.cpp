@@ -6,7 +6,7 @@ namespace elvis_pyfr {
 
 Series::Series(const std::vector<std::string>& paths, const Mesh& mesh) : m_paths(paths) {
     for (const std::string& path : paths) {
-        add(*open_solution(elvis::hdf5::File(path)), mesh);
+        add(*open_solution(elvis::hdf5::File(path), m_spaces), mesh);
     }
 }
 
@@ -47,7 +47,7 @@ std::optional<std::uint32_t> Series::order(const Kind& kind) const {
 std::shared_ptr<const Solution> Series::step(std::size_t step) const {
     const std::lock_guard lock(m_mutex);
     if (!m_open || m_open_step != step) {
-        m_open = open_solution(elvis::hdf5::File(m_paths[step]));
+        m_open = open_solution(elvis::hdf5::File(m_paths[step]), m_spaces);
         m_open_step = step;
     }
     return m_open;

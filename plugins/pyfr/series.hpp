@@ -33,6 +33,7 @@ private:
     std::vector<std::string> m_names;
     std::map<const Kind*, std::uint32_t> m_orders;
     unsigned m_mantissa_bits = 53;
+    mutable elvis::nodal::NodalSpaces m_spaces;
     mutable std::mutex m_mutex;
     mutable std::size_t m_open_step = 0;
     mutable std::shared_ptr<const Solution> m_open;

@@ -23,9 +23,9 @@ std::optional<double> number(const std::optional<std::string>& text) {
 
 } // namespace
 
-Solution::Solution(elvis::hdf5::File file)
+Solution::Solution(elvis::hdf5::File file, elvis::nodal::NodalSpaces& spaces)
     : m_file(std::move(file)), m_stats(m_file.text("stats")), m_prefix(m_stats.find("data", "prefix").value_or("soln")),
-      m_uuid(find_uuid(m_file)), m_time(number(m_stats.find("solver-time-integrator", "tcurr"))) {}
+      m_uuid(find_uuid(m_file)), m_time(number(m_stats.find("solver-time-integrator", "tcurr"))), m_known_spaces(&spaces) {}
 
 std::shared_ptr<const elvis::nodal::NodalSpace> Solution::space(const Kind& kind) const {
     const auto found = m_spaces.find(&kind);
@@ -40,19 +40,18 @@ void Solution::set_space(const Kind& kind, std::vector<double> points, const std
                                std::to_string(most_order(kind)));
     }
     try {
-        m_spaces[&kind] =
-            std::make_shared<const elvis::nodal::NodalSpace>(kind.shape, static_cast<std::uint32_t>(order), std::move(points));
+        m_spaces[&kind] = m_known_spaces->get(kind.shape, static_cast<std::uint32_t>(order), std::move(points));
     } catch (const std::invalid_argument& error) {
         m_file.fail(place, std::string("has ") + error.what());
     }
 }
 
-std::unique_ptr<const Solution> open_solution(elvis::hdf5::File file) {
+std::unique_ptr<const Solution> open_solution(elvis::hdf5::File file, elvis::nodal::NodalSpaces& spaces) {
     const int layout = find_layout(file);
     if (layout == 0) {
-        return std::make_unique<PartitionedSolution>(std::move(file));
+        return std::make_unique<PartitionedSolution>(std::move(file), spaces);
     }
-    return std::make_unique<SolutionFile>(std::move(file), layout);
+    return std::make_unique<SolutionFile>(std::move(file), layout, spaces);
 }
 
 } // namespace elvis_pyfr

@@ -37,7 +37,8 @@ public:
     virtual std::vector<double> read(const ElementSet& set, std::uint64_t first, std::uint64_t count) const = 0;
 
 protected:
-    explicit Solution(elvis::hdf5::File file);
+    /** Spaces are taken from `spaces`, which outlives this. */
+    Solution(elvis::hdf5::File file, elvis::nodal::NodalSpaces& spaces);
 
     /** The functions whose values are at these points, in ElVis's coordinates; `place` is the dataset that says so. */
     void set_space(const Kind& kind, std::vector<double> points, const std::string& place);
@@ -53,9 +54,10 @@ private:
     std::string m_uuid;
     std::optional<double> m_time;
     unsigned m_mantissa_bits = 53;
+    elvis::nodal::NodalSpaces* m_known_spaces;
     std::map<const Kind*, std::shared_ptr<const elvis::nodal::NodalSpace>> m_spaces;
 };
 
-std::unique_ptr<const Solution> open_solution(elvis::hdf5::File file);
+std::unique_ptr<const Solution> open_solution(elvis::hdf5::File file, elvis::nodal::NodalSpaces& spaces);
 
 } // namespace elvis_pyfr

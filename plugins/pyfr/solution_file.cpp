@@ -35,7 +35,8 @@ std::vector<std::string> names_of(const std::string& group, const std::string& v
 
 } // namespace
 
-SolutionFile::SolutionFile(elvis::hdf5::File file, int layout) : Solution(std::move(file)), m_layout(layout) {
+SolutionFile::SolutionFile(elvis::hdf5::File file, int layout, elvis::nodal::NodalSpaces& spaces)
+    : Solution(std::move(file), spaces), m_layout(layout) {
     if (layout == 1) {
         m_names = split(m_stats.find("data", "fields").value_or(""), ',');
         if (m_names.empty()) {
