@@ -117,7 +117,7 @@ std::string File::text(const std::string& dataset) const {
 std::int64_t File::integer(const std::string& name) const {
     const Dataset found = dataset(name);
     std::vector<std::int64_t> value(found.entry_size({}));
-    const std::vector<std::uint64_t> shape = found.shape();
+    const std::vector<std::uint64_t>& shape = found.shape();
     if (n_entries(shape).value_or(0) != 1 || value.size() != 1) {
         fail(name, "is not one number");
     }

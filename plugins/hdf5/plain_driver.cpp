@@ -55,7 +55,7 @@ herr_t close_file(H5FD_t* file) {
 
 int compare_files(const H5FD_t* a, const H5FD_t* b) {
     const auto order = std::tuple(opened(a).device, opened(a).node) <=> std::tuple(opened(b).device, opened(b).node);
-    return order < 0 ? -1 : order > 0 ? 1 : 0;
+    return std::is_lt(order) ? -1 : std::is_gt(order) ? 1 : 0;
 }
 
 herr_t read_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {

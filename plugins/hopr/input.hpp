@@ -15,7 +15,7 @@ std::uint32_t probe(const std::string& path);
 
 struct Input {
     std::string mesh;
-    /** Time steps, as the user gave them; may be none. */
+    /** Time steps; may be none. */
     std::vector<std::string> states;
 };
 

@@ -35,7 +35,7 @@ std::vector<SourceField> fields_of(const State& state) {
 
 } // namespace
 
-Series::Series(const std::vector<std::string>& paths, const Mesh& mesh) : m_paths(paths) {
+Series::Series(const std::vector<std::string>& paths, const Mesh& mesh) {
     for (const std::string& path : paths) {
         add(State(elvis::hdf5::File(path), m_spaces), mesh);
     }
@@ -47,20 +47,21 @@ void Series::add(const State& state, const Mesh& mesh) {
         refuse("has values of " + std::to_string(state.n_elements()) + " elements, but the mesh " + mesh.path() + " has " +
                std::to_string(mesh.n_elements()));
     }
-    if (m_times.empty()) {
+    if (m_steps.size() == 0) {
+        m_first = state.path();
         m_names = state.names();
         m_n_nodal = state.n_nodal();
         m_order = state.nodes().order();
         m_fields = fields_of(state);
     }
     if (state.names() != m_names || state.n_nodal() != m_n_nodal) {
-        refuse("has other variables than " + m_paths.front());
+        refuse("has other variables than " + m_first);
     }
     if (state.nodes().order() != m_order) {
-        refuse("has another order than " + m_paths.front() + ": orders that change in time are not supported");
+        refuse("has another order than " + m_first + ": orders that change in time are not supported");
     }
     m_mantissa_bits = std::min(m_mantissa_bits, state.mantissa_bits());
-    m_times.push_back(state.time());
+    m_steps.add(state.path(), state.time());
     const std::vector<bool> finite_volume = state.read_finite_volume();
     m_ever.resize(std::max(m_ever.size(), finite_volume.size()));
     for (std::size_t element = 0; element < finite_volume.size(); ++element) {
@@ -71,14 +72,11 @@ void Series::add(const State& state, const Mesh& mesh) {
 std::uint64_t Series::n_ever_finite_volume() const { return static_cast<std::uint64_t>(std::ranges::count(m_ever, true)); }
 
 std::shared_ptr<const Series::Step> Series::step(std::size_t step) const {
-    const std::lock_guard lock(m_mutex);
-    if (!m_open || m_open_step != step) {
-        State state(elvis::hdf5::File(m_paths[step]), m_spaces);
+    return m_steps.get(step, [&](const std::string& path) {
+        State state(elvis::hdf5::File(path), m_spaces);
         std::vector<bool> finite_volume = state.read_finite_volume();
-        m_open = std::make_shared<const Step>(Step{std::move(state), std::move(finite_volume)});
-        m_open_step = step;
-    }
-    return m_open;
+        return std::make_shared<const Step>(Step{std::move(state), std::move(finite_volume)});
+    });
 }
 
 } // namespace elvis_hopr

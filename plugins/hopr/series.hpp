@@ -7,7 +7,7 @@
 #include "mesh.hpp"
 #include "state.hpp"
 
-#include <mutex>
+#include <plugins/hdf5/time_steps.hpp>
 
 namespace elvis_hopr {
 
@@ -25,8 +25,8 @@ public:
     /** Opens each file once: they have the same variables in the same space, and as many elements as the mesh. */
     Series(const std::vector<std::string>& paths, const Mesh& mesh);
 
-    std::size_t n_steps() const { return m_paths.size(); }
-    double time(std::size_t step) const { return m_times[step]; }
+    std::size_t n_steps() const { return m_steps.size(); }
+    double time(std::size_t step) const { return m_steps.time(step); }
     const std::vector<SourceField>& fields() const { return m_fields; }
     std::uint32_t order() const { return m_order; }
     unsigned mantissa_bits() const { return m_mantissa_bits; }
@@ -46,8 +46,8 @@ public:
 private:
     void add(const State& state, const Mesh& mesh);
 
-    std::vector<std::string> m_paths;
-    std::vector<double> m_times;
+    /** What the others are compared with. */
+    std::string m_first;
     std::vector<std::string> m_names;
     std::size_t m_n_nodal = 0;
     std::vector<SourceField> m_fields;
@@ -55,9 +55,7 @@ private:
     unsigned m_mantissa_bits = 53;
     std::vector<bool> m_ever;
     mutable elvis::nodal::NodalSpaces m_spaces;
-    mutable std::mutex m_mutex;
-    mutable std::size_t m_open_step = 0;
-    mutable std::shared_ptr<const Step> m_open;
+    elvis::hdf5::TimeSteps<Step> m_steps;
 };
 
 } // namespace elvis_hopr

@@ -4,7 +4,7 @@
 
 namespace elvis_pyfr {
 
-Series::Series(const std::vector<std::string>& paths, const Mesh& mesh) : m_paths(paths) {
+Series::Series(const std::vector<std::string>& paths, const Mesh& mesh) {
     for (const std::string& path : paths) {
         add(*open_solution(elvis::hdf5::File(path), m_spaces), mesh);
     }
@@ -25,18 +25,19 @@ void Series::add(const Solution& solution, const Mesh& mesh) {
             orders[&kind] = space->order();
         }
     }
-    if (m_times.empty()) {
+    if (m_steps.size() == 0) {
+        m_first = solution.path();
         m_names = solution.names();
         m_orders = orders;
     }
     if (solution.names() != m_names) {
-        refuse("has other variables than " + m_paths.front());
+        refuse("has other variables than " + m_first);
     }
     if (orders != m_orders) {
-        refuse("has other orders than " + m_paths.front() + ": orders that change in time are not supported");
+        refuse("has other orders than " + m_first + ": orders that change in time are not supported");
     }
     m_mantissa_bits = std::min(m_mantissa_bits, solution.mantissa_bits());
-    m_times.push_back(solution.time().value_or(static_cast<double>(m_times.size())));
+    m_steps.add(solution.path(), solution.time().value_or(static_cast<double>(m_steps.size())));
 }
 
 std::optional<std::uint32_t> Series::order(const Kind& kind) const {
@@ -45,12 +46,7 @@ std::optional<std::uint32_t> Series::order(const Kind& kind) const {
 }
 
 std::shared_ptr<const Solution> Series::step(std::size_t step) const {
-    const std::lock_guard lock(m_mutex);
-    if (!m_open || m_open_step != step) {
-        m_open = open_solution(elvis::hdf5::File(m_paths[step]), m_spaces);
-        m_open_step = step;
-    }
-    return m_open;
+    return m_steps.get(step, [&](const std::string& path) { return open_solution(elvis::hdf5::File(path), m_spaces); });
 }
 
 } // namespace elvis_pyfr

@@ -6,7 +6,7 @@
 
 #include "solution.hpp"
 
-#include <mutex>
+#include <plugins/hdf5/time_steps.hpp>
 
 namespace elvis_pyfr {
 
@@ -16,8 +16,8 @@ public:
     /** Opens each file once: they have the same variables in the same spaces, and belong to the mesh. */
     Series(const std::vector<std::string>& paths, const Mesh& mesh);
 
-    std::size_t n_steps() const { return m_paths.size(); }
-    double time(std::size_t step) const { return m_times[step]; }
+    std::size_t n_steps() const { return m_steps.size(); }
+    double time(std::size_t step) const { return m_steps.time(step); }
     const std::vector<std::string>& names() const { return m_names; }
     unsigned mantissa_bits() const { return m_mantissa_bits; }
     /** Order of the functions on a kind of elements; nothing if there are none. */
@@ -28,15 +28,13 @@ public:
 private:
     void add(const Solution& solution, const Mesh& mesh);
 
-    std::vector<std::string> m_paths;
-    std::vector<double> m_times;
+    /** What the others are compared with. */
+    std::string m_first;
     std::vector<std::string> m_names;
     std::map<const Kind*, std::uint32_t> m_orders;
     unsigned m_mantissa_bits = 53;
     mutable elvis::nodal::NodalSpaces m_spaces;
-    mutable std::mutex m_mutex;
-    mutable std::size_t m_open_step = 0;
-    mutable std::shared_ptr<const Solution> m_open;
+    elvis::hdf5::TimeSteps<Solution> m_steps;
 };
 
 } // namespace elvis_pyfr

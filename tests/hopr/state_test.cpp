@@ -76,7 +76,7 @@ TEST_CASE("a state alone finds its mesh beside it, whatever the folder was", "[h
     CHECK_THAT(failure({folder.path("state.h5")}), Contains("state.h5") && Contains("'other_mesh.h5', which is not beside it"));
 }
 
-TEST_CASE("several states are time steps", "[hopr]") {
+TEST_CASE("several states are time steps, in the order of their times", "[hopr]") {
     const TemporaryFolder folder;
     write_mesh(folder.path("mesh.h5"), two_cubes());
     WrittenState state = state_of("GAUSS");
@@ -84,7 +84,7 @@ TEST_CASE("several states are time steps", "[hopr]") {
     state.time = 0.125;
     state.value = [](std::size_t, std::size_t, const std::array<double, 3>&) { return 4.0; };
     write_state(folder.path("1.h5"), two_cubes(), state);
-    const SourceVolume source = open_hopr({folder.path("0.h5"), folder.path("1.h5")});
+    const SourceVolume source = open_hopr({folder.path("1.h5"), folder.path("0.h5"), folder.path("mesh.h5")});
     CHECK(source.times() == std::vector<double>{0, 0.125});
     CHECK(sample(source, 1, {0.1, 0.2, 0.3}, 1)[0] == Approx(4));
     CHECK(sample(source, 1, {0.1, 0.2, 0.3}, 0)[0] == Approx(value(0, 1, {0.1, 0.2, 0.3})));

@@ -99,7 +99,7 @@ TEST_CASE("meshes of the plane convert exactly", "[pyfr]") {
     CHECK(report.fields.at(1).exact);
 }
 
-TEST_CASE("several solutions are time steps", "[pyfr]") {
+TEST_CASE("several solutions are time steps, in the order of their times", "[pyfr]") {
     const int layout = GENERATE(0, 1, 2);
     const Written files;
     WrittenSolution solution = two_variables();
@@ -108,7 +108,7 @@ TEST_CASE("several solutions are time steps", "[pyfr]") {
     solution.values = [](const std::string&, std::size_t, std::size_t, const Coordinates&) { return 7.0; };
     const std::string later = files.folder.path("later.pyfrs");
     write_solution(later, plane_mesh(), solution, layout);
-    const SourceVolume source = open_pyfr({files.solution, later});
+    const SourceVolume source = open_pyfr({later, files.solution});
     CHECK(source.times() == std::vector<double>{0, 0.25});
     CHECK(sample(source, 2, {-0.3, -0.6, 0}, 1)[0] == Approx(7));
     CHECK(sample(source, 0, {0, 0, 0}, 0)[0] == Approx(0).margin(1e-14));

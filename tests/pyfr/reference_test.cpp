@@ -146,6 +146,19 @@ TEST_CASE("boundary groups lie where the mesh has them", "[pyfr][data]") {
     CHECK(n_faces == std::map<std::string, int>{{"wall", 8}, {"side", 30}});
 }
 
+TEST_CASE("faces have a boundary group exactly where they have no neighbour", "[pyfr][data]") {
+    const std::string version = GENERATE("2.1", "3.1", "develop");
+    const TemporaryFolder folder;
+    convert(open_pyfr({files_of(version).mesh}), folder.path("volume.h5"), {}, {});
+    const native::Reader reader(folder.path("volume.h5"));
+    std::vector<native::Face> faces(reader.description().n_faces);
+    reader.read_faces(0, faces.size(), faces);
+    for (const native::Face& face : faces) {
+        INFO(version << ", face " << face.local_face << " of element " << face.element);
+        CHECK((face.neighbour < 0) == (face.group >= 0));
+    }
+}
+
 TEST_CASE("corner numbers are those of the mesh's nodes", "[pyfr][data]") {
     const SourceVolume numbered = open_pyfr({pyfr_data("mixed_3.1.pyfrm")}), other = open_pyfr({pyfr_data("mixed_2.1.pyfrm")});
     CHECK(other.info().n_corner_ids == 0);
