@@ -109,11 +109,13 @@ H5FD_class_t make_driver() {
 } // namespace
 
 Handle open_plainly(const std::string& path) {
-    static const H5FD_class_t driver_class = make_driver();
-    // An open file holds the driver. Registered for each anew, nothing of it stays behind when the plugin is unloaded.
-    const Handle driver(H5FDregister(&driver_class), H5FDunregister);
+    // Never taken back: HDF5 uses a driver after its last file has let it go (H5FD_close).
+    static const hid_t driver = [] {
+        const H5FD_class_t description = make_driver();
+        return H5FDregister(&description);
+    }();
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    if (!driver.is_valid() || !access.is_valid() || H5Pset_driver(access.id(), driver.id(), nullptr) < 0) {
+    if (driver < 0 || !access.is_valid() || H5Pset_driver(access.id(), driver, nullptr) < 0) {
         return {};
     }
     return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose};
