@@ -33,6 +33,8 @@ foreach(package fonts-dejavu-core glslang-dev libaec-dev libboost1.74-dev libbro
   install(FILES "/usr/share/doc/${package}/copyright" RENAME "${package}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/licenses"
           COMPONENT bundle EXCLUDE_FROM_ALL OPTIONAL)
 endforeach()
+# Tables of points in the plugin.
+install(FILES plugins/pyfr/LICENSE.PyFR RENAME PyFR DESTINATION "${CMAKE_INSTALL_DOCDIR}/licenses" COMPONENT bundle EXCLUDE_FROM_ALL)
 
 set(CPACK_GENERATOR TXZ)
 set(CPACK_PACKAGE_VENDOR ElVis)

@@ -6,16 +6,12 @@
 
 #include "../reader/field/mode_set.hpp"
 
-#include <Eigen/Core>
-
-#include <memory>
-#include <shared_mutex>
-#include <span>
+#include <plugins/nodal/matrix_cache.hpp>
 
 namespace nektarpp {
 
 /** Row: point; column: mode in the order of coefficients. */
-using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using ModeMatrix = elvis::nodal::Matrix;
 
 /** May be used by several threads at once. */
 class BasisCache {
@@ -24,16 +20,7 @@ public:
     std::shared_ptr<const ModeMatrix> values(const ModeSet& modes, std::span<const double> xi);
 
 private:
-    struct Entry {
-        ModeSet modes;
-        std::vector<double> xi;
-        std::shared_ptr<const ModeMatrix> values;
-    };
-
-    std::shared_mutex m_mutex;
-    std::vector<Entry> m_entries;
-    /** The entry that gives way next. */
-    std::size_t m_next = 0;
+    elvis::nodal::MatrixCache<ModeSet> m_matrices;
 };
 
 } // namespace nektarpp

@@ -98,6 +98,7 @@ struct Writer::Impl {
     void create_fields();
     std::vector<Space> spaces_of(std::size_t field) const;
     void check_complete() const;
+    void reopen_coefficients(std::size_t field);
     void write_extrema(std::size_t field);
 };
 
@@ -193,7 +194,24 @@ std::vector<Space> Writer::Impl::spaces_of(std::size_t field) const {
     return spaces;
 }
 
+/**
+ * Before coefficients are read back. H5Dwrite_chunk leaves a filter mask that was never set with the chunk that it wrote last:
+ * HDF5 would take the packed bytes of that chunk for numbers, as long as the dataset stays open (H5D__chunk_direct_write, 1.10
+ * to 1.14).
+ */
+void Writer::Impl::reopen_coefficients(std::size_t field) {
+    const Place here = place.child("fields").child(std::to_string(field));
+    for (std::size_t element_class = 0; element_class < coefficients[field].size(); ++element_class) {
+        Handle& dataset = coefficients[field][element_class];
+        dataset.reset();
+        const std::string name = std::to_string(element_class) + "/coefficients";
+        dataset = Handle(
+            h5::check(H5Dopen2(field_groups[field].id(), name.c_str(), H5P_DEFAULT), here.child(name), "is damaged"), H5Dclose);
+    }
+}
+
 void Writer::Impl::write_extrema(std::size_t field) {
+    reopen_coefficients(field);
     const Place here = place.child("fields").child(std::to_string(field));
     const std::uint32_t n_components = description.fields[field].n_components;
     std::vector<double> rows;
