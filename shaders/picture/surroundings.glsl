@@ -97,14 +97,14 @@ struct core_departure {
 };
 
 // What the surface may depart from its tangent plane in the square. Triangles are flat but not together: what normals of neighbours
-// tell counts, too. Twice that stands for a bending that is not known, or known by a loose bound alone.
+// tell counts, too. Twice that stands for a bending that is not known, or, unless `takes_loose`, known by a loose bound alone.
 core_departure core_departure_in(core_cut_square square, core_tangent tangent, core_cut_ray ray, elvis_real bending,
-                                 elvis_real turning) {
+                                 elvis_real turning, bool takes_loose) {
     const elvis_real cosine = -dot(tangent.normal, ray.direction) / length(ray.direction);
     const elvis_real farthest = core_farthest_square(square, tangent.point);
+    const bool is_loose = bending * bending * farthest > CORE_LOOSE * CORE_LOOSE && elvis_real(2) * turning < bending;
     core_departure departure;
-    departure.is_estimated = bending >= CORE_FAR ||
-                             (bending * bending * farthest > CORE_LOOSE * CORE_LOOSE && elvis_real(2) * turning < bending);
+    departure.is_estimated = bending >= CORE_FAR || (is_loose && !takes_loose);
     const elvis_real bend = departure.is_estimated ? elvis_real(2) * turning : max(bending, turning);
     departure.distance = elvis_real(0.5LF) * bend * farthest / max(cosine, elvis_real(1e-6LF));
     return departure;
