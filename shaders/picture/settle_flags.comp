@@ -14,8 +14,6 @@ layout(push_constant) uniform core_parameters {
 
 #define CORE_N_FLAGS 16u
 
-shared uint core_in_group[CORE_N_FLAGS + 1u];
-
 uint core_settled(uint flags) {
     // The upper half: of surfaces that are not seen there (picture/merge.comp).
     flags = (flags | flags >> CORE_N_FLAGS) & 0xffffu;
@@ -27,31 +25,25 @@ uint core_settled(uint flags) {
 void core_add(uint index, bool is_met) {
     const uint n = subgroupAdd(is_met ? 1u : 0u);
     if (n > 0u && subgroupElect()) {
-        atomicAdd(core_in_group[index], n);
+        atomicAdd(core_counts[index], n);
     }
 }
 
 void main() {
-    const uint lane = gl_LocalInvocationID.x;
-    if (lane <= CORE_N_FLAGS) {
-        core_in_group[lane] = 0u;
-    }
-    barrier();
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     core_mark mark = core_mark(0u, 0u);
     if (pixel < core_n_pixels) {
         mark = core_marks[pixel];
     }
-    const uint flags = core_settled(mark.flags), in_subgroup = subgroupOr(flags);
+    const uint flags = core_settled(mark.flags);
     if (flags != mark.flags) {
         core_marks[pixel].flags = flags;
     }
-    for (uint bit = 0u; bit < CORE_N_FLAGS && in_subgroup >> bit != 0u; ++bit) {
-        core_add(bit, (flags >> bit & 1u) != 0u);
-    }
     core_add(CORE_N_FLAGS, mark.owner >> CORE_OWNER_BITS != 0u);
-    barrier();
-    if (lane <= CORE_N_FLAGS && core_in_group[lane] != 0u) {
-        atomicAdd(core_counts[lane], core_in_group[lane]);
+    uint left = subgroupOr(flags);
+    while (left != 0u) {
+        const uint bit = uint(findLSB(left));
+        core_add(bit, (flags >> bit & 1u) != 0u);
+        left &= left - 1u;
     }
 }
