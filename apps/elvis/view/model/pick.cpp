@@ -6,60 +6,74 @@ namespace elvis::view {
 
 namespace {
 
-std::string number(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.9g", value);
+/** Null is no number. */
+std::string number(const nlohmann::json& value) {
+    char text[40] = "nan";
+    if (value.is_number()) {
+        std::snprintf(text, sizeof text, "%.9g", value.get<double>());
+    }
     return text;
 }
 
-std::string list(const double* values, std::size_t count) {
-    std::string text = "(";
-    for (std::size_t i = 0; i < count; ++i) {
-        text += (i == 0 ? "" : ", ") + number(values[i]);
+/** Three numbers, from one of them on. */
+std::string triple(const nlohmann::json& values, std::size_t first = 0) {
+    return std::string("(") + number(values[first]) + ", " + number(values[first + 1]) + ", " + number(values[first + 2]) + ")";
+}
+
+std::string text_of_element(const nlohmann::json& answer) {
+    std::string text = std::string("element ") + std::to_string(answer["element"].get<std::int64_t>());
+    for (const nlohmann::json& other : answer["also"]) {
+        text += std::string(", also ") + std::to_string(other.get<std::int64_t>());
     }
-    return text + ")";
+    text += std::string("\nxi = ") + triple(answer["xi"]) + "\n";
+    if (answer["order"].is_number()) {
+        text += std::string("order ") + number(answer["order"]) + "\n";
+    }
+    if (answer["jacobian"].is_number()) {
+        text += std::string("Jacobian ") + number(answer["jacobian"]);
+        if (answer["scaled_jacobian"].is_number()) {
+            text += std::string(", scaled ") + number(answer["scaled_jacobian"]);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+std::string text_of_field(const nlohmann::json& field) {
+    const auto name = field["name"].get<std::string>(), unit = field["unit"].get<std::string>();
+    const std::size_t n_components = field["values"].size();
+    std::string text;
+    for (std::size_t c = 0; c < n_components; ++c) {
+        text += name;
+        if (n_components > 1) {
+            text += std::string("[") + std::to_string(c) + "]";
+        }
+        text += std::string(" = ") + number(field["values"][c]);
+        text += unit.empty() ? std::string() : std::string(" ") + unit;
+        text += std::string(", gradient ") + triple(field["gradients"], 3 * c);
+        text += field["gradient_is_estimated"] ? " (estimated)\n" : "\n";
+    }
+    return text;
 }
 
 } // namespace
 
-std::string text_of(const Picked& picked) {
-    if (!picked.is_hit) {
-        return "nothing is hit\n";
+Picked picked_of(const nlohmann::json& answer) {
+    if (!answer["hit"]) {
+        return {false, {}, "nothing is hit\n"};
     }
-    std::string text = "x = ";
-    text += list(picked.position.data(), 3);
-    text += '\n';
-    text += "value drawn there = ";
-    text += number(picked.shown_value);
-    text += '\n';
-    if (picked.element) {
-        text += std::string("element ") + std::to_string(*picked.element);
-        for (const std::int64_t other : picked.also) {
-            text += std::string(", also ") + std::to_string(other);
-        }
-        text += std::string("\nxi = ") + list(picked.xi.data(), 3) + "\n";
-        if (picked.order) {
-            text += std::string("order ") + number(*picked.order) + "\n";
-        }
-        if (picked.jacobian) {
-            text += std::string("Jacobian ") + number(*picked.jacobian);
-            text +=
-                picked.scaled_jacobian ? std::string(", scaled ") + number(*picked.scaled_jacobian) + "\n" : std::string("\n");
-        }
+    Picked picked{true, answer["position"], std::string("x = ") + triple(answer["position"]) + "\n"};
+    picked.text += std::string("value drawn there = ") + number(answer["value"]) + "\n";
+    if (answer["element"].is_number()) {
+        picked.text += text_of_element(answer);
     }
-    for (const Picked::Field& field : picked.fields) {
-        for (std::size_t c = 0; c < field.values.size(); ++c) {
-            text += field.name + (field.values.size() > 1 ? std::string("[") + std::to_string(c) + "]" : std::string());
-            text += std::string(" = ") + number(field.values[c]) +
-                    (field.unit.empty() ? std::string() : std::string(" ") + field.unit);
-            text += std::string(", gradient ") + list(field.gradients.data() + 3 * c, 3);
-            text += field.gradient_is_estimated ? " (estimated)\n" : "\n";
-        }
+    for (const nlohmann::json& field : answer["fields"]) {
+        picked.text += text_of_field(field);
     }
-    if (!picked.remark.empty()) {
-        text += picked.remark + "\n";
+    if (const auto remark = answer["remark"].get<std::string>(); !remark.empty()) {
+        picked.text += remark + "\n";
     }
-    return text;
+    return picked;
 }
 
 } // namespace elvis::view

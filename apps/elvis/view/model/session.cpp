@@ -15,15 +15,6 @@ constexpr const char* no_file = "scene";
 
 nlohmann::json device_of(const context& library) { return nlohmann::json::parse(library.describe_device()); }
 
-/** Null is no number. */
-std::optional<double> number(const nlohmann::json& value) {
-    return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
-}
-
-Picked::Field field_of(const nlohmann::json& json) {
-    return {json["name"], json["unit"], json["values"], json["gradients"], json["gradient_is_estimated"]};
-}
-
 } // namespace
 
 Session::Session(const context& library) : m_library(library) {
@@ -122,29 +113,7 @@ Scene Session::first_scene(const std::string& path) {
 }
 
 Picked Session::pick(const Scene& scene, const PicturePoint& place) {
-    const auto json = nlohmann::json::parse(opened().pick(library_scene(scene), place[0], place[1]));
-    Picked picked;
-    picked.is_hit = json["hit"];
-    if (!picked.is_hit) {
-        return picked;
-    }
-    picked.position = json["position"];
-    picked.depth = json["depth"];
-    picked.normal = json["normal"];
-    picked.shown_value = number(json["value"]).value_or(std::nan(""));
-    if (json["element"].is_number()) {
-        picked.element = json["element"].get<std::int64_t>();
-    }
-    picked.xi = json["xi"];
-    picked.jacobian = number(json["jacobian"]);
-    picked.scaled_jacobian = number(json["scaled_jacobian"]);
-    picked.order = number(json["order"]);
-    for (const nlohmann::json& field : json["fields"]) {
-        picked.fields.push_back(field_of(field));
-    }
-    picked.also = json["also"].get<std::vector<std::int64_t>>();
-    picked.remark = json["remark"];
-    return picked;
+    return picked_of(nlohmann::json::parse(opened().pick(library_scene(scene), place[0], place[1])));
 }
 
 std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece) {

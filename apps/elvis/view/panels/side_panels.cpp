@@ -112,7 +112,7 @@ void draw_picked(Ui& ui) {
         ImGui::TextWrapped("Click on a surface in the picture.");
         return;
     }
-    const std::string words = text_of(*picked);
+    const std::string& words = picked->text;
     if (button(ui, "point/copy", "Copy as text", "To the clipboard")) {
         ImGui::SetClipboardText(words.c_str());
     }

@@ -46,7 +46,7 @@ std::string description(Ui& ui) {
     for (const ItemId& item : items_of(model.scene())) {
         json["items"].push_back(item_label(model.scene(), item));
     }
-    json["picked"] = bench.picked() ? text_of(*bench.picked()) : std::string();
+    json["picked"] = bench.picked() ? bench.picked()->text : std::string();
     json["messages"] = nlohmann::ordered_json::array();
     for (const Message& message : bench.messages()) {
         json["messages"].push_back(message.text);
