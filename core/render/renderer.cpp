@@ -127,7 +127,7 @@ std::vector<SurfaceFacts> Renderer::Impl::draw_surfaces(const FrameRequest& requ
         const Clock::time_point start = Clock::now();
         picture.provide(surface);
         drawing.provide();
-        const DeviceTimer timer(device);
+        const DeviceTimer timer(device, false);
         times.compile_milliseconds += milliseconds_since(start);
 
         facts[index].offset = drawing.offset();
@@ -147,7 +147,7 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, Frame& frame) {
     const Clock::time_point start = Clock::now();
     VolumePass& pass = passes.of(wanted.field).volume();
     pass.choose(wanted, offset, fields.component(wanted.field));
-    const DeviceTimer timer(device);
+    const DeviceTimer timer(device, false);
     times.compile_milliseconds += milliseconds_since(start);
 
     picture.draw(pass, data);
@@ -184,13 +184,15 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
     const std::vector<SurfaceFacts> facts = impl.draw_surfaces(request, frame);
     if (request.volume) {
         impl.draw_volume(request, frame);
-    } else {
-        const DeviceTimer timer(impl.device);
+    }
+    // Waits for all of it.
+    const DeviceTimer timer(impl.device, false);
+    if (!request.volume) {
         impl.picture.finish();
-        frame.render_milliseconds += timer.wall_milliseconds();
-        frame.device_milliseconds += timer.milliseconds();
     }
     impl.picture.settle();
+    frame.render_milliseconds += timer.wall_milliseconds();
+    frame.device_milliseconds += timer.milliseconds();
     impl.times.upload_milliseconds = impl.data.upload_milliseconds();
     for (std::size_t index = 0; index < frame.is_met.size(); ++index) {
         frame.is_met[index] = frame.is_met[index] || frame.special_values[index].is_shown;

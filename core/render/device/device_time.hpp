@@ -21,26 +21,33 @@ namespace elvis {
  */
 class DeviceTimer {
 public:
-    explicit DeviceTimer(const Device& device) : m_device(device), m_is_processor(device.summary().type == "cpu") {
+    /** `waits`: for the device, now and when it is asked. Else what is pending counts in the part of a frame that waits for it.
+     */
+    explicit DeviceTimer(const Device& device, bool waits = true)
+        : m_device(device), m_waits(waits), m_is_processor(device.summary().type == "cpu") {
         device.background().finish();
-        device.finish();
+        finish();
         m_processor = processor();
         m_wall = std::chrono::steady_clock::now();
     }
 
-    /** Both wait for the device. */
     double milliseconds() const {
-        m_device.finish();
+        finish();
         return m_is_processor ? (processor() - m_processor) / n_processors() : wall_milliseconds();
     }
     double wall_milliseconds() const {
-        m_device.finish();
+        finish();
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_wall).count();
     }
     /** By which times were divided; 1 where the device is not the processor. */
     double n_processors() const { return m_is_processor ? std::max(1u, std::thread::hardware_concurrency()) : 1; }
 
 private:
+    void finish() const {
+        if (m_waits) {
+            m_device.finish();
+        }
+    }
     static double processor() {
         timespec time{};
         ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -48,7 +55,7 @@ private:
     }
 
     const Device& m_device;
-    bool m_is_processor;
+    bool m_waits, m_is_processor;
     double m_processor;
     std::chrono::steady_clock::time_point m_wall;
 };
