@@ -1,5 +1,7 @@
 #include "object.hpp"
 
+#include "virtual_sources.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -47,6 +49,9 @@ void check_storage(const Dataset::Impl& opened, const Handle& file) {
     }
     const Handle list(check(H5Dget_create_plist(opened.dataset.id()), opened.place, "is damaged"), H5Pclose);
     const H5D_layout_t layout = check(H5Pget_layout(list.id()), opened.place, "is damaged");
+    if (layout == H5D_VIRTUAL) {
+        check_virtual_sources(list, opened.place);
+    }
     if (*n == 0 || layout == H5D_COMPACT || layout == H5D_VIRTUAL) {
         return;
     }

@@ -93,6 +93,21 @@ void HdfGrid::read_steps() {
     }
 }
 
+std::optional<double> HdfGrid::time_value() const {
+    const std::string full = name("FieldData/TimeValue");
+    if (!m_file.has(full)) {
+        return std::nullopt;
+    }
+    const elvis::hdf5::Dataset dataset = m_file.dataset(full);
+    const std::vector<std::uint64_t>& shape = dataset.shape();
+    if (!dataset.holds_numbers() || std::ranges::any_of(shape, [](std::uint64_t extent) { return extent != 1; })) {
+        return std::nullopt;
+    }
+    double time = 0;
+    dataset.read(std::vector<std::uint64_t>(shape.size(), 0), shape, std::span(&time, 1));
+    return time;
+}
+
 std::vector<HdfPart> HdfGrid::parts(std::size_t step) const {
     std::vector<HdfPart> parts;
     HdfPart part;

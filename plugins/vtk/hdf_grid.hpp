@@ -7,6 +7,7 @@
 #include <plugins/hdf5/file.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ public:
     std::size_t n_steps() const { return m_has_steps ? m_times.size() : 1; }
     /** Empty if the file has no steps. */
     const std::vector<double>& times() const { return m_times; }
+    /** TimeValue of the field data. */
+    std::optional<double> time_value() const;
     std::vector<HdfPart> parts(std::size_t step) const;
     /** First row of a step in an array of PointData or CellData ("PointData", "CellData"). */
     std::uint64_t first_row(std::size_t step, const std::string& data, const std::string& array) const;

@@ -134,15 +134,18 @@ std::vector<std::int64_t> HdfPiece::integers(const char* name, std::uint64_t fir
     return read_rows<std::int64_t>(dataset, first, count, 1);
 }
 
-void visit_hdf_pieces(const std::string& path, std::size_t step, const std::function<void(const Piece&)>& visit) {
+std::optional<double> visit_hdf_pieces(const std::string& path, std::size_t step,
+                                       const std::function<void(const Piece&)>& visit) {
     const elvis::hdf5::File file(path);
-    for (const HdfGrid& grid : hdf_grids(file)) {
+    const std::vector<HdfGrid> grids = hdf_grids(file);
+    for (const HdfGrid& grid : grids) {
         for (const HdfPart& part : grid.parts(step)) {
             if (part.n_cells > 0) {
                 visit(HdfPiece(grid, step, part));
             }
         }
     }
+    return grids.front().time_value();
 }
 
 } // namespace elvis_vtk

@@ -36,7 +36,8 @@ private:
     HdfPart m_part;
 };
 
-/** Calls visit for every part of a step that has cells, of all grids of the file. */
-void visit_hdf_pieces(const std::string& path, std::size_t step, const std::function<void(const Piece&)>& visit);
+/** Calls visit for every part of a step that has cells, of all grids of the file; gives TimeValue of the field data. */
+std::optional<double> visit_hdf_pieces(const std::string& path, std::size_t step,
+                                       const std::function<void(const Piece&)>& visit);
 
 } // namespace elvis_vtk

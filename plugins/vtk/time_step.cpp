@@ -112,11 +112,9 @@ bool have_same_mesh(const TimeStep& a, const TimeStep& b) {
 std::optional<double> visit_pieces(const TimeStep& step, const std::function<void(const Piece&)>& visit) {
     std::optional<double> time;
     for (const std::string& path : step.files) {
-        if (elvis::hdf5::is_hdf5(path)) {
-            visit_hdf_pieces(path, step.index_in_file, visit);
-        } else if (const std::optional<double> of_file = visit_xml_pieces(path, visit)) {
-            time = of_file;
-        }
+        const std::optional<double> of_file =
+            elvis::hdf5::is_hdf5(path) ? visit_hdf_pieces(path, step.index_in_file, visit) : visit_xml_pieces(path, visit);
+        time = of_file ? of_file : time;
     }
     return time;
 }

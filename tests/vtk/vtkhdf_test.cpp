@@ -3,6 +3,7 @@
 #include "written_hexahedra.hpp"
 
 #include <catch2/catch.hpp>
+#include <tests/support/error_of.hpp>
 #include <tests/support/written_hdf5.hpp>
 
 #include <cmath>
@@ -137,6 +138,48 @@ TEST_CASE("data sets of a collection become one volume", "[vtk][vtkhdf]") {
     CHECK(x[0] == Approx(100 + bent({0, 0, 0})[0]));
 }
 
+TEST_CASE("values may lie in other files, as virtual data sets", "[vtk][vtkhdf]") {
+    using namespace elvis::test;
+    const Hexahedra cells{5, 4, lobatto_line(5), bent};
+    const TemporaryFolder folder;
+    write_vtkhdf(folder.path("whole.vtkhdf"), cells, {});
+    std::filesystem::create_directory(folder.path("run.data"));
+    const std::vector<double> values = cells.values(0);
+    WrittenFile(folder.path("run.data/0.h5")).dataset("u", number_type(H5T_IEEE_F64LE), {values.size()}, values.data());
+    {
+        const Handle file = made(H5Fopen(folder.path("whole.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        H5Ldelete(file.id(), "VTKHDF/PointData/u", H5P_DEFAULT);
+        const hsize_t size = values.size();
+        const Handle space = made(H5Screate_simple(1, &size, nullptr), H5Sclose);
+        const Handle list = made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+        H5Pset_virtual(list.id(), space.id(), "run.data/0.h5", "u", space.id());
+        made(H5Dcreate2(file.id(), "VTKHDF/PointData/u", H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT),
+             H5Dclose);
+    }
+    CHECK(difference(open_vtk({folder.path("whole.vtkhdf")}), cells) < 1e-12);
+    std::filesystem::remove(folder.path("run.data/0.h5"));
+    CHECK_THAT(error_of([&] { open_vtk({folder.path("whole.vtkhdf")}); }),
+               Catch::Contains("PointData/u lies in the file 'run.data/0.h5', which is missing"));
+}
+
+TEST_CASE("field data tell the time of a file without steps", "[vtk][vtkhdf]") {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("static.vtkhdf");
+    write_vtkhdf(path, {2, 3, equidistant_line(2)}, {});
+    {
+        using namespace elvis::test;
+        const Handle file = made(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        const Handle group = made(H5Gcreate2(file.id(), "VTKHDF/FieldData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+        const hsize_t one = 1;
+        const Handle space = made(H5Screate_simple(1, &one, nullptr), H5Sclose);
+        const Handle set = made(
+            H5Dcreate2(group.id(), "TimeValue", H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+        const double time = 2.5;
+        H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &time);
+    }
+    CHECK(open_vtk({path}).times() == std::vector<double>{2.5});
+}
+
 TEST_CASE("HDF5 files of other types and other meshes are refused with the cause", "[vtk][vtkhdf]") {
     using Catch::Contains;
     const Hexahedra cells{2, 3, equidistant_line(2)};
@@ -158,4 +201,16 @@ TEST_CASE("HDF5 files of other types and other meshes are refused with the cause
     }
     { elvis::test::WrittenFile(path).group("other"); }
     CHECK_THAT(failure(), Contains("has no group VTKHDF"));
+    // The second step's points lie beyond the end.
+    layout = {};
+    layout.times = {0, 1};
+    write_vtkhdf(path, cells, layout);
+    {
+        using namespace elvis::test;
+        const Handle file = made(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        const Handle set = made(H5Dopen2(file.id(), "VTKHDF/Steps/PointOffsets", H5P_DEFAULT), H5Dclose);
+        const std::array<std::int64_t, 2> offsets{0, 1000};
+        H5Dwrite(set.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, offsets.data());
+    }
+    CHECK_THAT(failure(), Contains("VTKHDF/Points has 81 rows; 27 from row 1000 on are expected"));
 }
