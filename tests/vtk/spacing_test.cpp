@@ -47,7 +47,54 @@ std::string triangle_file(const std::vector<double>& line) {
         </DataArray></Cells></Piece></UnstructuredGrid></VTKFile>)";
 }
 
+/** A quadrilateral of degree 3 with these nodes, and the field r^3 s - s^3; VTK's order. */
+std::string quadrilateral_file(const std::vector<double>& line) {
+    constexpr std::array<std::array<std::size_t, 2>, 16> nodes{{{0, 0},
+                                                                {3, 0},
+                                                                {3, 3},
+                                                                {0, 3},
+                                                                {1, 0},
+                                                                {2, 0},
+                                                                {3, 1},
+                                                                {3, 2},
+                                                                {1, 3},
+                                                                {2, 3},
+                                                                {0, 1},
+                                                                {0, 2},
+                                                                {1, 1},
+                                                                {2, 1},
+                                                                {1, 2},
+                                                                {2, 2}}};
+    std::ostringstream points, values;
+    points.precision(17);
+    values.precision(17);
+    for (const auto& [i, j] : nodes) {
+        const double r = line[i], s = line[j];
+        points << r + 0.2 * s * s << ' ' << s << " 0 ";
+        values << r * r * r * s - s * s * s << ' ';
+    }
+    return R"(<VTKFile type="UnstructuredGrid" version="2.2"><UnstructuredGrid><Piece NumberOfPoints="16" NumberOfCells="1">
+        <Points><DataArray type="Float64" NumberOfComponents="3">)" +
+           points.str() + R"(</DataArray></Points><Cells><DataArray type="Int32" Name="connectivity">0 1 2 3 4 5 6 7 8 9 10 11
+        12 13 14 15</DataArray><DataArray type="Int32" Name="offsets">16</DataArray><DataArray type="UInt8" Name="types">70
+        </DataArray></Cells><PointData><DataArray type="Float64" Name="u">)" +
+           values.str() + "</DataArray></PointData></Piece></UnstructuredGrid></VTKFile>";
+}
+
 } // namespace
+
+TEST_CASE("nodes of quadrilaterals are told apart", "[vtk][spacing]") {
+    const TemporaryFolder folder;
+    for (const std::vector<double>& line : {equidistant_line(3), lobatto_line(3)}) {
+        const SourceVolume source = open_vtk({folder.write("plane.vtu", quadrilateral_file(line))});
+        std::array<double, 1> value{};
+        source.sample(0, 0, native::Point{0.6, -0.5, 0}, value);
+        CHECK(value[0] == Approx(0.8 * 0.8 * 0.8 * 0.25 - 0.25 * 0.25 * 0.25).margin(1e-14));
+        std::array<double, 3> x{};
+        source.evaluate_mapping(0, native::Point{0.6, -0.5, 0}, x);
+        CHECK(x[0] == Approx(0.8 + 0.2 * 0.25 * 0.25).margin(1e-14));
+    }
+}
 
 TEST_CASE("Gauss-Lobatto and equidistant nodes are told apart and read right", "[vtk][spacing]") {
     const TemporaryFolder folder;
