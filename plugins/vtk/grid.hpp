@@ -37,6 +37,8 @@ struct Grid {
     std::uint32_t mantissa_bits = 53;
     /** TimeValue among the field data. */
     std::optional<double> time;
+    /** Whether edges disagree about the nodes of Lagrange cells (node_spacing.hpp). */
+    bool has_unclear_nodes = false;
     /** Pieces with cells. Points are shared within a piece only. */
     std::size_t n_pieces = 0;
     /** Cells of all pieces, those counted that are left out. */

@@ -172,6 +172,7 @@ void adopt_node_spacing(Grid& grid, const std::string& path, const elvis::api::H
         }
         const std::string shapes = is_tensor ? "quadrilaterals and hexahedra" : "triangles, tetrahedra and wedges";
         if (!spacing) {
+            grid.has_unclear_nodes = true;
             host.log(ELVIS_LOG_WARNING, path + ": edges do not tell whether the nodes of Lagrange " + shapes +
                                             " are equidistant; they are read so, as VTK defines them");
             continue;

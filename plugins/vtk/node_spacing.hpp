@@ -10,7 +10,8 @@ namespace elvis_vtk {
 
 /**
  * Marks the kinds of quadrilaterals and hexahedra whose nodes are Gauss-Lobatto points, with a warning. Refuses other nodes
- * that are not equidistant, and those of other shapes, of which only the ones on edges would be known.
+ * that are not equidistant, and those of other shapes, of which only the ones on edges would be known. Notes
+ * and warns where edges disagree.
  */
 void adopt_node_spacing(Grid& grid, const std::string& path, const elvis::api::Host& host);
 

@@ -92,7 +92,8 @@ public:
                 const CellKind& kind = mesh.kinds[mesh.cells[first + index].kind];
                 const std::array<std::uint32_t, 3> order = native_order(kind);
                 std::copy(order.begin(), order.end(), space.order);
-                space.is_contained = kind.is_rational ? 0 : 1;
+                // Values between nodes that are elsewhere would be wrong.
+                space.is_contained = kind.is_rational || mesh.has_unclear_nodes ? 0 : 1;
             }
             out.set(index, space);
         }

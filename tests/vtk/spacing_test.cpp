@@ -140,6 +140,22 @@ TEST_CASE("graded meshes keep their equidistant nodes", "[vtk][spacing]") {
     CHECK(difference(open_vtk({folder.path("nodes.vtu")}), cells) < 1e-11);
 }
 
+TEST_CASE("where edges disagree about their nodes, fields are not called exact", "[vtk][spacing]") {
+    const TemporaryFolder folder;
+    Hexahedra cells{3, 4, equidistant_line(3)};
+    const std::vector<double> line = lobatto_line(3);
+    cells.map = [&](const Hexahedra::Vector& x) {
+        return Hexahedra::Vector{x[0], x[1], line[static_cast<std::size_t>(std::lround(3 * x[2]))]};
+    };
+    write_vtu(folder.path("nodes.vtu"), cells);
+    const SourceVolume unclear = open_vtk({folder.path("nodes.vtu")});
+    CHECK(difference(unclear, cells) < 1e-12);
+    CHECK_FALSE(ConvertedVolume(unclear).report().fields.at(0).exact);
+    cells.map = bent;
+    write_vtu(folder.path("nodes.vtu"), cells);
+    CHECK(ConvertedVolume(open_vtk({folder.path("nodes.vtu")})).report().fields.at(0).exact);
+}
+
 TEST_CASE("time steps of Gauss-Lobatto nodes are read right", "[vtk][spacing]") {
     const TemporaryFolder folder;
     const Hexahedra cells{4, 4, lobatto_line(4), bent};

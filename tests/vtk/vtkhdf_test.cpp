@@ -111,6 +111,26 @@ TEST_CASE("every layout of parts and steps holds the same field", "[vtk][vtkhdf]
     CHECK(open_vtk({folder.path("static.hdf"), folder.path("static.hdf")}).times() == std::vector<double>{0, 1});
 }
 
+TEST_CASE("the values of one time step are held, those of the last that was asked for", "[vtk][vtkhdf]") {
+    const Hexahedra cells{2, 3, equidistant_line(2), bent};
+    const TemporaryFolder folder;
+    write_vtu(folder.path("0.vtu"), cells, 0);
+    write_vtu(folder.path("1.vtu"), cells, 1);
+    const SourceVolume source = open_vtk({folder.path("0.vtu"), folder.path("1.vtu")});
+    const auto value = [&](std::uint32_t step) {
+        std::array<double, 1> all{};
+        source.sample(step, 2, native::Point{0.2, 0.4, -0.6}, all);
+        return all[0];
+    };
+    const Hexahedra::Vector r{0.6, 0.7, 0.2};
+    for (const std::uint32_t step : {0u, 1u, 1u, 0u}) {
+        CHECK(value(step) == Approx(cells.field(2, r, step)));
+    }
+    std::filesystem::remove(folder.path("1.vtu"));
+    CHECK(value(0) == Approx(cells.field(2, r, 0)));
+    CHECK_THAT(elvis::test::error_of([&] { value(1); }), Catch::Contains("1.vtu"));
+}
+
 TEST_CASE("single precision is told, and a conversion has no more than that", "[vtk][vtkhdf]") {
     Hexahedra cells{2, 3, equidistant_line(2), bent};
     const TemporaryFolder folder;
