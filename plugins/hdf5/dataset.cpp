@@ -71,6 +71,10 @@ Dataset& Dataset::operator=(Dataset&& other) noexcept {
 
 const std::vector<std::uint64_t>& Dataset::shape() const { return m_impl->shape; }
 
+bool Dataset::holds_numbers() const {
+    return locked(m_impl->place.file, [&] { return is_number(m_impl->type.id()); });
+}
+
 bool Dataset::has(const Member& member) const {
     return locked(m_impl->place.file, [&] { return find_type(m_impl->type.id(), member, m_impl->place).has_value(); });
 }

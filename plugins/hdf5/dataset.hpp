@@ -25,6 +25,8 @@ public:
     Dataset& operator=(Dataset&&) noexcept;
 
     const std::vector<std::uint64_t>& shape() const;
+    /** Whether entries are plain numbers. */
+    bool holds_numbers() const;
     /** Whether entries are records that have that member. */
     bool has(const Member& member) const;
     /** Members of the records in a member, in the order of the file. */

@@ -1,5 +1,7 @@
 #include "object.hpp"
 
+#include "virtual_sources.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -47,7 +49,17 @@ void check_storage(const Dataset::Impl& opened, const Handle& file) {
     }
     const Handle list(check(H5Dget_create_plist(opened.dataset.id()), opened.place, "is damaged"), H5Pclose);
     const H5D_layout_t layout = check(H5Pget_layout(list.id()), opened.place, "is damaged");
-    if (*n == 0 || layout == H5D_COMPACT || layout == H5D_VIRTUAL) {
+    if (layout == H5D_VIRTUAL) {
+        check_virtual_sources(list, opened.place);
+    }
+    if (*n == 0 || layout == H5D_VIRTUAL) {
+        return;
+    }
+    if (layout == H5D_COMPACT) {
+        // HDF5 1.10 reads beyond what it holds.
+        if (H5Dget_storage_size(opened.dataset.id()) < *n * size) {
+            opened.place.fail("holds less than its extent: it is damaged");
+        }
         return;
     }
     hsize_t in_file = 0;

@@ -1,5 +1,7 @@
 #include "basis.hpp"
 
+#include "line_positions.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -9,10 +11,10 @@ namespace {
 
 using Table = std::array<double, max_degree + 1>;
 
-/** Lagrange polynomials of degree n on the nodes i/n, or Bernstein polynomials, at x in [0,1]. */
-Table line_functions(int n, double x, bool is_bezier) {
+/** Lagrange polynomials of degree n on the nodes of a spacing, or Bernstein polynomials, at x in [0,1]. */
+Table line_functions(const CellKind& kind, int n, double x) {
     Table values{};
-    if (is_bezier) {
+    if (kind.is_bezier) {
         // b(i, n) = (1 - x) b(i, n - 1) + x b(i - 1, n - 1)
         values[0] = 1;
         for (std::size_t degree = 1; degree <= static_cast<std::size_t>(n); ++degree) {
@@ -23,12 +25,16 @@ Table line_functions(int n, double x, bool is_bezier) {
         }
         return values;
     }
-    for (int i = 0; i <= n; ++i) {
-        double product = 1;
-        for (int j = 0; j <= n; ++j) {
-            product *= j == i ? 1 : (n * x - j) / (i - j);
+    if (n == 0) {
+        values[0] = 1;
+        return values;
+    }
+    const std::span<const double> at = line_positions(kind.is_lobatto ? Spacing::lobatto : Spacing::equidistant, n);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        values[i] = 1;
+        for (std::size_t j = 0; j < at.size(); ++j) {
+            values[i] *= j == i ? 1 : (x - at[j]) / (at[i] - at[j]);
         }
-        values[static_cast<std::size_t>(i)] = product;
     }
     return values;
 }
@@ -219,20 +225,6 @@ void pyramid_13(double x, double y, double z, std::span<double> values) {
     values[4] = 0.5 * z * (1 + z);
 }
 
-std::vector<LatticePoint> nodes_of(const CellKind& kind) {
-    const auto [p, q, r] = kind.degree;
-    switch (kind.family) {
-    case Family::tensor:
-        return kind.shape == ELVIS_SHAPE_QUADRILATERAL ? quadrilateral_nodes(p, q) : hexahedron_nodes(p, q, r);
-    case Family::simplex:
-        return kind.shape == ELVIS_SHAPE_TRIANGLE ? triangle_nodes(p) : tetrahedron_nodes(p);
-    case Family::wedge:
-        return wedge_nodes(p, r);
-    default:
-        return {};
-    }
-}
-
 /** r, s, t of VTK in [0,1]. */
 std::array<double, 3> vtk_coordinates(const CellKind& kind, const double* xi) {
     const std::array<double, 3> r{0.5 * (1 + xi[0]), 0.5 * (1 + xi[1]), 0.5 * (1 + xi[2])};
@@ -249,7 +241,7 @@ std::array<double, 3> vtk_coordinates(const CellKind& kind, const double* xi) {
 
 } // namespace
 
-Basis::Basis(const CellKind& kind) : m_kind(kind), m_size(n_nodes(kind)), m_nodes(nodes_of(kind)) {}
+Basis::Basis(const CellKind& kind) : m_kind(kind), m_size(n_nodes(kind)), m_nodes(lattice_nodes(kind)) {}
 
 void Basis::evaluate(const double* xi, std::span<double> values) const {
     const std::array<double, 3> r = vtk_coordinates(m_kind, xi);
@@ -257,9 +249,8 @@ void Basis::evaluate(const double* xi, std::span<double> values) const {
     const std::array<double, 3> in_triangle{1 - r[0] - r[1], r[0], r[1]};
     switch (m_kind.family) {
     case Family::tensor: {
-        const Table a = line_functions(m_kind.degree[0], r[0], m_kind.is_bezier),
-                    b = line_functions(m_kind.degree[1], r[1], m_kind.is_bezier),
-                    c = line_functions(m_kind.degree[2], r[2], m_kind.is_bezier);
+        const Table a = line_functions(m_kind, m_kind.degree[0], r[0]), b = line_functions(m_kind, m_kind.degree[1], r[1]),
+                    c = line_functions(m_kind, m_kind.degree[2], r[2]);
         for (std::size_t node = 0; node < m_size; ++node) {
             const auto [i, j, k] = m_nodes[node];
             values[node] = a[index(i)] * b[index(j)] * c[index(k)];
@@ -272,7 +263,7 @@ void Basis::evaluate(const double* xi, std::span<double> values) const {
         break;
     case Family::wedge: {
         simplex_functions(m_kind.degree[0], m_kind.is_bezier, false, m_nodes, r.data(), values);
-        const Table c = line_functions(m_kind.degree[2], r[2], m_kind.is_bezier);
+        const Table c = line_functions(m_kind, m_kind.degree[2], r[2]);
         for (std::size_t node = 0; node < m_size; ++node) {
             values[node] *= c[index(m_nodes[node][2])];
         }

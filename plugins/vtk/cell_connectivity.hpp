@@ -17,6 +17,8 @@ namespace elvis_vtk {
 struct Cell {
     std::uint64_t first = 0;
     std::uint32_t kind = 0;
+    /** Which of the cells that the pieces have, those counted that are left out. */
+    std::uint64_t source = 0;
 };
 
 /**

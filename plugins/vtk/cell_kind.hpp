@@ -41,8 +41,10 @@ struct CellKind {
     std::array<std::uint8_t, 3> degree{1, 1, 1};
     /** A Lagrange or Bezier type: versions of VTK differ in the order of their nodes. */
     bool is_of_any_degree = false;
-    /** Bernstein polynomials instead of Lagrange polynomials on equidistant nodes. */
+    /** Bernstein polynomials instead of Lagrange polynomials. */
     bool is_bezier = false;
+    /** Lagrange polynomials on Gauss-Lobatto nodes, in quadrilaterals and hexahedra. */
+    bool is_lobatto = false;
     /** Bezier with unequal weights. */
     bool is_rational = false;
     /** Wedge whose r and s are the native xi3 and xi1, instead of xi1 and xi3. */

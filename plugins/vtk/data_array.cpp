@@ -172,17 +172,19 @@ bool is_numeric(pugi::xml_node array) {
     return with_type(type_of(array), [](auto) {});
 }
 
+bool is_text(pugi::xml_node array) { return format_of(array) == "ascii"; }
+
+std::uint32_t mantissa_bits_of_type(pugi::xml_node array) { return type_of(array) == "Float32" ? 24 : 53; }
+
 Numbers read_numbers(const XmlFile& file, pugi::xml_node array, std::size_t size) {
     const std::string type = type_of(array);
     const std::string format = format_of(array);
     Numbers numbers;
-    if (type == "Float32") {
-        numbers.mantissa_bits = 24;
-    }
+    numbers.mantissa_bits = mantissa_bits_of_type(array);
     if (!is_numeric(array)) {
         file.fail(array, "type '" + type + "' is not a type of numbers");
     }
-    if (format == "ascii") {
+    if (is_text(array)) {
         Parsed<double> parsed = parse_text<double>(file, array);
         numbers.values = std::move(parsed.values);
         if (type.starts_with("Float") && parsed.digits >= least_digits) {

@@ -1,22 +1,27 @@
 /**
  * @file grid.hpp
- * The unstructured grid of one .vtu file or of several that are its pieces.
+ * The unstructured grid of a time step: the pieces of one or several files, put together.
  */
 #pragma once
 
 #include "cell_connectivity.hpp"
-#include "xml_file.hpp"
+#include "piece.hpp"
+#include "time_step.hpp"
 
-#include <optional>
+#include <elvis/plugin.hpp>
 
 namespace elvis_vtk {
 
-/** Values at points or of cells, component by component of each in turn. */
-struct Array {
+/** An array that is a field. */
+struct SourceField {
+    /** Of its own among all fields. */
     std::string name;
-    std::uint32_t n_components = 1;
-    std::vector<double> values;
+    FieldArray array;
+    bool is_of_cells = false;
 };
+
+/** Values of all fields at one time step: of points or cells, as the field says. */
+using StepValues = std::vector<std::vector<double>>;
 
 struct Grid {
     /** x, y, z each. */
@@ -26,21 +31,29 @@ struct Grid {
     std::vector<CellKind> kinds;
     /** Weights of Bezier cells, one a point; empty if there are none. */
     std::vector<double> weights;
-    std::vector<Array> point_arrays;
-    std::vector<Array> cell_arrays;
+    /** That all pieces have. */
+    std::vector<FieldArray> point_arrays;
+    std::vector<FieldArray> cell_arrays;
     std::uint32_t mantissa_bits = 53;
     /** TimeValue among the field data. */
     std::optional<double> time;
+    /** Whether edges disagree about the nodes of Lagrange cells (node_spacing.hpp). */
+    bool has_unclear_nodes = false;
     /** Pieces with cells. Points are shared within a piece only. */
     std::size_t n_pieces = 0;
+    /** Cells of all pieces, those counted that are left out. */
+    std::size_t n_source_cells = 0;
 
     int dimension() const { return cells.empty() ? 3 : elvis_vtk::dimension(kinds[cells.front().kind]); }
 };
 
 /**
- * Reads the files one after the other into one grid. Ghost cells are left out, and so are lines and vertices, and surfaces
- * where there are volumes; what was left out and other remarks are logged.
+ * Reads the pieces of a time step one after the other into one grid, without values of fields. Ghost cells are left out, and so
+ * are lines and vertices, and surfaces where there are volumes; what was left out and other remarks are logged.
  */
-Grid read_grid(const std::vector<std::string>& paths, const elvis::api::Host& host);
+Grid read_grid(const TimeStep& step, const elvis::api::Host& host);
+
+/** Values of fields on such a grid, which is that of the step: each at all points, or of all cells. */
+StepValues read_values(const TimeStep& step, const Grid& grid, const std::vector<SourceField>& fields);
 
 } // namespace elvis_vtk

@@ -151,4 +151,18 @@ std::vector<LatticePoint> wedge_nodes(int degree, int degree_t) {
     return nodes;
 }
 
+std::vector<LatticePoint> lattice_nodes(const CellKind& kind) {
+    const auto [p, q, r] = kind.degree;
+    switch (kind.family) {
+    case Family::tensor:
+        return kind.shape == ELVIS_SHAPE_QUADRILATERAL ? quadrilateral_nodes(p, q) : hexahedron_nodes(p, q, r);
+    case Family::simplex:
+        return kind.shape == ELVIS_SHAPE_TRIANGLE ? triangle_nodes(p) : tetrahedron_nodes(p);
+    case Family::wedge:
+        return wedge_nodes(p, r);
+    default:
+        return {};
+    }
+}
+
 } // namespace elvis_vtk

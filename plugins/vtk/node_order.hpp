@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include "cell_kind.hpp"
+
 #include <array>
 #include <vector>
 
@@ -18,5 +20,8 @@ std::vector<LatticePoint> tetrahedron_nodes(int degree);
 std::vector<LatticePoint> hexahedron_nodes(int degree_r, int degree_s, int degree_t);
 /** `degree` in the triangle, `degree_t` along the prism. */
 std::vector<LatticePoint> wedge_nodes(int degree, int degree_t);
+
+/** Of families tensor, simplex and wedge; empty for others. */
+std::vector<LatticePoint> lattice_nodes(const CellKind& kind);
 
 } // namespace elvis_vtk

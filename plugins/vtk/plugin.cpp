@@ -1,9 +1,11 @@
 /**
  * @file plugin.cpp
- * Conversion plugin for VTK's XML unstructured grids.
+ * Conversion plugin for VTK's unstructured grids: XML files and VTKHDF.
  */
 #include "basis_cache.hpp"
 #include "data_set.hpp"
+#include "hdf_grid.hpp"
+#include "xml_file.hpp"
 
 #include <elvis/plugin.hpp>
 
@@ -22,7 +24,7 @@ using elvis_vtk::SourceField;
 
 class Source : public elvis::api::ConverterSource {
 public:
-    static std::uint32_t probe(const char* path) { return elvis_vtk::probe(path); }
+    static std::uint32_t probe(const char* path) { return std::max(elvis_vtk::probe(path), elvis_vtk::probe_hdf(path)); }
 
     Source(const elvis::api::Host& host, const std::vector<std::string>& paths, const std::string& options)
         : ConverterSource(host), m_data(paths, host), m_bases(m_data.mesh().kinds) {
@@ -30,7 +32,7 @@ public:
             throw elvis::api::Error(ELVIS_ERROR_INVALID_ARGUMENT, paths.front(), "this format has no options");
         }
         for (const SourceField& field : m_data.fields()) {
-            m_n_values += field.n_components;
+            m_n_values += field.array.n_components;
         }
     }
 
@@ -54,7 +56,7 @@ public:
 
     void get_field(std::uint32_t index, elvis_source_field& out) override {
         const SourceField& field = m_data.fields()[index];
-        out.n_components = field.n_components;
+        out.n_components = field.array.n_components;
         out.name = field.name.c_str();
         // Where every cell has its own points the file does not tell; the jumps will.
         out.continuity = field.is_of_cells            ? ELVIS_CONTINUITY_DISCONTINUOUS
@@ -90,7 +92,8 @@ public:
                 const CellKind& kind = mesh.kinds[mesh.cells[first + index].kind];
                 const std::array<std::uint32_t, 3> order = native_order(kind);
                 std::copy(order.begin(), order.end(), space.order);
-                space.is_contained = kind.is_rational ? 0 : 1;
+                // Values between nodes that are elsewhere would be wrong.
+                space.is_contained = kind.is_rational || mesh.has_unclear_nodes ? 0 : 1;
             }
             out.set(index, space);
         }
@@ -115,16 +118,18 @@ public:
         const std::size_t n_points = xi.size() / 3;
         const std::shared_ptr<const BasisTable> table = m_bases.table(cell.kind, xi);
         const std::vector<double> denominators = denominator(cell, *table);
+        const std::shared_ptr<const elvis_vtk::StepValues> step = m_data.values(time_step);
         std::vector<double> sums(n_points);
         std::size_t at = 0;
         for (std::size_t index = 0; index < m_data.fields().size(); ++index) {
             const SourceField& field = m_data.fields()[index];
-            const std::vector<double>& numbers = m_data.values(time_step, index);
-            for (std::size_t component = 0; component < field.n_components; ++component, ++at) {
+            const std::vector<double>& numbers = (*step)[index];
+            const std::size_t n_components = field.array.n_components;
+            for (std::size_t component = 0; component < n_components; ++component, ++at) {
                 if (field.is_of_cells) {
-                    std::ranges::fill(sums, numbers[element * field.n_components + component]);
+                    std::ranges::fill(sums, numbers[element * n_components + component]);
                 } else {
-                    sum(cell, *table, numbers, field.n_components, component, denominators, sums);
+                    sum(cell, *table, numbers, n_components, component, denominators, sums);
                 }
                 for (std::size_t point = 0; point < n_points; ++point) {
                     values[point * m_n_values + at] = sums[point];
@@ -185,6 +190,6 @@ private:
 } // namespace
 
 ELVIS_PLUGIN(.id = "org.elvis.vtk", .name = "VTK reader", .version = "1.0.0", .vendor = "ElVis",
-             .description = "Converts VTK's XML unstructured grids (.vtu, .pvtu, .pvd): linear, quadratic, Lagrange and Bezier "
-                            "cells.",
+             .description = "Converts VTK's unstructured grids (.vtu, .pvtu, .pvd, .vtkhdf): linear, quadratic, Lagrange and "
+                            "Bezier cells.",
              .converter = elvis::api::converter_table<Source>());
