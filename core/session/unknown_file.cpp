@@ -168,7 +168,7 @@ Error unknown_file(const PluginRegistry& registry, const std::string& path, cons
     if (!guess.kind.empty()) {
         text += "\n  it seems to be " + guess.kind + (guess.advice.empty() ? "" : "; " + guess.advice);
     } else if (const std::string format = format_of_ending(registry, fs::path(path).filename().string()); !format.empty()) {
-        text += "\n  its name is that of " + format + ", its content is not";
+        text += "\n  its name is that of " + format + ": is it whole, and does another file of its data set come first?";
     }
     return {path, text + "\n  elvis plugins lists the formats that are read, with their endings"};
 }

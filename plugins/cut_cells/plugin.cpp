@@ -332,7 +332,7 @@ private:
 
 namespace {
 
-constexpr elvis_file_format formats[] = {elvis::api::file_format("Cut cells", ".txt")};
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Cut cells", ".cut")};
 constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
 
 } // namespace

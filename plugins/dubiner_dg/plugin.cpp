@@ -329,7 +329,7 @@ private:
 
 namespace {
 
-constexpr elvis_file_format formats[] = {elvis::api::file_format("Dubiner DG", ".txt")};
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Dubiner DG", ".ddg")};
 constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
 
 } // namespace

@@ -6,7 +6,7 @@
 
 namespace {
 
-constexpr elvis_file_format formats[] = {elvis::api::file_format("Gmsh mesh and views", ".msh .pos")};
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Gmsh mesh and views", ".msh")};
 constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
 
 } // namespace
