@@ -29,7 +29,7 @@ Outcome run_with_cache(const ProgramFolder& place, const std::string& command, c
 
 TEST_CASE("A foreign file is converted once, which is said once, and again when it has changed") {
     const ProgramFolder place;
-    const std::string box = R"({"generator": 1, "mesh": "box", "elements": [2, 1, 1], "field": "x"})";
+    const std::string box = R"({"generator": 1, "mesh": "box", "elements": [2, 1, 1], "field": "sphere"})";
     place.write("box.json", box);
     const Outcome first = run_with_cache(place, "info box.json");
     INFO(first.err);
@@ -41,7 +41,7 @@ TEST_CASE("A foreign file is converted once, which is said once, and again when 
     CHECK(second.out == first.out);
     CHECK(n_kept(place) == 1);
 
-    place.write("box.json", R"({"generator": 1, "mesh": "box", "elements": [3, 1, 1], "field": "x"})");
+    place.write("box.json", R"({"generator": 1, "mesh": "box", "elements": [3, 1, 1], "field": "sphere"})");
     const Outcome third = run_with_cache(place, "info box.json");
     CHECK_THAT(third.err, Contains("kept in the cache"));
     CHECK_THAT(third.out, Contains("3 elements"));
@@ -58,7 +58,7 @@ TEST_CASE("What a conversion loses is said each time") {
 
 TEST_CASE("Without a cache the volume is gone at the end") {
     const ProgramFolder place;
-    place.write("box.json", R"({"generator": 1, "mesh": "box", "elements": [2, 1, 1], "field": "x"})");
+    place.write("box.json", R"({"generator": 1, "mesh": "box", "elements": [2, 1, 1], "field": "sphere"})");
     const Outcome outcome = run_with_cache(place, "info box.json", "0");
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.err, Contains("kept until the end"));
