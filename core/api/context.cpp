@@ -1,7 +1,7 @@
 #include "call.hpp"
 
 #include <core/base/log.hpp>
-#include <core/session/unknown_file.hpp>
+#include <core/plugin_host/unknown_file.hpp>
 #include <core/vulkan/device_choice.hpp>
 
 #include <iterator>

@@ -3,7 +3,7 @@
 #include <core/base/error.hpp>
 #include <core/base/log.hpp>
 #include <core/convert/kept_volumes.hpp>
-#include <core/session/unknown_file.hpp>
+#include <core/plugin_host/unknown_file.hpp>
 
 #include <filesystem>
 

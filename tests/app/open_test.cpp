@@ -100,6 +100,7 @@ TEST_CASE("A file that nobody reads gets a message that says what it seems to be
     place.write("b.cas", "nothing that anyone knows\n");
     place.write("c.mesh", "no mesh of MFEM\n");
     CHECK_THAT(place.run("info a.plt").err, Contains("it seems to be Tecplot (binary); ParaView"));
+    CHECK_THAT(place.run("convert a.plt -o a.h5").err, Contains("it seems to be Tecplot"));
     CHECK_THAT(place.run("info b.cas").err, Contains("elvis plugins lists the formats"));
     CHECK_THAT(place.run("info c.mesh").err, Contains("its name is that of MFEM mesh (org.elvis.mfem)"));
     CHECK_THAT(place.run("render " ELVIS_SOURCES "/tests/data/window.png -o x.png").err, Contains("a PNG picture"));

@@ -1,5 +1,6 @@
-#include <core/session/unknown_file.hpp>
+#include <core/plugin_host/unknown_file.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
